@@ -1,0 +1,1 @@
+"""Text-first compiler for swarms of robots."""

@@ -1,0 +1,113 @@
+"""The catalogue of diagnostics: every code there is.
+
+Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
+`tests/diagnostics/`. A number is never used again for something else.
+
+    00xx  files and imports      04xx  components, ports, connectors
+    01xx  syntax                 05xx  state machines
+    02xx  names                  06xx  functions and interfaces
+    03xx  swarm composition      07xx  expressions
+                                 09xx  generators and output
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Code(NamedTuple):
+    """One kind of diagnostic; `message` is filled in with `str.format`."""
+
+    code: str
+    severity: str
+    message: str
+
+
+CODES: dict[str, Code] = {
+    # ---- files and imports
+    "file-not-found": Code("SW0001", "error", "no such file: `{path}`"),
+    "not-a-file": Code("SW0002", "error", "`{path}` is a folder, not a .swarm file"),
+    "unreadable-file": Code("SW0003", "error", "cannot read `{path}`: {reason}"),
+    "not-text": Code("SW0004", "error", "`{path}` is not UTF-8 text"),
+    "empty-file": Code("SW0005", "error", "nothing is declared in this file"),
+    "import-cycle": Code("SW0006", "error", "`{path}` imports itself"),
+    "nothing-to-compile": Code("SW0007", "error", "no .swarm file in `{path}`"),
+    # ---- syntax
+    "syntax-error": Code("SW0101", "error", "{message}"),
+    "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),
+    "keyword-as-name": Code("SW0103", "error", "`{word}` is a keyword and cannot be a name"),
+    "nested-too-deeply": Code("SW0104", "error", "nested deeper than {limit} levels"),
+    "unattached-doc-comment": Code(
+        "SW0105", "warning", "this `///` comment stands before nothing that can be documented"
+    ),
+    "unterminated-text": Code("SW0106", "error", 'this text has no closing `"`'),
+    "unterminated-comment": Code("SW0107", "error", "this comment has no closing `*/`"),
+    # ---- names
+    "duplicate-name": Code("SW0201", "error", "{kind} `{name}` is declared twice"),
+    "unresolved-name": Code("SW0202", "error", "no {kind} called `{name}`"),
+    "ambiguous-name": Code("SW0203", "error", "`{name}` could mean several things here"),
+    "wrong-kind": Code("SW0204", "error", "`{name}` is {actual}, not {expected}"),
+    "reserved-event-name": Code("SW0205", "error", "an event cannot be called `{name}`"),
+    # ---- swarm composition
+    "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
+    "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),
+    # ---- components, ports, connectors
+    "port-direction": Code("SW0401", "error", "{fault}"),
+    "port-type-mismatch": Code(
+        "SW0402", "error", "`{source}` sends {sent}, `{target}` takes {taken}"
+    ),
+    "unknown-param": Code("SW0403", "error", "{owner} has no param `{name}`"),
+    "repeated-item": Code("SW0404", "error", "{item} is given twice"),
+    # ---- state machines
+    "missing-initial": Code("SW0501", "error", "{owner} has no initial state"),
+    "missing-final": Code("SW0502", "error", "{owner} has no final state"),
+    "unreachable-state": Code("SW0503", "warning", "nothing leads to {kind} `{name}`"),
+    "transition-never-fires": Code("SW0504", "warning", "this transition can never fire"),
+    "unhandled-outcome": Code(
+        "SW0505", "error", "nothing handles outcome `{outcome}` of `{function}`"
+    ),
+    "submachine-cycle": Code("SW0506", "error", "state machine `{name}` contains itself"),
+    "outcome-without-activity": Code(
+        "SW0507", "error", "state `{state}` does nothing that could end as `{outcome}`"
+    ),
+    "done-without-content": Code("SW0508", "error", "{owner} can never be done"),
+    "target-outside": Code("SW0509", "error", "`{target}` cannot be reached from here: {reason}"),
+    "choice-without-else": Code("SW0510", "error", "choice `{name}` has no `else`"),
+    "activity-in-composite": Code(
+        "SW0511", "error", "state `{state}` has states of its own and an activity"
+    ),
+    "missing-value": Code("SW0512", "error", "param `{name}` of `{machine}` has no value"),
+    "too-few-regions": Code("SW0513", "error", "parallel state `{name}` has no region"),
+    # ---- functions and interfaces
+    "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
+    "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),
+    "unbound-function": Code(
+        "SW0603", "error", "function `{name}` offers no action and no service"
+    ),
+    "interface-kind": Code("SW0604", "error", "`{name}` is {actual}, not {expected}"),
+    # ---- expressions
+    "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
+    "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),
+    "not-assignable": Code("SW0703", "error", "`{text}` cannot be assigned to"),
+    "not-constant": Code("SW0704", "error", "the value must be known when the model is compiled"),
+    "no-event-data": Code("SW0705", "error", "`event` has no data here"),
+    # ---- generators and output
+    "unknown-target": Code("SW0901", "error", "no target called `{name}`"),
+    "broken-generator": Code(
+        "SW0902", "warning", "the generator of target `{name}` cannot be loaded: {reason}"
+    ),
+    "unsupported-construct": Code(
+        "SW0903", "error", "target `{target}` cannot express {construct}"
+    ),
+    "bad-option": Code("SW0904", "error", "target `{target}`: {fault}"),
+    "bad-identifier": Code("SW0905", "error", "target `{target}` cannot use `{name}` as {use}"),
+    "output-collision": Code("SW0906", "error", "two things would be written to `{path}`"),
+    "outside-output": Code(
+        "SW0907", "error", "target `{target}` wants to write outside the output folder: `{path}`"
+    ),
+    "would-overwrite": Code(
+        "SW0908", "error", "`{path}` was not written by swarmc and would be overwritten"
+    ),
+    "cannot-write": Code("SW0909", "error", "cannot write `{path}`: {reason}"),
+    "nothing-to-generate": Code("SW0910", "warning", "target `{target}` found nothing to generate"),
+}

@@ -1,0 +1,114 @@
+"""What the compiler has to say about a model, as values.
+
+A mistake of the user is a `Diagnostic` in a `Diagnostics` collector, never an
+exception: every phase reports and goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import Enum
+
+from swarmdsl.codes import CODES
+from swarmdsl.source import Span
+
+
+class Severity(Enum):
+    """How bad it is; only errors stop a build."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A place and what to say about it."""
+
+    span: Span
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    `code` and `name` identify its kind (`SW0201`, `unresolved-name`), `message` is the
+    headline, `primary` the place (None when it concerns no place in a file, a missing
+    one for instance), `related` other places that explain it, `help` a way out.
+    """
+
+    code: str
+    name: str
+    severity: Severity
+    message: str
+    primary: Label | None = None
+    related: tuple[Label, ...] = ()
+    notes: tuple[str, ...] = ()
+    help: str | None = None
+
+
+class Diagnostics:
+    """Collects what the phases report, without duplicates."""
+
+    def __init__(self) -> None:
+        self._found: dict[Diagnostic, None] = {}
+
+    def report(
+        self,
+        name: str,
+        at: Span | None = None,
+        *,
+        label: str = "",
+        related: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+        help: str | None = None,  # noqa: A002 - the word a person reads in the output
+        **fields: object,
+    ) -> None:
+        """Add the diagnostic called `name` in the catalogue, its message filled with `fields`.
+
+        Raises KeyError for a name or a field the catalogue does not know: a bug in swarmdsl.
+        """
+        entry = CODES[name]
+        found = Diagnostic(
+            code=entry.code,
+            name=name,
+            severity=Severity(entry.severity),
+            message=entry.message.format(**fields),
+            primary=Label(at, label) if at is not None else None,
+            related=related,
+            notes=notes,
+            help=help,
+        )
+        self._found.setdefault(found)
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything found stops the build."""
+        return any(found.severity is Severity.ERROR for found in self._found)
+
+    def count(self, severity: Severity) -> int:
+        """How many findings have this severity."""
+        return sum(found.severity is severity for found in self._found)
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        """The findings by file and place; those without a place come first."""
+        return iter(sorted(self._found, key=_position))
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+
+def _position(found: Diagnostic) -> tuple[str, int, int, str, str]:
+    if found.primary is None:
+        return ("", 0, 0, found.code, found.message)
+    span = found.primary.span
+    return (span.source.name, span.start, span.end, found.code, found.message)
+
+
+def listed(words: list[str], conjunction: str = "or") -> str:
+    """Words as a person lists them: "`a`, `b` or `c`"."""
+    quoted = [f"`{word}`" for word in words]
+    if len(quoted) < 2:
+        return "".join(quoted)
+    return f"{', '.join(quoted[:-1])} {conjunction} {quoted[-1]}"

@@ -1,0 +1,95 @@
+"""What the author of a generator needs, and nothing else.
+
+A generator is data and one pure function: from the IR of a system to files. It never
+touches the disk; the core checks the paths, finds collisions and writes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Any
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ir import System
+
+API_VERSION = 1
+
+
+class Feature(Enum):
+    """Constructs of state machines that a target may be unable to express.
+
+    The value is how a diagnostic names the construct. What every target must express
+    (simple and final states, transitions on outcomes and events) is not listed.
+    """
+
+    COMPOSITE = "a composite state"
+    PARALLEL = "a parallel state"
+    CHOICE = "a choice"
+    GUARD = "a guard"
+    ASSIGNMENT = "an assignment"
+    SEND = "the sending of an event"
+    TIMEOUT = "a transition after a time"
+    VARIABLE = "a variable"
+    PARAM = "a param of a state machine"
+    RESULT = "a stored result"
+    CALLBACK = "a callback"
+    EVENT_DATA = "the data of an event"
+    CROSS_LEVEL = "a transition to another level"
+
+
+ALL_FEATURES = frozenset(Feature)
+
+
+@dataclass(frozen=True, slots=True)
+class OutputFile:
+    """A file to be written below the target's output folder.
+
+    `path` is relative, with `/` and no `..`. A file with `keep` is the user's once it
+    exists: it is written when missing and never again.
+    """
+
+    path: str
+    text: str
+    executable: bool = False
+    keep: bool = False
+
+
+@dataclass(frozen=True)
+class NoOptions:
+    """The options of a generator that has none."""
+
+
+def option(default: Any, text: str, choices: tuple[str, ...] = ()) -> Any:
+    """A field of an options class: its default, what it is for, the values it may take."""
+    return field(default=default, metadata={"help": text, "choices": choices})
+
+
+@dataclass(frozen=True)
+class Generator:
+    """One target.
+
+    `emit(system, options, report)` returns the files; `options` is an instance of
+    `options_type`, a frozen dataclass of str, bool and int fields made with `option`.
+    What it finds wrong with the model goes to `report`. Before it is called the core has
+    reported every construct outside `supports`, and does not call it when there is one.
+    """
+
+    target: str
+    summary: str
+    emit: Callable[[System, Any, Diagnostics], Iterable[OutputFile]]
+    options_type: type = NoOptions
+    supports: frozenset[Feature] = ALL_FEATURES
+    api_version: int = API_VERSION
+
+
+__all__ = [
+    "ALL_FEATURES",
+    "API_VERSION",
+    "Feature",
+    "Generator",
+    "NoOptions",
+    "OutputFile",
+    "option",
+]

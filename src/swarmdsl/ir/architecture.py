@@ -1,0 +1,130 @@
+"""Components with ports, members built from them, and swarms of members."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from swarmdsl.ir.expressions import Expression
+from swarmdsl.ir.interfaces import Param
+from swarmdsl.ir.types import Type
+from swarmdsl.source import Span
+
+Direction = Literal["in", "out", "inout"]
+
+
+@dataclass(frozen=True, slots=True)
+class Port:
+    """Where data flows in or out; `topic` is the ROS topic behind it."""
+
+    name: str
+    direction: Direction
+    type: Type
+    topic: str
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """A sensor, actuator, controller or virtual component."""
+
+    name: str
+    kind: Literal["sensor", "actuator", "controller", "virtual"]
+    ports: tuple[Port, ...]
+    params: tuple[Param, ...]
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A component in its place in a member; `values` are the params set there."""
+
+    name: str
+    component: str
+    values: tuple[tuple[str, Expression], ...]
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class PortRef:
+    """A port of a part, or of the member itself (`part` None)."""
+
+    part: str | None
+    port: str
+
+    def __str__(self) -> str:
+        return f"{self.part}.{self.port}" if self.part else self.port
+
+
+@dataclass(frozen=True, slots=True)
+class Connector:
+    """Data flows from `source` to `target`."""
+
+    source: PortRef
+    target: PortRef
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """A type of robot; `behavior` names its state machine."""
+
+    name: str
+    behavior: str | None
+    ports: tuple[Port, ...]
+    params: tuple[Param, ...]
+    parts: tuple[Part, ...]
+    connectors: tuple[Connector, ...]
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Multiplicity:
+    """How many; `upper` None means any number."""
+
+    lower: int
+    upper: int | None
+
+    def __str__(self) -> str:
+        if self.upper == self.lower:
+            return str(self.lower)
+        if self.upper is None and self.lower == 0:
+            return "*"
+        return f"{self.lower}..{'*' if self.upper is None else self.upper}"
+
+
+@dataclass(frozen=True, slots=True)
+class Role:
+    """Members of one type in a swarm."""
+
+    name: str
+    member: str
+    multiplicity: Multiplicity
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Environment:
+    """The world a swarm lives in; `size` is width, depth and perhaps height in metres."""
+
+    name: str
+    world: str | None
+    size: tuple[float, ...] | None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Swarm:
+    """Members that work together."""
+
+    name: str
+    roles: tuple[Role, ...]
+    environment: str | None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)

@@ -1,0 +1,112 @@
+"""Expressions of guards, effects and arguments, with their types."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Union
+
+from swarmdsl.ir.types import DURATION, Type
+from swarmdsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """A value written in the model; durations are held in nanoseconds (ROS's unit)."""
+
+    value: bool | int | float | str
+    type: Type
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def milliseconds(self) -> float:
+        """The length of a duration literal."""
+        assert self.type == DURATION
+        assert isinstance(self.value, int)
+        return self.value / 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class VariableRef:
+    """The value of a variable of the machine."""
+
+    name: str
+    type: Type
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ParamRef:
+    """The value of a param of the machine, fixed when the robot starts."""
+
+    name: str
+    type: Type
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class EventData:
+    """The message that came with the triggering event."""
+
+    type: Type
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class FieldAccess:
+    """`base.field`; `type` is None where the message's fields are not known."""
+
+    base: Expression
+    field: str
+    type: Type | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    """`not x` or `-x`."""
+
+    operator: str
+    operand: Expression
+    type: Type | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """`x operator y`, the operator as written in the model."""
+
+    operator: str
+    left: Expression
+    right: Expression
+    type: Type | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """A built-in function: `min`, `max`, `abs`, `sqrt`, `len`."""
+
+    function: str
+    arguments: tuple[Expression, ...]
+    type: Type | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+Expression = Union[Literal, VariableRef, ParamRef, EventData, FieldAccess, Unary, Binary, Call]
+
+
+def reads(expression: Expression) -> set[str]:
+    """Names of the variables an expression reads."""
+    match expression:
+        case VariableRef(name=name):
+            return {name}
+        case FieldAccess(base=base):
+            return reads(base)
+        case Unary(operand=operand):
+            return reads(operand)
+        case Binary(left=left, right=right):
+            return reads(left) | reads(right)
+        case Call(arguments=arguments):
+            return set().union(*map(reads, arguments))
+        case _:
+            return set()

@@ -1,0 +1,195 @@
+"""State machines in SCXML's vocabulary, all references by id.
+
+A state's `id` is its path in the machine (`Flying.TakeOff`), unique there. Submachines
+are in place: a state that reuses another machine is a composite state that says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Union
+
+from swarmdsl.ir.expressions import Expression
+from swarmdsl.ir.interfaces import Param
+from swarmdsl.ir.types import Type
+from swarmdsl.source import Span
+
+
+class StateKind(Enum):
+    """What a state is; a region is a composite state inside a parallel one."""
+
+    SIMPLE = "simple"
+    COMPOSITE = "composite"
+    PARALLEL = "parallel"
+    REGION = "region"
+    FINAL = "final"
+    CHOICE = "choice"
+
+
+@dataclass(frozen=True, slots=True)
+class EventTrigger:
+    """An event of the system, by name."""
+
+    event: str
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class OutcomeTrigger:
+    """The activity of state `state` ended with `outcome` (succeeded, aborted, preempted)."""
+
+    state: str
+    outcome: str
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class DoneTrigger:
+    """State `state` is complete: in final state `final`, or in any when None.
+
+    For a parallel state: all its regions are.
+    """
+
+    state: str
+    final: str | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class TimeTrigger:
+    """The state has been active for `delay`, a duration."""
+
+    delay: Expression
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+Trigger = Union[EventTrigger, OutcomeTrigger, DoneTrigger, TimeTrigger]
+
+
+@dataclass(frozen=True, slots=True)
+class Assignment:
+    """Store a value in a variable or in a field of one (`path` below it)."""
+
+    variable: str
+    path: tuple[str, ...]
+    value: Expression
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Send:
+    """Send an event with the fields of its message; fields not named keep their defaults."""
+
+    event: str
+    arguments: tuple[tuple[str, Expression], ...]
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+Effect = Union[Assignment, Send]
+
+
+@dataclass(frozen=True, slots=True)
+class Transition:
+    """From the state that holds it to `target`, an id.
+
+    `triggers` is empty for a branch of a choice, whose `guard` None means "else".
+    """
+
+    triggers: tuple[Trigger, ...]
+    guard: Expression | None
+    effects: tuple[Effect, ...]
+    target: str
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ResultMapping:
+    """Field `field` of the result is stored in a variable or in a field of one."""
+
+    field: str
+    variable: str
+    path: tuple[str, ...]
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+class Policy(Enum):
+    """Where the content of a goal, request, result or response comes from (D5.4, 5.2)."""
+
+    EMPTY = "empty"
+    FIXED = "fixed"
+    USERDATA = "userdata"
+    CALLBACK = "callback"
+
+
+@dataclass(frozen=True, slots=True)
+class Activity:
+    """The call of a function while the state is active.
+
+    `arguments` fill the goal or request by field name, `results` say where fields of the
+    result or response go; a callback does either in code of the user.
+    """
+
+    function: str
+    arguments: tuple[tuple[str, Expression], ...] = ()
+    goal_callback: str | None = None
+    results: tuple[ResultMapping, ...] = ()
+    result_callback: str | None = None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """A vertex of the machine and what is inside it.
+
+    `initial` is the id of the child entered first (composite state, region).
+    `submachine` names the machine whose states stand here.
+    """
+
+    id: str
+    name: str
+    kind: StateKind
+    initial: str | None = None
+    states: tuple[State, ...] = ()
+    transitions: tuple[Transition, ...] = ()
+    activity: Activity | None = None
+    submachine: str | None = None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+    def walk(self) -> Iterator[State]:
+        """This state and all inside it, in document order."""
+        yield self
+        for child in self.states:
+            yield from child.walk()
+
+
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """Data of a running machine; `initial` None means the type's default."""
+
+    name: str
+    type: Type
+    initial: Expression | None
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class StateMachine:
+    """A behaviour. `initial` is the id of the state entered first."""
+
+    name: str
+    initial: str
+    states: tuple[State, ...]
+    variables: tuple[Variable, ...] = ()
+    params: tuple[Param, ...] = ()
+    endless: bool = False
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+    def walk(self) -> Iterator[State]:
+        """All states in document order."""
+        for state in self.states:
+            yield from state.walk()

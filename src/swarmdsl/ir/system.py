@@ -1,0 +1,46 @@
+"""The whole model, ready for generators."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
+from swarmdsl.ir.interfaces import Event, Function, Interface
+from swarmdsl.ir.statemachine import StateMachine
+from swarmdsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """Everything that was declared, in the order of the files and of the text in them.
+
+    `name` is the package of the first file, or its file name where it has none.
+    """
+
+    name: str
+    interfaces: tuple[Interface, ...] = ()
+    events: tuple[Event, ...] = ()
+    functions: tuple[Function, ...] = ()
+    components: tuple[Component, ...] = ()
+    members: tuple[Member, ...] = ()
+    machines: tuple[StateMachine, ...] = ()
+    environments: tuple[Environment, ...] = ()
+    swarms: tuple[Swarm, ...] = ()
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+    def event(self, name: str) -> Event:
+        """The event of that name."""
+        return next(event for event in self.events if event.name == name)
+
+    def function(self, name: str) -> Function:
+        """The function of that name."""
+        return next(function for function in self.functions if function.name == name)
+
+    def machine(self, name: str) -> StateMachine:
+        """The state machine of that name."""
+        return next(machine for machine in self.machines if machine.name == name)
+
+    def interface(self, type_: object) -> Interface | None:
+        """What is known of an interface's fields; None for one the model does not describe."""
+        return next((known for known in self.interfaces if known.type == type_), None)

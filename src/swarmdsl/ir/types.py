@@ -1,0 +1,51 @@
+"""Types of data: what ROS knows, by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Union
+
+
+@dataclass(frozen=True, slots=True)
+class Primitive:
+    """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ..."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A message or struct; `package` is that of ROS, or of the model that defines it."""
+
+    package: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.package}/{self.name}"
+
+
+@dataclass(frozen=True, slots=True)
+class Array:
+    """Many of one type; `size` is None where it may vary."""
+
+    element: Type
+    size: int | None = None
+
+    def __str__(self) -> str:
+        return f"{self.element}[{'' if self.size is None else self.size}]"
+
+
+Type = Union[Primitive, Named, Array]
+
+INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u"))
+FLOATS = ("float32", "float64")
+PRIMITIVES = ("bool", "byte", "char", *INTEGERS, *FLOATS, "string", "time", "duration")
+
+BOOL = Primitive("bool")
+STRING = Primitive("string")
+DURATION = Primitive("duration")
+INT = Primitive("int64")
+FLOAT = Primitive("float64")

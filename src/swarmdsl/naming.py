@@ -1,0 +1,28 @@
+"""Names in the style of a target, and which names a target can take."""
+
+from __future__ import annotations
+
+import keyword
+import re
+
+_WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
+
+
+def snake_case(name: str) -> str:
+    """`UavSearch` and `uav-search` become `uav_search`."""
+    return "_".join(word.lower() for word in _WORD.findall(name))
+
+
+def camel_case(name: str) -> str:
+    """`uav_search` becomes `UavSearch`."""
+    return "".join(word[0].upper() + word[1:] for word in _WORD.findall(name))
+
+
+def is_python_name(name: str) -> bool:
+    """Whether Python takes it as an identifier."""
+    return name.isidentifier() and not keyword.iskeyword(name)
+
+
+def is_ros_package_name(name: str) -> bool:
+    """Whether it is a package name by REP 144: lower case, digits and `_`, a letter first."""
+    return re.fullmatch(r"[a-z][a-z0-9_]*", name) is not None and not name.endswith("_")

@@ -1,0 +1,18 @@
+"""Where the grammar and the bundled generators lie: in the checkout or in the installed package."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def checkout_root() -> Path | None:
+    """The root of the source checkout this package runs from, None when it is installed."""
+    root = _PACKAGE.parents[1]
+    return root if (root / "grammar" / "swarm.tx").is_file() else None
+
+
+def grammar() -> Path:
+    """The folder of the grammar files."""
+    return (checkout_root() or _PACKAGE) / "grammar"
