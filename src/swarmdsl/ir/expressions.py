@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from typing import Union
 
 from swarmdsl.ir.types import DURATION, Type
@@ -15,7 +16,7 @@ class Literal:
 
     value: bool | int | float | str
     type: Type
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     @property
     def milliseconds(self) -> float:
@@ -31,7 +32,7 @@ class VariableRef:
 
     name: str
     type: Type
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,7 @@ class ParamRef:
 
     name: str
     type: Type
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +49,7 @@ class EventData:
     """The message that came with the triggering event."""
 
     type: Type
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +59,7 @@ class FieldAccess:
     base: Expression
     field: str
     type: Type | None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,7 @@ class Unary:
     operator: str
     operand: Expression
     type: Type | None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +80,7 @@ class Binary:
     left: Expression
     right: Expression
     type: Type | None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,7 @@ class Call:
     function: str
     arguments: tuple[Expression, ...]
     type: Type | None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 Expression = Union[Literal, VariableRef, ParamRef, EventData, FieldAccess, Unary, Binary, Call]

@@ -7,7 +7,8 @@ are in place: a state that reuses another machine is a composite state that says
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from enum import Enum
 from typing import Union
 
@@ -33,7 +34,7 @@ class EventTrigger:
     """An event of the system, by name."""
 
     event: str
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,7 +43,7 @@ class OutcomeTrigger:
 
     state: str
     outcome: str
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ class DoneTrigger:
 
     state: str
     final: str | None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +63,7 @@ class TimeTrigger:
     """The state has been active for `delay`, a duration."""
 
     delay: Expression
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 Trigger = Union[EventTrigger, OutcomeTrigger, DoneTrigger, TimeTrigger]
@@ -75,7 +76,7 @@ class Assignment:
     variable: str
     path: tuple[str, ...]
     value: Expression
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +85,7 @@ class Send:
 
     event: str
     arguments: tuple[tuple[str, Expression], ...]
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 Effect = Union[Assignment, Send]
@@ -101,7 +102,7 @@ class Transition:
     guard: Expression | None
     effects: tuple[Effect, ...]
     target: str
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +112,7 @@ class ResultMapping:
     field: str
     variable: str
     path: tuple[str, ...]
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 class Policy(Enum):
@@ -136,7 +137,7 @@ class Activity:
     goal_callback: str | None = None
     results: tuple[ResultMapping, ...] = ()
     result_callback: str | None = None
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,10 +157,10 @@ class State:
     activity: Activity | None = None
     submachine: str | None = None
     doc: str = ""
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     def walk(self) -> Iterator[State]:
-        """This state and all inside it, in document order."""
+        """Yield the state and all inside it, in document order."""
         yield self
         for child in self.states:
             yield from child.walk()
@@ -173,7 +174,7 @@ class Variable:
     type: Type
     initial: Expression | None
     doc: str = ""
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,9 +188,9 @@ class StateMachine:
     params: tuple[Param, ...] = ()
     endless: bool = False
     doc: str = ""
-    origin: Span | None = field(default=None, compare=False, repr=False)
+    origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     def walk(self) -> Iterator[State]:
-        """All states in document order."""
+        """Yield all states in document order."""
         for state in self.states:
             yield from state.walk()
