@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
-from typing import Union
 
 from swarmdsl.ir.types import DURATION, Type
 from swarmdsl.source import Span
@@ -93,7 +92,7 @@ class Call:
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
-Expression = Union[Literal, VariableRef, ParamRef, EventData, FieldAccess, Unary, Binary, Call]
+Expression = Literal | VariableRef | ParamRef | EventData | FieldAccess | Unary | Binary | Call
 
 
 def reads(expression: Expression) -> set[str]:

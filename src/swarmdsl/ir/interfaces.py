@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal, Union
+from typing import Literal
 
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.types import Named, Type
@@ -59,7 +59,7 @@ class Action:
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
-Interface = Union[Message, Service, Action]
+Interface = Message | Service | Action
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from enum import Enum
-from typing import Union
 
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
@@ -66,7 +65,7 @@ class TimeTrigger:
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
-Trigger = Union[EventTrigger, OutcomeTrigger, DoneTrigger, TimeTrigger]
+Trigger = EventTrigger | OutcomeTrigger | DoneTrigger | TimeTrigger
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +87,7 @@ class Send:
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
-Effect = Union[Assignment, Send]
+Effect = Assignment | Send
 
 
 @dataclass(frozen=True, slots=True)

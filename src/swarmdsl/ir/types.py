@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Union
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +37,7 @@ class Array:
         return f"{self.element}[{'' if self.size is None else self.size}]"
 
 
-Type = Union[Primitive, Named, Array]
+Type = Primitive | Named | Array
 
 INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u"))
 FLOATS = ("float32", "float64")

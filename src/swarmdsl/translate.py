@@ -1,0 +1,120 @@
+"""Expressions in the language of a target.
+
+One printer serves all targets: a `Dialect` says how operators, names and literals look.
+Parentheses follow the target's own precedence, and wherever comparisons or signs meet,
+so that what is printed never depends on fine points of the target's grammar.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from swarmdsl.ir import (
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    ParamRef,
+    Type,
+    Unary,
+    VariableRef,
+)
+from swarmdsl.ir.types import DURATION, INTEGERS, Primitive
+
+_PRECEDENCE = {
+    "or": 1,
+    "and": 2,
+    "not": 3,
+    **dict.fromkeys(("==", "!=", "<", "<=", ">", ">="), 4),
+    **dict.fromkeys(("+", "-"), 5),
+    **dict.fromkeys(("*", "/", "%"), 6),
+    "negative": 7,
+}
+_PRIMARY = 8
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How one target writes expressions.
+
+    `operators` renames those the target spells otherwise; `literal`, `variable` and
+    `param` print a leaf; `event` is the message of the triggering event; `functions`
+    renames the built-in functions.
+    """
+
+    literal: Callable[[Literal], str]
+    variable: Callable[[str], str]
+    param: Callable[[str], str]
+    event: str
+    operators: Mapping[str, str]
+    functions: Mapping[str, str]
+    integer_division: str | None = None
+
+
+def translate(expression: Expression, dialect: Dialect) -> str:
+    """The expression as text of the target."""
+    return _print(expression, dialect)[0]
+
+
+def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
+    """Return the text and how strongly it binds."""
+    match expression:
+        case Literal():
+            text = dialect.literal(expression)
+            return text, _PRECEDENCE["negative"] if text.startswith("-") else _PRIMARY
+        case VariableRef(name=name):
+            return dialect.variable(name), _PRIMARY
+        case ParamRef(name=name):
+            return dialect.param(name), _PRIMARY
+        case EventData():
+            return dialect.event, _PRIMARY
+        case FieldAccess(base=base, field=field):
+            return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
+        case Call(function=function, arguments=arguments):
+            values = ", ".join(translate(argument, dialect) for argument in arguments)
+            return f"{dialect.functions.get(function, function)}({values})", _PRIMARY
+        case Unary(operator="not", operand=operand):
+            level = _PRECEDENCE["not"]
+            word = dialect.operators.get("not", "not ")
+            # `!` binds tighter than a comparison, `not ` looser: parentheses suit both.
+            return f"{word}{_operand(operand, _PRIMARY, dialect)}", level
+        case Unary(operand=operand):
+            return f"-{_operand(operand, _PRIMARY, dialect)}", _PRECEDENCE["negative"]
+        case Binary(operator="/", left=left, right=right) if (
+            dialect.integer_division and _is_integer(left.type) and _is_integer(right.type)
+        ):
+            sides = f"{translate(left, dialect)}, {translate(right, dialect)}"
+            return f"{dialect.integer_division}({sides})", _PRIMARY
+        case Binary(operator=operator, left=left, right=right):
+            level = _PRECEDENCE[operator]
+            comparison = level == _PRECEDENCE["=="]
+            first = _operand(left, level + 1 if comparison else level, dialect)
+            second = _operand(right, level + 1, dialect)
+            return f"{first} {dialect.operators.get(operator, operator)} {second}", level
+
+
+def _operand(expression: Expression, least: int, dialect: Dialect) -> str:
+    text, level = _print(expression, dialect)
+    return text if level >= least else f"({text})"
+
+
+def _is_integer(type_: Type | None) -> bool:
+    return isinstance(type_, Primitive) and type_.name in INTEGERS
+
+
+def python_literal(literal: Literal) -> str:
+    """A literal in Python; a duration in seconds, as rospy and rclpy take it."""
+    if literal.type == DURATION:
+        return repr(literal.milliseconds / 1000)
+    return repr(literal.value)
+
+
+def ecmascript_literal(literal: Literal) -> str:
+    """A literal in ECMAScript; a duration in milliseconds, as SCXML delays are."""
+    if literal.type == DURATION:
+        return f"{literal.milliseconds:g}"
+    return json.dumps(literal.value)
