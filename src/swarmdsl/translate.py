@@ -19,11 +19,10 @@ from swarmdsl.ir import (
     FieldAccess,
     Literal,
     ParamRef,
-    Type,
     Unary,
     VariableRef,
 )
-from swarmdsl.ir.types import DURATION, INTEGERS, Primitive
+from swarmdsl.ir.types import DURATION
 
 _PRECEDENCE = {
     "or": 1,
@@ -52,7 +51,6 @@ class Dialect:
     event: str
     operators: Mapping[str, str]
     functions: Mapping[str, str]
-    integer_division: str | None = None
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
@@ -84,11 +82,6 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             return f"{word}{_operand(operand, _PRIMARY, dialect)}", level
         case Unary(operand=operand):
             return f"-{_operand(operand, _PRIMARY, dialect)}", _PRECEDENCE["negative"]
-        case Binary(operator="/", left=left, right=right) if (
-            dialect.integer_division and _is_integer(left.type) and _is_integer(right.type)
-        ):
-            sides = f"{translate(left, dialect)}, {translate(right, dialect)}"
-            return f"{dialect.integer_division}({sides})", _PRIMARY
         case Binary(operator=operator, left=left, right=right):
             level = _PRECEDENCE[operator]
             comparison = level == _PRECEDENCE["=="]
@@ -100,10 +93,6 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
 def _operand(expression: Expression, least: int, dialect: Dialect) -> str:
     text, level = _print(expression, dialect)
     return text if level >= least else f"({text})"
-
-
-def _is_integer(type_: Type | None) -> bool:
-    return isinstance(type_, Primitive) and type_.name in INTEGERS
 
 
 def python_literal(literal: Literal) -> str:

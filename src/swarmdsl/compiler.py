@@ -1,0 +1,49 @@
+"""The pipeline: from .swarm files to packages on disk, one line a phase."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.emit import Request, emit
+from swarmdsl.ir import System
+from swarmdsl.link import link
+from swarmdsl.load import load
+from swarmdsl.lower import lower
+from swarmdsl.output import Written, write
+from swarmdsl.validate import validate
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of a run; `system` is None when the model has errors."""
+
+    report: Diagnostics
+    files: int
+    system: System | None = None
+    written: Written | None = None
+
+
+def check(paths: Sequence[Path]) -> Result:
+    """Find everything that is wrong with the model in these files and what they import."""
+    report = Diagnostics()
+    project = load(paths, report)
+    link(project, report)
+    validate(project, report)
+    if report.has_errors:
+        return Result(report, len(project.files))
+    return Result(report, len(project.files), lower(project))
+
+
+def build(paths: Sequence[Path], requests: Sequence[Request], out: Path) -> Result:
+    """Check the model and write what the requested targets make of it below `out`."""
+    checked = check(paths)
+    if checked.system is None:
+        return checked
+    report = checked.report
+    files = emit(checked.system, requests, report)
+    if report.has_errors:
+        return checked
+    return Result(report, checked.files, checked.system, write(files, out, report))
