@@ -1,0 +1,576 @@
+"""The syntax tree of a .swarm file: one class for each rule of the grammar.
+
+`parse` makes these nodes, `link` fills in what names refer to (`Ref.target`,
+`TypeRef.type`), and from then on nothing changes them. Attributes are called as in
+`grammar/*.tx`; a test holds the two against each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
+from typing import Generic, Literal, TypeVar
+
+from swarmdsl.ir.types import Type
+from swarmdsl.source import Span
+
+
+class Word(str):
+    """A piece of text with its place: a name as written, or the content of a quoted text."""
+
+    __slots__ = ("span",)
+    span: Span
+
+    def __new__(cls, text: str, span: Span) -> Word:
+        """Make the word `text` that stands at `span`."""
+        word = super().__new__(cls, text)
+        word.span = span
+        return word
+
+
+@dataclass(slots=True, eq=False)
+class Node:
+    """A piece of the model; `span` covers all of it, without its documentation."""
+
+    span: Span
+
+
+@dataclass(slots=True, eq=False)
+class Documented(Node):
+    """A node that a `///` comment before it documents."""
+
+    doc: str = field(default="", init=False)
+
+
+N = TypeVar("N", bound=Node)
+
+
+@dataclass(slots=True, eq=False)
+class Ref(Generic[N]):
+    """A name that refers to a node of class `kind`; `target` is None until it is linked."""
+
+    name: str
+    kind: str
+    span: Span
+    target: N | None = None
+
+
+@dataclass(slots=True, eq=False)
+class TypeRef(Node):
+    """A type by name; `type` is None until it is linked, and after, if there is none.
+
+    `array` is the brackets as written (`[]`, `[16]`), empty for a single value.
+    """
+
+    name: str
+    array: str
+    type: Type | None = field(default=None, init=False)
+
+
+@dataclass(slots=True, eq=False)
+class Expression(Node):
+    """An expression of the small language in expression.lark; `tree` is None if it is wrong."""
+
+    tree: ExpressionTree | None = field(default=None, init=False)
+
+
+# ---- expressions (made from the text of an Expression by `expressions.parse`)
+
+
+@dataclass(slots=True, eq=False)
+class Value(Node):
+    """A number, text or truth value; `unit` as written, or empty."""
+
+    value: bool | int | float | str
+    unit: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class NameUse(Node):
+    """The name of a variable or param; `event` is a name of its own."""
+
+    name: str
+    target: Variable | Param | None = field(default=None, init=False)
+
+
+@dataclass(slots=True, eq=False)
+class FieldUse(Node):
+    """`base.name`."""
+
+    base: ExpressionTree
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class Call(Node):
+    """`function(arguments)`, the function a built-in one."""
+
+    function: Word
+    arguments: tuple[ExpressionTree, ...]
+
+
+@dataclass(slots=True, eq=False)
+class Operation(Node):
+    """An operator with one or two operands."""
+
+    operator: Word
+    operands: tuple[ExpressionTree, ...]
+
+
+ExpressionTree = Value | NameUse | FieldUse | Call | Operation
+
+
+# ---- interfaces
+
+
+@dataclass(slots=True, eq=False)
+class Field(Documented):
+    """A field of a message or struct."""
+
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class StructType(Documented):
+    """`struct Pose2D { ... }`."""
+
+    name: Word
+    fields: list[Field]
+
+
+@dataclass(slots=True, eq=False)
+class AliasType(Documented):
+    """`type Distance = float64`."""
+
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class MessageType(Documented):
+    """`message Name { ... }`; a name with `/` describes a message of another package."""
+
+    name: Word
+    fields: list[Field]
+
+
+@dataclass(slots=True, eq=False)
+class ServiceType(Documented):
+    """`service Name { request { ... } response { ... } }`."""
+
+    name: Word
+    request: list[Field]
+    response: list[Field]
+
+
+@dataclass(slots=True, eq=False)
+class ActionType(Documented):
+    """`action Name { goal { ... } result { ... } feedback { ... } }`."""
+
+    name: Word
+    goal: list[Field]
+    result: list[Field]
+    feedback: list[Field]
+
+
+@dataclass(slots=True, eq=False)
+class Event(Documented):
+    """`event Name : Type on "topic"`; `swarm` when it travels between members."""
+
+    swarm: bool
+    name: Word
+    type: TypeRef
+    topic: Word | None
+
+
+@dataclass(slots=True, eq=False)
+class Param(Documented):
+    """`param name : Type = default`."""
+
+    name: Word
+    type: TypeRef
+    default: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Communication(Documented):
+    """`action "name" : Type` or `service "name" : Type` of a function."""
+
+    paradigm: Literal["action", "service"]
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class FunctionPort(Documented):
+    """`in "topic" : Type` of a function."""
+
+    direction: Literal["in", "out"]
+    topic: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Function(Documented):
+    """`function name : abstraction { ... }`."""
+
+    name: Word
+    category: Literal["abstraction", "swarm"]
+    items: list[Communication | FunctionPort | Param]
+
+
+# ---- architecture
+
+
+@dataclass(slots=True, eq=False)
+class Port(Documented):
+    """`out name : Type on "topic"`."""
+
+    direction: Literal["in", "out", "inout"]
+    name: Word
+    type: TypeRef
+    topic: Word | None
+
+
+@dataclass(slots=True, eq=False)
+class Component(Documented):
+    """`sensor Name { ... }` and the other kinds."""
+
+    kind: Literal["sensor", "actuator", "controller", "virtual"]
+    name: Word
+    items: list[Port | Param]
+
+
+@dataclass(slots=True, eq=False)
+class BehaviorUse(Node):
+    """`behavior Machine`."""
+
+    machine: Ref[StateMachine]
+
+
+@dataclass(slots=True, eq=False)
+class PartValue(Node):
+    """`name = value` in a part."""
+
+    name: Word
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Part(Documented):
+    """`name : Component { ... }`."""
+
+    name: Word
+    component: Ref[Component]
+    values: list[PartValue]
+
+
+@dataclass(slots=True, eq=False)
+class PortRef(Node):
+    """`part.port`, or `port` of the member itself."""
+
+    part: Ref[Part] | None
+    port: Ref[Port]
+
+
+@dataclass(slots=True, eq=False)
+class Connector(Node):
+    """`connect source -> target`."""
+
+    source: PortRef
+    target: PortRef
+
+
+@dataclass(slots=True, eq=False)
+class Member(Documented):
+    """`member Name { ... }`."""
+
+    name: Word
+    items: list[BehaviorUse | Port | Param | Connector | Part]
+
+
+# ---- behaviour
+
+
+@dataclass(slots=True, eq=False)
+class Variable(Documented):
+    """`var name : Type = initial`."""
+
+    name: Word
+    type: TypeRef
+    initial: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Argument(Node):
+    """`name = value` in a call or a send."""
+
+    name: Word
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ResultMapping(Node):
+    """`field => variable`."""
+
+    field: Word
+    target: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Activity(Node):
+    """`do function(...) gives (...)`."""
+
+    function: Ref[Function]
+    goal_callback: Word | None
+    arguments: list[Argument]
+    result_callback: Word | None
+    results: list[ResultMapping]
+
+
+@dataclass(slots=True, eq=False)
+class OutcomeTrigger(Node):
+    """`succeeded`, `aborted` or `preempted`."""
+
+    outcome: str
+
+
+@dataclass(slots=True, eq=False)
+class DoneTrigger(Node):
+    """`done`, `done.Final`, `Region.done` or `Region.done.Final`."""
+
+    region: Ref[Region] | None
+    final: Ref[FinalState] | None
+
+
+@dataclass(slots=True, eq=False)
+class EventTrigger(Node):
+    """The name of an event."""
+
+    event: Ref[Event]
+
+
+@dataclass(slots=True, eq=False)
+class TimeTrigger(Node):
+    """`after delay`."""
+
+    delay: Expression
+
+
+Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger
+
+
+@dataclass(slots=True, eq=False)
+class Send(Node):
+    """`send Event(...)`."""
+
+    event: Ref[Event]
+    arguments: list[Argument]
+
+
+@dataclass(slots=True, eq=False)
+class Assignment(Node):
+    """`target = value`."""
+
+    target: Expression
+    value: Expression
+
+
+Effect = Send | Assignment
+
+
+@dataclass(slots=True, eq=False)
+class Transition(Node):
+    """`on trigger [guard] / effects -> target`."""
+
+    triggers: list[Trigger]
+    guard: Expression | None
+    effects: list[Effect]
+    target: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Initial(Node):
+    """`initial State`."""
+
+    target: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class FinalState(Documented):
+    """`final Name`."""
+
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class Branch(Node):
+    """`[guard] / effects -> target` or `else ... -> target` in a choice.
+
+    `otherwise` is the word `else`, or empty.
+    """
+
+    guard: Expression | None
+    otherwise: str
+    effects: list[Effect]
+    target: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Choice(Documented):
+    """`choice Name { ... }`."""
+
+    name: Word
+    branches: list[Branch]
+
+
+@dataclass(slots=True, eq=False)
+class State(Documented):
+    """`state Name { ... }` or `state Name = Machine { ... }`."""
+
+    name: Word
+    machine: Ref[StateMachine] | None
+    items: list[Activity | Transition | Initial | Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Region(Documented):
+    """`region Name { ... }`."""
+
+    name: Word
+    items: list[Initial | Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Parallel(Documented):
+    """`parallel state Name { ... }`."""
+
+    name: Word
+    items: list[Region | Transition]
+
+
+@dataclass(slots=True, eq=False)
+class StateMachine(Documented):
+    """`statemachine Name { ... }`."""
+
+    endless: bool
+    name: Word
+    items: list[Param | Variable | Initial | Vertex]
+
+
+Vertex = State | Parallel | Choice | FinalState
+Container = StateMachine | State | Parallel | Region
+
+
+# ---- composition
+
+
+@dataclass(slots=True, eq=False)
+class Multiplicity(Node):
+    """`3`, `1..5`, `2..*` or `*`, the bounds as written."""
+
+    lower: str
+    upper: str
+
+
+@dataclass(slots=True, eq=False)
+class Role(Documented):
+    """`name : Member[multiplicity]`."""
+
+    name: Word
+    member: Ref[Member]
+    multiplicity: Multiplicity | None
+
+
+@dataclass(slots=True, eq=False)
+class EnvironmentUse(Node):
+    """`environment Name` in a swarm."""
+
+    environment: Ref[Environment]
+
+
+@dataclass(slots=True, eq=False)
+class Swarm(Documented):
+    """`swarm Name { ... }`."""
+
+    name: Word
+    items: list[EnvironmentUse | Role]
+
+
+@dataclass(slots=True, eq=False)
+class World(Node):
+    """`world "file"`."""
+
+    file: Word
+
+
+@dataclass(slots=True, eq=False)
+class Size(Node):
+    """`size 100 m x 100 m`, the lengths as written."""
+
+    width: str
+    depth: str
+    height: str
+
+
+@dataclass(slots=True, eq=False)
+class Environment(Documented):
+    """`environment Name { ... }`."""
+
+    name: Word
+    items: list[World | Size]
+
+
+# ---- the file
+
+
+@dataclass(slots=True, eq=False)
+class Package(Documented):
+    """`package name`."""
+
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class Import(Node):
+    """`import "file"`."""
+
+    path: Word
+
+
+Interface = StructType | AliasType | MessageType | ServiceType | ActionType
+Declaration = Interface | Event | Function | Component | Member | StateMachine | Swarm | Environment
+
+
+@dataclass(slots=True, eq=False)
+class Model(Node):
+    """A whole file."""
+
+    package: Package | None
+    imports: list[Import]
+    declarations: list[Declaration]
+
+
+NODES: dict[str, type[Node]] = {
+    cls.__name__: cls
+    for cls in list(globals().values())
+    if isinstance(cls, type) and issubclass(cls, Node)
+}
+
+
+def children(node: Node) -> Iterator[Node]:
+    """The nodes directly inside a node, in document order."""
+    for attribute in fields(node):
+        value = getattr(node, attribute.name)
+        if isinstance(value, Node):
+            yield value
+        elif isinstance(value, (list, tuple)):
+            yield from (item for item in value if isinstance(item, Node))
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all inside it, in document order."""
+    yield node
+    for child in children(node):
+        yield from walk(child)
