@@ -73,9 +73,7 @@ CODES: dict[str, Code] = {
     "done-without-content": Code("SW0508", "error", "{owner} can never be done"),
     "target-outside": Code("SW0509", "error", "`{target}` cannot be reached from here: {reason}"),
     "choice-without-else": Code("SW0510", "error", "choice `{name}` has no `else`"),
-    "activity-in-composite": Code(
-        "SW0511", "error", "state `{state}` has states of its own and an activity"
-    ),
+    "mixed-content": Code("SW0511", "error", "state `{state}` has {content}"),
     "missing-value": Code("SW0512", "error", "param `{name}` of `{machine}` has no value"),
     "too-few-regions": Code("SW0513", "error", "parallel state `{name}` has no region"),
     # ---- functions and interfaces
@@ -85,6 +83,7 @@ CODES: dict[str, Code] = {
         "SW0603", "error", "function `{name}` offers no action and no service"
     ),
     "interface-kind": Code("SW0604", "error", "`{name}` is {actual}, not {expected}"),
+    "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),
@@ -94,7 +93,7 @@ CODES: dict[str, Code] = {
     # ---- generators and output
     "unknown-target": Code("SW0901", "error", "no target called `{name}`"),
     "broken-generator": Code(
-        "SW0902", "warning", "the generator of target `{name}` cannot be loaded: {reason}"
+        "SW0902", "warning", "the generator of target `{name}` does not work: {reason}"
     ),
     "unsupported-construct": Code(
         "SW0903", "error", "target `{target}` cannot express {construct}"
@@ -105,9 +104,13 @@ CODES: dict[str, Code] = {
     "outside-output": Code(
         "SW0907", "error", "target `{target}` wants to write outside the output folder: `{path}`"
     ),
-    "would-overwrite": Code(
-        "SW0908", "error", "`{path}` was not written by swarmc and would be overwritten"
-    ),
+    "would-overwrite": Code("SW0908", "error", "`{path}` would be overwritten, but {reason}"),
     "cannot-write": Code("SW0909", "error", "cannot write `{path}`: {reason}"),
     "nothing-to-generate": Code("SW0910", "warning", "target `{target}` found nothing to generate"),
+    "target-left-out": Code(
+        "SW0911", "warning", "target `{target}` is left out: it cannot express this model"
+    ),
+    "generator-failed": Code(
+        "SW0912", "error", "the generator of target `{target}` does not work: {reason}"
+    ),
 }

@@ -6,7 +6,7 @@ exception: every phase reports and goes on.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 
@@ -58,6 +58,7 @@ class Diagnostics:
         self,
         name: str,
         at: Span | None = None,
+        /,
         *,
         label: str = "",
         related: tuple[Label, ...] = (),
@@ -81,6 +82,10 @@ class Diagnostics:
             help=help,
         )
         self._found.setdefault(found)
+
+    def include(self, others: Iterable[Diagnostic]) -> None:
+        """Add what was collected elsewhere."""
+        self._found.update(dict.fromkeys(others))
 
     @property
     def has_errors(self) -> bool:

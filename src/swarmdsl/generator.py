@@ -13,6 +13,7 @@ from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import System
+from swarmdsl.source import Span
 
 API_VERSION = 1
 
@@ -47,13 +48,15 @@ class OutputFile:
     """A file to be written below the target's output folder.
 
     `path` is relative, with `/` and no `..`. A file with `keep` is the user's once it
-    exists: it is written when missing and never again.
+    exists: it is written when missing and never again. `origin` is the place in the model
+    that gave the file its name: where a clash of two names is shown.
     """
 
     path: str
     text: str
     executable: bool = False
     keep: bool = False
+    origin: Span | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,189 @@
+"""From the IR to the files of each requested target, which its generator makes."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from swarmdsl import plugins
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
+from swarmdsl.features import Use, used_features
+from swarmdsl.generator import Generator, OutputFile
+from swarmdsl.ir import System
+from swarmdsl.options import parse_options
+from swarmdsl.output_path import clash_key, stays_inside
+from swarmdsl.suggest import suggest
+
+Output = dict[str, list[OutputFile]]
+"""The files of each target, in the order of the requests."""
+
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Request:
+    """A target to build and its options, as text.
+
+    One that is not `required` is left out, with a warning, when it cannot express the model.
+    """
+
+    target: str
+    options: Mapping[str, str] = field(default_factory=dict)
+    required: bool = True
+
+
+def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Output:
+    """What the requested targets make of the system; incomplete when errors were reported."""
+    uses = list(used_features(system))
+    output: Output = {}
+    left_out: dict[str, Diagnostics] = {}
+    for request in _merged(requests, report):
+        found = Diagnostics()
+        files = _emit_target(system, request, uses, found)
+        if not request.required and _only_unsupported(found):
+            left_out[request.target] = found
+            continue
+        report.include(found)
+        if files is not None:
+            output[request.target] = files
+    for target, found in left_out.items():
+        # Something is left out of what is built; where nothing is built, it is missing.
+        if output:
+            _report_left_out(target, found, report)
+        else:
+            report.include(found)
+    _check_collisions(output, report)
+    return output
+
+
+def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
+    """One request a target; two may add to each other but not differ."""
+    merged: dict[str, Request] = {}
+    for request in requests:
+        known = merged.setdefault(request.target, request)
+        for name, value in request.options.items():
+            if known.options.get(name, value) != value:
+                fault = f"option `{name}` is given as `{known.options[name]}` and as `{value}`"
+                report.report("bad-option", target=request.target, fault=fault)
+        merged[request.target] = Request(
+            request.target,
+            {**request.options, **known.options},
+            known.required or request.required,
+        )
+    return list(merged.values())
+
+
+def _emit_target(
+    system: System, request: Request, uses: Iterable[Use], report: Diagnostics
+) -> list[OutputFile] | None:
+    generator = plugins.load(request.target)
+    if generator is None:
+        hint = suggest(request.target, plugins.target_names(), "targets")
+        report.report("unknown-target", name=request.target, help=hint)
+        return None
+    if isinstance(generator, plugins.Broken):
+        _report_broken(request, generator.reason, report)
+        return None
+    for feature, place in uses:
+        if feature not in generator.supports:
+            report.report(
+                "unsupported-construct", place, target=request.target, construct=feature.value
+            )
+    options = parse_options(generator, request.options, report)
+    if report.has_errors:
+        return None
+    files = _run(generator, system, options, request, report)
+    if files is None:
+        return None
+    for file in files:
+        if not stays_inside(file.path):
+            report.report("outside-output", file.origin, target=request.target, path=file.path)
+    if not files and not report.has_errors:
+        report.report("nothing-to-generate", target=request.target)
+    return files
+
+
+def _run(
+    generator: Generator, system: System, options: object, request: Request, report: Diagnostics
+) -> list[OutputFile] | None:
+    if generator.target in plugins.BUILT_IN:
+        return list(generator.emit(system, options, report))
+    try:
+        files = list(generator.emit(system, options, report))
+    # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
+    except (Exception, SystemExit) as error:
+        _LOG.debug("running the generator of target %s", request.target, exc_info=True)
+        _report_broken(request, plugins.describe(error), report)
+        return None
+    for file in files:
+        if not (
+            isinstance(file, OutputFile)
+            and isinstance(file.path, str)
+            and isinstance(file.text, str)
+        ):
+            _report_broken(request, f"it returned {file!r:.80}, not an `OutputFile`", report)
+            return None
+    return files
+
+
+def _report_broken(request: Request, reason: str, report: Diagnostics) -> None:
+    if request.required:
+        hint = "run again with `--debug` to see where it fails"
+        report.report("generator-failed", target=request.target, reason=reason, help=hint)
+    else:
+        report.report("broken-generator", name=request.target, reason=reason)
+
+
+def _errors(found: Diagnostics) -> list[Diagnostic]:
+    return [diagnostic for diagnostic in found if diagnostic.severity is Severity.ERROR]
+
+
+def _only_unsupported(found: Diagnostics) -> bool:
+    errors = _errors(found)
+    return bool(errors) and all(error.name == "unsupported-construct" for error in errors)
+
+
+def _report_left_out(target: str, found: Diagnostics, report: Diagnostics) -> None:
+    first, *others = _errors(found)
+    notes = [first.message]
+    if others:
+        notes.append(f"there is more that it cannot express, in {_count(len(others), 'place')}")
+    report.report(
+        "target-left-out",
+        first.primary.span if first.primary else None,
+        notes=tuple(notes),
+        help=f"`--target {target}` shows all of it",
+        target=target,
+    )
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+
+
+def _check_collisions(output: Output, report: Diagnostics) -> None:
+    """Report files that would be the same file, or a file where another needs a folder."""
+    files: dict[str, OutputFile] = {}
+    folders: dict[str, OutputFile] = {}
+    for target, made in output.items():
+        for file in made:
+            path = f"{target}/{file.path}"
+            key = clash_key(path)
+            above = [key[:at] for at, character in enumerate(key) if character == "/"]
+            other = files.get(key) or folders.get(key)
+            for folder in above:
+                other = other or files.get(folder)
+                folders.setdefault(folder, file)
+            if other is not None:
+                _report_collision(path, target, file, other, report)
+            files.setdefault(key, file)
+
+
+def _report_collision(
+    path: str, target: str, file: OutputFile, other: OutputFile, report: Diagnostics
+) -> None:
+    related = (Label(other.origin, "the other one comes from here"),) if other.origin else ()
+    same = other.path == file.path
+    notes = () if same else (f"the other one is `{target}/{other.path}`",)
+    report.report("output-collision", file.origin, related=related, notes=notes, path=path)

@@ -1,0 +1,110 @@
+"""Which constructs of state machines a system uses, and where.
+
+A target that cannot express one of them is stopped before its generator runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.generator import Feature
+from swarmdsl.ir import (
+    Activity,
+    Assignment,
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Send,
+    State,
+    StateKind,
+    StateMachine,
+    System,
+    TimeTrigger,
+    Transition,
+    Unary,
+)
+from swarmdsl.source import Span
+
+Use = tuple[Feature, Span | None]
+
+_KINDS = {
+    StateKind.COMPOSITE: Feature.COMPOSITE,
+    StateKind.PARALLEL: Feature.PARALLEL,
+    StateKind.CHOICE: Feature.CHOICE,
+}
+
+
+def used_features(system: System) -> Iterator[Use]:
+    """Every use of a feature, in document order."""
+    for machine in system.machines:
+        yield from _in_machine(machine)
+
+
+def _in_machine(machine: StateMachine) -> Iterator[Use]:
+    for param in machine.params:
+        yield Feature.PARAM, param.origin
+    for variable in machine.variables:
+        yield Feature.VARIABLE, variable.origin
+    # A state's id leads to the id of the state around it: None at the top.
+    parents: dict[str, str | None] = {state.id: None for state in machine.states}
+    for state in machine.walk():
+        parents.update((child.id, state.id) for child in state.states)
+    for state in machine.walk():
+        yield from _in_state(state, parents)
+
+
+def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
+    if state.kind in _KINDS:
+        yield _KINDS[state.kind], state.origin
+    if state.activity is not None:
+        yield from _in_activity(state.activity)
+    for transition in state.transitions:
+        yield from _in_transition(transition)
+        if parents[transition.target] != parents[state.id]:
+            yield Feature.CROSS_LEVEL, transition.origin
+
+
+def _in_activity(activity: Activity) -> Iterator[Use]:
+    if activity.goal_callback is not None or activity.result_callback is not None:
+        yield Feature.CALLBACK, activity.origin
+    for _, value in activity.arguments:
+        yield from _in_expression(value)
+    for result in activity.results:
+        yield Feature.RESULT, result.origin
+
+
+def _in_transition(transition: Transition) -> Iterator[Use]:
+    for trigger in transition.triggers:
+        if isinstance(trigger, TimeTrigger):
+            yield Feature.TIMEOUT, trigger.origin
+            yield from _in_expression(trigger.delay)
+    if transition.guard is not None:
+        yield Feature.GUARD, transition.guard.origin
+        yield from _in_expression(transition.guard)
+    for effect in transition.effects:
+        match effect:
+            case Assignment(value=value):
+                yield Feature.ASSIGNMENT, effect.origin
+                yield from _in_expression(value)
+            case Send(arguments=arguments):
+                yield Feature.SEND, effect.origin
+                for _, value in arguments:
+                    yield from _in_expression(value)
+
+
+def _in_expression(expression: Expression) -> Iterator[Use]:
+    match expression:
+        case EventData():
+            yield Feature.EVENT_DATA, expression.origin
+        case FieldAccess(base=base):
+            yield from _in_expression(base)
+        case Unary(operand=operand):
+            yield from _in_expression(operand)
+        case Binary(left=left, right=right):
+            yield from _in_expression(left)
+            yield from _in_expression(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from _in_expression(argument)

@@ -1,0 +1,101 @@
+"""The IR as indented text for a person: what the front end made of a model."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import MISSING, fields, is_dataclass
+from enum import Enum
+from typing import Any, get_args
+
+from swarmdsl.ir.architecture import Multiplicity, PortRef
+from swarmdsl.ir.expressions import Expression, Literal
+from swarmdsl.ir.system import System
+from swarmdsl.ir.types import DURATION, Array, Named, Primitive
+from swarmdsl.translate import Dialect, translate
+
+_WIDTH = 100
+_EXPRESSIONS = get_args(Expression)
+_WRITTEN = (Primitive, Named, Array, Multiplicity, PortRef)
+_PLAIN = (str, bool, int, float, Enum, *_WRITTEN, *_EXPRESSIONS)
+
+
+def dump(system: System) -> str:
+    """The whole system; fields that are empty or have their default value are left out."""
+    return "".join(f"{line}\n" for line in _node(system))
+
+
+def _node(node: Any) -> Iterator[str]:
+    """A node on one line where it fits, else with a line for each of its fields."""
+    values = dict(_values(node))
+    line = " ".join([type(node).__name__, *(f"{name}={v}" for name, v in values.items())])
+    if all(isinstance(value, str) for value in values.values()) and len(line) <= _WIDTH:
+        yield line
+        return
+    head = "id" if "id" in values else "name"
+    yield " ".join([type(node).__name__, *([values.pop(head)] if head in values else [])])
+    for name, value in values.items():
+        if isinstance(value, str):
+            yield f"  {name}: {value}"
+        else:
+            yield f"  {name}:"
+            for item in value:
+                for line in _item(item):
+                    yield f"    {line}"
+
+
+def _values(node: Any) -> Iterator[tuple[str, Any]]:
+    """Fields worth showing: plain ones as text, others as a sequence of nodes."""
+    for field in fields(node):
+        value = getattr(node, field.name)
+        if not field.compare or value in ((), None, "") or value == _default(field):
+            continue
+        if isinstance(value, _PLAIN):
+            yield field.name, _plain(value)
+        elif is_dataclass(value):
+            yield field.name, (value,)
+        elif all(isinstance(item, _PLAIN) for item in value):
+            yield field.name, " ".join(map(_plain, value))
+        else:
+            yield field.name, value
+
+
+def _default(field: Any) -> Any:
+    return None if field.default is MISSING else field.default
+
+
+def _item(item: Any) -> Iterator[str]:
+    if isinstance(item, tuple):
+        name, value = item
+        yield f"{name} = {_plain(value)}"
+    else:
+        yield from _node(item)
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, _EXPRESSIONS):
+        return translate(value, _DIALECT)
+    if isinstance(value, Enum):
+        return str(value.value)
+    if isinstance(value, bool):
+        return str(value).lower()
+    text = str(value)
+    return json.dumps(text, ensure_ascii=False) if _needs_quotes(text) else text
+
+
+def _needs_quotes(text: str) -> bool:
+    return not text.isprintable() or any(character in text for character in ' "\\')
+
+
+def _literal(literal: Literal) -> str:
+    if literal.type == DURATION:
+        return f"{literal.milliseconds:g} ms"
+    return json.dumps(literal.value, ensure_ascii=False)
+
+
+def _name(name: str) -> str:
+    return name
+
+
+# The words of the model itself.
+_DIALECT = Dialect(_literal, _name, _name, "event", {}, {})

@@ -1,0 +1,82 @@
+"""The options of a target: from text on a command line to the generator's options dataclass."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import Field, dataclass, fields
+from typing import Any, get_type_hints
+
+from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.generator import Generator
+from swarmdsl.suggest import suggest
+
+_BOOLEANS = {"true": True, "false": False}
+_TAKES = {str: "text", int: "a whole number", bool: "`true` or `false`"}
+
+
+@dataclass(frozen=True)
+class Option:
+    """What can be said about an option of a target."""
+
+    name: str
+    type: type
+    default: str | bool | int
+    help: str
+    choices: tuple[str, ...]
+
+    @property
+    def takes(self) -> str:
+        """The values it takes, in words."""
+        return listed(list(self.choices)) if self.choices else _TAKES[self.type]
+
+    def parse(self, text: str) -> str | bool | int | None:
+        """The value that a text stands for, None for one that the option does not take."""
+        if self.choices and text not in self.choices:
+            return None
+        if self.type is bool:
+            return _BOOLEANS.get(text)
+        if self.type is int:
+            return int(text) if _is_integer(text) else None
+        return text
+
+
+def options_of(generator: Generator) -> dict[str, Option]:
+    """The options of a target by name."""
+    types = get_type_hints(generator.options_type)
+    return {
+        field.name: _option(field, types[field.name]) for field in fields(generator.options_type)
+    }
+
+
+def _option(field: Field[Any], type_: type) -> Option:
+    return Option(
+        field.name,
+        type_,
+        field.default,  # type: ignore[arg-type]  # plugins.load has seen that there is one
+        field.metadata.get("help", ""),
+        tuple(field.metadata.get("choices", ())),
+    )
+
+
+def parse_options(generator: Generator, given: Mapping[str, str], report: Diagnostics) -> object:
+    """The generator's options with what was given; defaults where that is wrong and reported."""
+    known = options_of(generator)
+    values = {}
+    for name, text in given.items():
+        if name not in known:
+            fault = f"there is no option `{name}`"
+            hint = suggest(name, known, "options")
+            report.report("bad-option", target=generator.target, fault=fault, help=hint)
+            continue
+        value = known[name].parse(text)
+        if value is None:
+            fault = f"option `{name}` takes {known[name].takes}, not `{text}`"
+            report.report("bad-option", target=generator.target, fault=fault)
+            continue
+        values[name] = value
+    return generator.options_type(**values)
+
+
+def _is_integer(text: str) -> bool:
+    digits = text.removeprefix("-")
+    return digits.isascii() and digits.isdecimal() and len(digits) <= 18

@@ -1,0 +1,228 @@
+"""Writes the generated files: all of them or none, and never over what the user wrote.
+
+The files of target `t` go to the folder `t` of the output folder. A manifest lists what
+was generated there; whatever is not in it, or was edited since, is the user's.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from swarmdsl import manifest
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.output_path import clash_key
+from swarmdsl.staging import Staging
+
+
+@dataclass(frozen=True)
+class Written:
+    """What became of each file, as paths below the output folder.
+
+    `kept` are files of the user that were left as they are, `removed` were generated
+    before and are no longer part of the output, `left` are such files that were edited.
+    """
+
+    folder: Path
+    written: tuple[str, ...] = ()
+    unchanged: tuple[str, ...] = ()
+    kept: tuple[str, ...] = ()
+    removed: tuple[str, ...] = ()
+    left: tuple[str, ...] = ()
+
+
+def write(
+    output: Mapping[str, Sequence[OutputFile]],
+    out: Path,
+    report: Diagnostics,
+    *,
+    force: bool = False,
+) -> Written | None:
+    """Bring the folder `out` up to date with the files of each target.
+
+    `force` overwrites what the user wrote or edited, except files that are the user's to
+    keep. None when something stands in the way: it is reported and nothing is changed.
+    """
+    plan = _Plan(out, manifest.read(out), force, report)
+    for target, files in output.items():
+        for file in files:
+            plan.add(target, file)
+    plan.add_stale(output.keys())
+    if report.has_errors:
+        return None
+    try:
+        _carry_out(plan)
+    except OSError as error:
+        _report_os_error(Path(error.filename or out), error, report)
+        return None
+    return Written(
+        out,
+        tuple(plan.contents),
+        tuple(plan.unchanged),
+        tuple(plan.kept),
+        tuple(plan.stale),
+        tuple(plan.left),
+    )
+
+
+@dataclass
+class _Plan:
+    """What is to be done; all paths are below `out`.
+
+    `before` is the manifest as it was, `hashes` as it will be.
+    """
+
+    out: Path
+    before: manifest.Hashes
+    force: bool
+    report: Diagnostics
+    hashes: manifest.Hashes = field(default_factory=dict)
+    contents: dict[str, bytes] = field(default_factory=dict)
+    executable: set[str] = field(default_factory=set)
+    unchanged: list[str] = field(default_factory=list)
+    kept: list[str] = field(default_factory=list)
+    stale: list[str] = field(default_factory=list)
+    left: list[str] = field(default_factory=list)
+
+    def add(self, target: str, file: OutputFile) -> None:
+        """Decide what happens to a file; what stands in the way is reported."""
+        place = self.out / target / file.path
+        if not _leads_inside(place, self.out):
+            notes = ("a symbolic link on the way leads out of the folder",)
+            self.report.report("outside-output", target=target, path=str(place), notes=notes)
+            return
+        try:
+            new, old = file.text.encode(), _content(place)
+        except UnicodeEncodeError:
+            reason = "it has characters that are not Unicode"
+            self.report.report("cannot-write", path=str(place), reason=reason)
+        except NotADirectoryError:
+            obstacle = next(
+                above for above in place.parents if above.exists() and not above.is_dir()
+            )
+            reason = "it is a file where a folder is needed"
+            self.report.report("cannot-write", path=str(obstacle), reason=reason)
+        except OSError as error:
+            _report_os_error(place, error, self.report)
+        else:
+            self._decide(f"{target}/{file.path}", file, new, old)
+
+    def _decide(self, path: str, file: OutputFile, new: bytes, old: bytes | None) -> None:
+        if file.keep and old is not None:
+            self.kept.append(path)
+            return
+        if not file.keep:
+            self.hashes[path] = manifest.content_hash(new)
+        has_mode = not file.executable or os.access(self.out / path, os.X_OK)
+        if old == new and has_mode:
+            self.unchanged.append(path)
+            return
+        if old is not None and old != new and not self.force:
+            self._check_generated(path, old)
+        self.contents[path] = new
+        if file.executable:
+            self.executable.add(path)
+
+    def _check_generated(self, path: str, content: bytes) -> None:
+        """Report a file that is not as swarmc wrote it."""
+        generated = self.before.get(path)
+        if generated != manifest.content_hash(content):
+            self.report.report(
+                "would-overwrite",
+                path=str(self.out / path),
+                reason="it is not from swarmc" if generated is None else "it has been edited",
+                help="move it away, or overwrite it with `--force`",
+            )
+
+    def add_stale(self, targets: Collection[str]) -> None:
+        """Decide about what was generated before for these targets and is not any more."""
+        new = {clash_key(path): path for path in (*self.hashes, *self.kept, *self.contents)}
+        for path, old in self.before.items():
+            if path.partition("/")[0] not in targets:
+                self.hashes[path] = old
+            elif path not in new.values():
+                self._add_stale(path, old, new.get(clash_key(path)))
+
+    def _add_stale(self, path: str, old: str, successor: str | None) -> None:
+        place = self.out / path
+        with suppress(OSError):
+            if place.is_symlink() or not _leads_inside(place, self.out):
+                return
+            if successor is not None and place.samefile(self.out / successor):
+                return  # one file under two names, where case does not count
+            content = _content(place)
+            if content is not None:
+                edited = manifest.content_hash(content) != old
+                (self.left if edited else self.stale).append(path)
+
+
+def _carry_out(plan: _Plan) -> None:
+    list_file = plan.out / manifest.NAME
+    listed = manifest.to_bytes(plan.hashes)
+    with Staging() as staging:
+        for path, content in plan.contents.items():
+            staging.add(plan.out / path, content, path in plan.executable)
+        if plan.hashes != plan.before or (plan.hashes and not list_file.exists()):
+            staging.add(list_file, listed)
+        done = dict(plan.before)
+        try:
+            for place in staging.move_in_place():
+                path = place.relative_to(plan.out).as_posix()
+                if path in plan.hashes:
+                    done[path] = plan.hashes[path]
+            for path in plan.stale:
+                _remove(plan.out / path, plan.out)
+        except BaseException:
+            if done != plan.before:
+                _save_what_is_done(list_file, done)
+            raise
+
+
+def _save_what_is_done(list_file: Path, done: manifest.Hashes) -> None:
+    """Keep the list true when only some files could be replaced, as far as that is possible."""
+    with suppress(OSError), Staging() as staging:
+        staging.add(list_file, manifest.to_bytes(done))
+        for _ in staging.move_in_place():
+            pass
+
+
+def _remove(place: Path, out: Path) -> None:
+    place.unlink(missing_ok=True)
+    for folder in place.parents:
+        if folder == out:
+            return
+        try:
+            folder.rmdir()
+        except OSError:
+            return  # there is something else in it
+
+
+def _leads_inside(place: Path, out: Path) -> bool:
+    """Whether no symbolic link on the way leads out of the output folder."""
+    # Not Path.resolve: it raises an error for links that lead in a circle.
+    real = Path(os.path.realpath(place))
+    return real.is_relative_to(os.path.realpath(out))
+
+
+def _content(place: Path) -> bytes | None:
+    """The content of a file, None when there is none; OSError when it is something else."""
+    try:
+        mode = place.stat().st_mode
+    except FileNotFoundError:
+        return None
+    if stat.S_ISDIR(mode):
+        raise IsADirectoryError(0, "it is a folder", str(place))
+    if not stat.S_ISREG(mode):
+        # Reading a pipe or a device could wait forever.
+        raise OSError(0, "it is not an ordinary file", str(place))
+    return place.read_bytes()
+
+
+def _report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:
+    reason = error.strerror or str(error) or type(error).__name__
+    report.report("cannot-write", path=str(path), reason=reason[0].lower() + reason[1:])

@@ -1,0 +1,112 @@
+"""Where generators come from: the built-in ones by a table, those of others by entry points."""
+
+from __future__ import annotations
+
+import logging
+import re
+from collections.abc import Callable
+from dataclasses import MISSING, dataclass, fields, is_dataclass
+from importlib import import_module
+from typing import TYPE_CHECKING, get_type_hints
+
+from swarmdsl.generator import API_VERSION, Generator
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+BUILT_IN = {
+    "scxml": "swarmdsl.exchange.scxml:generator",
+    "adf": "swarmdsl.exchange.adf:generator",
+    "smach": "swarmdsl.generators.smach:generator",
+}
+GROUP = "swarmdsl.generators"
+
+OPTION_TYPES = (str, bool, int)
+
+_LOG = logging.getLogger(__name__)
+
+# A target's name is also the name of its output folder.
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A generator that is installed but cannot be used, and why."""
+
+    reason: str
+
+
+def target_names() -> list[str]:
+    """The names of all targets there are, the built-in ones first."""
+    return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
+
+
+def hidden_names() -> list[str]:
+    """Names that a package of others offers although they belong to a built-in target."""
+    return sorted(_third_party().keys() & BUILT_IN.keys())
+
+
+def load(name: str) -> Generator | Broken | None:
+    """The generator of a target, None when there is no such target."""
+    if name in BUILT_IN:
+        module, _, attribute = BUILT_IN[name].partition(":")
+        return _loaded(name, lambda: getattr(import_module(module), attribute))
+    found = _third_party().get(name, [])
+    if not found:
+        return None
+    if not _NAME.fullmatch(name):
+        return Broken("its name is not made of lower-case letters, digits, `-` and `_`")
+    if len(found) > 1:
+        return Broken(f"it is offered more than once, as {' and '.join(p.value for p in found)}")
+    return _loaded(name, found[0].load)
+
+
+def _third_party() -> dict[str, list[EntryPoint]]:
+    # Imported here because it is slow and the built-in targets do without.
+    from importlib.metadata import entry_points
+
+    by_name: dict[str, list[EntryPoint]] = {}
+    for point in entry_points(group=GROUP):
+        # A package that is installed and on the path besides is listed twice.
+        same_name = by_name.setdefault(point.name, [])
+        if point.value not in [known.value for known in same_name]:
+            same_name.append(point)
+    return by_name
+
+
+def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
+    try:
+        found = load()
+        fault = _fault(name, found)
+    # Whatever goes wrong in the code of others, `sys.exit` included, is theirs alone.
+    except (Exception, SystemExit) as error:
+        _LOG.debug("loading the generator of target %s", name, exc_info=True)
+        return Broken(describe(error))
+    if fault is not None:
+        return Broken(fault)
+    assert isinstance(found, Generator)
+    return found
+
+
+def _fault(name: str, found: object) -> str | None:
+    if not isinstance(found, Generator):
+        return f"it is an object of class `{type(found).__name__}`, not a `Generator`"
+    if found.api_version != API_VERSION:
+        return f"it is made for version {found.api_version} of the generator API, not {API_VERSION}"
+    if found.target != name:
+        return f"it calls itself `{found.target}`"
+    if not (isinstance(found.options_type, type) and is_dataclass(found.options_type)):
+        return "its `options_type` is not a dataclass"
+    types = get_type_hints(found.options_type)
+    for field in fields(found.options_type):
+        if types[field.name] not in OPTION_TYPES:
+            return f"its option `{field.name}` is neither `str`, `bool` nor `int`"
+        if field.default is MISSING:
+            return f"its option `{field.name}` has no default"
+    return None
+
+
+def describe(error: BaseException) -> str:
+    """An exception in one line, for a person."""
+    text = " ".join(str(error).split())
+    return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -1,0 +1,74 @@
+"""Replaces many files on disk together: all are written first and then moved in place."""
+
+from __future__ import annotations
+
+import os
+import secrets
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from types import TracebackType
+
+
+class Staging:
+    """Files written beside their place, under a name of their own.
+
+    Leaving the context removes what was not moved in place, and the folders made for it.
+    The `filename` of an OSError is the file that was to be written.
+    """
+
+    def __init__(self) -> None:
+        self._staged: dict[Path, Path] = {}
+        self._folders: list[Path] = []
+
+    def add(self, path: Path, content: bytes, executable: bool = False) -> None:
+        """Write the content of a file beside its place."""
+        with _blamed_on(path):
+            self._make_folder(path.parent)
+            beside = path.with_name(f".swarmc-{secrets.token_hex(8)}.tmp")
+            # Noted first: it must go also when writing it is interrupted.
+            self._staged[path] = beside
+            # O_EXCL: never through a link that somebody put there.
+            flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
+            with os.fdopen(os.open(beside, flags, 0o777 if executable else 0o666), "wb") as file:
+                file.write(content)
+
+    def move_in_place(self) -> Iterator[Path]:
+        """Replace the files one by one, in the order they were added; yield each one done."""
+        for path, beside in list(self._staged.items()):
+            with _blamed_on(path):
+                # `os.replace` is the one move that is atomic on every system.
+                os.replace(beside, path)  # noqa: PTH105
+            del self._staged[path]
+            yield path
+
+    def _make_folder(self, folder: Path) -> None:
+        missing = [above for above in (folder, *folder.parents) if not above.exists()]
+        for above in reversed(missing):
+            above.mkdir(exist_ok=True)
+            self._folders.append(above)
+
+    def __enter__(self) -> Staging:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        for beside in self._staged.values():
+            with suppress(OSError):
+                beside.unlink()
+        for folder in reversed(self._folders):
+            with suppress(OSError):
+                folder.rmdir()  # which only an empty one lets happen
+
+
+@contextmanager
+def _blamed_on(path: Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        error.filename, error.filename2 = str(path), None
+        raise

@@ -1,0 +1,23 @@
+"""What a person may have meant by a word that does not exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+from swarmdsl.diagnostics import listed
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str | None:
+    """A question that names the closest known word, None when nothing comes close."""
+    by_lower = {name.lower(): name for name in known}
+    close = get_close_matches(word.lower(), by_lower, n=1)
+    return f"did you mean `{by_lower[close[0]]}`?" if close else None
+
+
+def suggest(word: str, known: Iterable[str], what: str) -> str:
+    """`did_you_mean`, or else all there is: "the targets are `a` and `b`"."""
+    names = list(known)
+    if question := did_you_mean(word, names):
+        return question
+    return f"the {what} are {listed(names, 'and')}" if names else f"there are no {what}"
