@@ -1,0 +1,270 @@
+"""Types of expressions.
+
+A type that cannot be known (a field of a message the model does not describe, a name that
+was not resolved) is None and fits everywhere: one mistake is reported once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.ir.types import (
+    BOOL,
+    DURATION,
+    FLOAT,
+    FLOATS,
+    INT,
+    INTEGERS,
+    STRING,
+    Array,
+    Named,
+    Primitive,
+    Type,
+)
+from swarmdsl.scopes import report_unresolved
+from swarmdsl.source import Span
+from swarmdsl.syntax import (
+    Call,
+    ExpressionTree,
+    Field,
+    FieldUse,
+    NameUse,
+    Operation,
+    Value,
+    Variable,
+)
+
+UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
+_NUMBERS = {*INTEGERS, *FLOATS, "byte", "char"}
+_FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
+
+
+@dataclass(frozen=True)
+class Typing:
+    """Infers types; `interfaces` are the fields of the messages the model describes.
+
+    `event` is the type of the triggering event's message: absent where no event is at
+    hand (`has_event` False), None where it is not known.
+    """
+
+    interfaces: Mapping[Named, list[Field]]
+    report: Diagnostics = field(default_factory=Diagnostics)
+    has_event: bool = False
+    event: Type | None = None
+
+    def infer(self, tree: ExpressionTree) -> Type | None:
+        """The type of an expression; what is wrong in it is reported."""
+        match tree:
+            case Value(value=value, unit=unit):
+                return _value_type(value, unit)
+            case NameUse(name="event"):
+                if not self.has_event:
+                    self.report.report(
+                        "no-event-data",
+                        tree.span,
+                        help="use it in a guard or effect of a transition on one event",
+                    )
+                return self.event
+            case NameUse(target=target):
+                return target.type.type if target is not None else None
+            case FieldUse(base=base, name=name):
+                return self.field(self.infer(base), name, name.span)
+            case Call():
+                return self._call(tree)
+            case Operation(operands=(operand,)):
+                return self._unary(tree, self.infer(operand))
+            case Operation(operands=(left, right)):
+                return self._binary(tree, self.infer(left), self.infer(right))
+        raise AssertionError(tree)
+
+    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> None:
+        """Report an expression whose value cannot be used as a `wanted`."""
+        if tree is None:
+            return
+        found = self.infer(tree)
+        if not fits(found, wanted):
+            help_ = None
+            if wanted == DURATION and isinstance(tree, Value) and not tree.unit:
+                help_ = f"give it a unit: `{tree.span.text} s`"
+            self.report.report(
+                "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
+            )
+
+    def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
+        """The type of a field of a message."""
+        if isinstance(owner, Named):
+            fields = self.interfaces.get(owner)
+            if fields is None:
+                return None
+            found = next((known for known in fields if known.name == name), None)
+            if found is not None:
+                return found.type.type
+            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
+        elif owner is not None:
+            self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
+        return None
+
+    def _call(self, call: Call) -> Type | None:
+        types = [self.infer(argument) for argument in call.arguments]
+        count = _FUNCTIONS.get(call.function)
+        if count is None:
+            report_unresolved(
+                "built-in function",
+                call.function,
+                call.function.span,
+                _FUNCTIONS,
+                None,
+                self.report,
+            )
+            return None
+        enough = len(types) >= count if call.function in ("min", "max") else len(types) == count
+        if not enough:
+            self.report.report(
+                "bad-operand",
+                call.span,
+                operator=call.function,
+                operands=f"{len(types)} values: it takes {count}"
+                + (" or more" if call.function in ("min", "max") else ""),
+            )
+            return None
+        if call.function == "len":
+            self._require(call, call.function, types, lambda t: t == STRING or isinstance(t, Array))
+            return INT
+        if call.function == "sqrt":
+            self._require(call, call.function, types, is_number)
+            return FLOAT
+        durations = all(t in (DURATION, None) for t in types)
+        if not durations:
+            self._require(call, call.function, types, is_number)
+        return DURATION if durations and DURATION in types else _widest(types)
+
+    def _unary(self, tree: Operation, operand: Type | None) -> Type | None:
+        if tree.operator == "not":
+            self._require(tree, "not", [operand], lambda t: t == BOOL)
+            return BOOL
+        self._require(tree, "-", [operand], lambda t: is_number(t) or t == DURATION)
+        return operand
+
+    def _binary(self, tree: Operation, left: Type | None, right: Type | None) -> Type | None:
+        operator, types = str(tree.operator), [left, right]
+        if operator in ("and", "or"):
+            self._require(tree, operator, types, lambda t: t == BOOL)
+            return BOOL
+        if operator in ("==", "!="):
+            if not (fits(left, right) or fits(right, left)):
+                self._bad_operands(tree, operator, types)
+            return BOOL
+        if operator in ("<", "<=", ">", ">="):
+            if not _all_durations(types):
+                self._require(tree, operator, types, is_number)
+            return BOOL
+        if None in types:
+            return None
+        if operator in ("+", "-") and _all_durations(types):
+            return DURATION
+        if operator == "+" and left == right == STRING:
+            return STRING
+        if operator in ("*", "/") and left == DURATION and is_number(right):
+            return DURATION
+        if operator == "*" and is_number(left) and right == DURATION:
+            return DURATION
+        if operator == "/" and _all_durations(types):
+            return FLOAT
+        self._require(tree, operator, types, is_number)
+        return FLOAT if operator == "/" else _widest(types)
+
+    def _require(
+        self,
+        tree: ExpressionTree,
+        operator: str,
+        types: list[Type | None],
+        test: Callable[[Type], bool],
+    ) -> None:
+        if not all(known is None or test(known) for known in types):
+            self._bad_operands(tree, operator, types)
+
+    def _bad_operands(self, tree: ExpressionTree, operator: str, types: list[Type | None]) -> None:
+        names = [str(known) for known in types if known is not None]
+        self.report.report(
+            "bad-operand", tree.span, operator=operator, operands=listed(names, "and")
+        )
+
+
+def report_unknown_field(
+    owner: str, name: str, at: Span, fields: list[Field], report: Diagnostics
+) -> None:
+    """Report a field that a message does not have, with those it has."""
+    names = [str(known.name) for known in fields]
+    close = get_close_matches(name, names, 1)
+    if close:
+        help_ = f"did you mean `{close[0]}`?"
+    else:
+        help_ = f"it has {listed(names, 'and')}" if names else "it has no fields"
+    report.report("unknown-field", at, owner=owner, name=name, help=help_)
+
+
+def fits(found: Type | None, wanted: Type | None) -> bool:
+    """Whether a value of one type can be used where the other is wanted."""
+    if found is None or wanted is None or found == wanted:
+        return True
+    if isinstance(found, Array) and isinstance(wanted, Array):
+        return fits(found.element, wanted.element) and wanted.size in (None, found.size)
+    if is_number(found) and is_number(wanted):
+        return wanted in _FLOAT_TYPES or found not in _FLOAT_TYPES
+    return False
+
+
+def constant(tree: ExpressionTree) -> bool:
+    """Whether the value is known without running anything."""
+    match tree:
+        case Value():
+            return True
+        case Operation(operands=operands):
+            return all(constant(operand) for operand in operands)
+        case Call(arguments=arguments):
+            return all(constant(argument) for argument in arguments)
+    return False
+
+
+def assignable(tree: ExpressionTree) -> bool:
+    """Whether it names a variable or a field of one."""
+    match tree:
+        case NameUse(target=target):
+            return isinstance(target, Variable) or (target is None and tree.name != "event")
+        case FieldUse(base=base):
+            return assignable(base)
+    return False
+
+
+def is_number(type_: Type | None) -> bool:
+    """Whether it is an integer or floating-point type."""
+    return isinstance(type_, Primitive) and type_.name in _NUMBERS
+
+
+_FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
+
+
+def _value_type(value: bool | int | float | str, unit: str) -> Type:
+    if unit:
+        return DURATION
+    match value:
+        case bool():
+            return BOOL
+        case int():
+            return INT
+        case float():
+            return FLOAT
+    return STRING
+
+
+def _all_durations(types: list[Type | None]) -> bool:
+    return all(known in (DURATION, None) for known in types) and DURATION in types
+
+
+def _widest(types: list[Type | None]) -> Type | None:
+    if None in types:
+        return None
+    return FLOAT if any(known in _FLOAT_TYPES for known in types) else INT

@@ -1,0 +1,99 @@
+"""Names of types to types."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.ir.types import PRIMITIVES, Array, Named, Primitive, Type
+from swarmdsl.load import File
+from swarmdsl.scopes import FileScope
+from swarmdsl.syntax import (
+    ActionType,
+    AliasType,
+    Interface,
+    MessageType,
+    ServiceType,
+    StructType,
+    TypeRef,
+)
+
+_TYPES: tuple[type[Interface], ...] = (
+    StructType,
+    AliasType,
+    MessageType,
+    ServiceType,
+    ActionType,
+)
+# What other languages call some types.
+_OTHER_NAMES = {
+    "int": "int32",
+    "integer": "int32",
+    "uint": "uint32",
+    "float": "float64",
+    "double": "float64",
+    "number": "float64",
+    "boolean": "bool",
+    "str": "string",
+}
+
+
+def interface_name(file: File, name: str) -> Named:
+    """The full name of an interface declared in a file."""
+    package, _, last = name.rpartition("/")
+    return Named(package or file.package.replace(".", "_"), last)
+
+
+class TypeLinker:
+    """Sets `TypeRef.type`, following aliases across files."""
+
+    def __init__(self, scopes: Mapping[File, FileScope], report: Diagnostics) -> None:
+        self._scopes = scopes
+        self._report = report
+        self._homes = {
+            declaration: file for file in scopes for declaration in file.model.declarations
+        }
+
+    def link(self, ref: TypeRef, file: File, seen: tuple[AliasType, ...] = ()) -> None:
+        """Resolve a type named in a file; `seen` are the aliases on the way to it."""
+        if ref.type is not None:
+            return
+        scope = self._scopes[file]
+        element: Type | None = None
+        if ref.name in PRIMITIVES:
+            element = Primitive(ref.name)
+        elif "/" in ref.name:
+            package, _, last = ref.name.partition("/")
+            element = Named(package, last)
+        elif ref.name in _OTHER_NAMES and not scope.find(ref.name):
+            self._report.report(
+                "unresolved-name",
+                ref.span,
+                kind="type",
+                name=ref.name,
+                help=f"write `{_OTHER_NAMES[ref.name]}`",
+            )
+        else:
+            element = self._declared(ref, scope, seen)
+        if element is not None and ref.array:
+            size = ref.array.strip("[] \t\n")
+            element = Array(element, int(size) if size else None)
+        ref.type = element
+
+    def _declared(self, ref: TypeRef, scope: FileScope, seen: tuple[AliasType, ...]) -> Type | None:
+        declaration = scope.resolve(ref.name, ref.span, _TYPES, self._report)
+        if declaration is None:
+            return None
+        home = self._homes[declaration]
+        if not isinstance(declaration, AliasType):
+            return interface_name(home, declaration.name)
+        if declaration in seen:
+            self._report.report(
+                "type-cycle",
+                declaration.name.span,
+                name=declaration.name,
+                related=tuple(Label(alias.type.span, "by way of this") for alias in seen),
+            )
+            return None
+        self.link(declaration.type, home, (*seen, declaration))
+        return declaration.type.type

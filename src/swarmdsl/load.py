@@ -1,0 +1,166 @@
+"""Files into memory: read, parse, follow imports."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.graph import cycles
+from swarmdsl.parse import Parsed, parse
+from swarmdsl.source import Source, Span
+from swarmdsl.syntax import Declaration, Import, Model
+
+SUFFIX = ".swarm"
+
+
+@dataclass(eq=False)
+class File:
+    """A file of the project; `imports` are the files it imports, where they could be read."""
+
+    source: Source
+    parsed: Parsed
+    imports: list[tuple[Import, File]] = field(default_factory=list)
+
+    @property
+    def model(self) -> Model:
+        """The syntax tree."""
+        return self.parsed.model
+
+    @property
+    def package(self) -> str:
+        """The name of the package, or of the file where it declares none."""
+        if self.model.package is not None:
+            return str(self.model.package.name)
+        return Path(self.source.name).stem
+
+
+@dataclass
+class Project:
+    """All files of a run: those that were named first, then what they import."""
+
+    files: list[File] = field(default_factory=list)
+
+    def declarations(self) -> Iterator[tuple[File, Declaration]]:
+        """Every top-level declaration with its file."""
+        for file in self.files:
+            for declaration in file.model.declarations:
+                yield file, declaration
+
+
+def load(paths: Iterable[Path], report: Diagnostics) -> Project:
+    """Read the files, those in the folders, and everything they import."""
+    project = Project()
+    known: dict[Path, File | None] = {}
+    work: deque[tuple[Path, File | None, Import | None]] = deque(
+        (path, None, None) for path in _expanded(paths, report)
+    )
+    while work:
+        path, importer, statement = work.popleft()
+        identity = path.resolve()
+        if identity not in known:
+            file = _read(path, statement.path.span if statement else None, report)
+            known[identity] = file
+            if file is not None:
+                project.files.append(file)
+                work.extend(
+                    (_relative(path, wanted.path), file, wanted) for wanted in file.model.imports
+                )
+        imported = known[identity]
+        if importer is not None and statement is not None and imported is not None:
+            importer.imports.append((statement, imported))
+    _report_cycles(project, report)
+    return project
+
+
+def _expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
+    """Replace each folder by the .swarm files below it, in a stable order."""
+    for path in paths:
+        if not path.is_dir():
+            yield path
+            continue
+        found = sorted(inside for inside in path.rglob(f"*{SUFFIX}") if inside.is_file())
+        if not found:
+            report.report("nothing-to-compile", path=path)
+        yield from found
+
+
+def _relative(importer: Path, wanted: str) -> Path:
+    """Where an import leads, as a person would write it from here."""
+    return Path(os.path.normpath(importer.parent / wanted))
+
+
+def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
+    """Read and parse a file; None when it cannot be read, which is reported at `at`."""
+    if path.is_dir():
+        report.report("not-a-file", at, path=path, help="name a file in it")
+        return None
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        near = _similar_file(path)
+        report.report(
+            "file-not-found", at, path=path, help=f"did you mean `{near}`?" if near else None
+        )
+        return None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        report.report("unreadable-file", at, path=path, reason=reason.lower())
+        return None
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        _report_encoding(path, at, data, error, report)
+        return None
+    if "\0" in text:
+        report.report("not-text", at, path=path, help="this looks like a binary file")
+        return None
+    source = Source(str(path), text.replace("\r\n", "\n").replace("\r", "\n"), path)
+    before = len(report)
+    parsed = parse(source, report)
+    if not parsed.model.declarations and not parsed.model.imports and len(report) == before:
+        report.report(
+            "empty-file",
+            Span(source, 0, 0),
+            help="declare something, `event Start : ...` for instance",
+        )
+    return File(source, parsed)
+
+
+def _report_encoding(
+    path: Path, at: Span | None, data: bytes, error: UnicodeDecodeError, report: Diagnostics
+) -> None:
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        advice = "it looks like UTF-16: save it as UTF-8"
+    elif b"\0" in data:
+        advice = "this looks like a binary file"
+    else:
+        line = data.count(b"\n", 0, error.start) + 1
+        advice = f"save it as UTF-8; the first byte that is not is in line {line}"
+    report.report("not-text", at, path=path, help=advice)
+
+
+def _similar_file(path: Path) -> str | None:
+    from difflib import get_close_matches
+
+    try:
+        names = [entry.name for entry in path.parent.iterdir() if entry.suffix == SUFFIX]
+    except OSError:
+        return None
+    close = get_close_matches(path.name, names, 1)
+    return close[0] if close else None
+
+
+def _report_cycles(project: Project, report: Diagnostics) -> None:
+    for file, imports in cycles(project.files, lambda file: file.imports):
+        *way, last = imports
+        report.report(
+            "import-cycle",
+            last.span,
+            path=file.source.name,
+            related=tuple(Label(step.span, "by way of this import") for step in way),
+            help="move what both files need to a third one",
+        )

@@ -1,0 +1,77 @@
+"""From syntax trees to the intermediate representation.
+
+A model without errors is taken for granted: nothing is reported here, and a broken
+assertion is a bug in swarmdsl.
+"""
+
+from __future__ import annotations
+
+from swarmdsl import ir
+from swarmdsl.load import Project
+from swarmdsl.lower.architecture import (
+    lower_component,
+    lower_environment,
+    lower_member,
+    lower_swarm,
+)
+from swarmdsl.lower.context import make_context
+from swarmdsl.lower.interfaces import lower_event, lower_function, lower_interface
+from swarmdsl.lower.machines import lower_machine
+from swarmdsl.syntax import (
+    ActionType,
+    Component,
+    Environment,
+    Event,
+    Function,
+    Member,
+    MessageType,
+    ServiceType,
+    StateMachine,
+    StructType,
+    Swarm,
+)
+
+
+def lower(project: Project) -> ir.System:
+    """The whole project as one system, in the order of files and text."""
+    context = make_context(project)
+    interfaces: list[ir.Interface] = []
+    events: list[ir.Event] = []
+    functions: list[ir.Function] = []
+    components: list[ir.Component] = []
+    members: list[ir.Member] = []
+    machines: list[ir.StateMachine] = []
+    environments: list[ir.Environment] = []
+    swarms: list[ir.Swarm] = []
+    for file, declaration in project.declarations():
+        match declaration:
+            case StructType() | MessageType() | ServiceType() | ActionType():
+                interfaces.append(lower_interface(declaration, file))
+            case Event():
+                events.append(lower_event(declaration, context))
+            case Function():
+                functions.append(lower_function(declaration, context))
+            case Component():
+                components.append(lower_component(declaration, context))
+            case Member():
+                members.append(lower_member(declaration, context))
+            case StateMachine():
+                machines.append(lower_machine(declaration, context))
+            case Environment():
+                environments.append(lower_environment(declaration, context))
+            case Swarm():
+                swarms.append(lower_swarm(declaration, context))
+    first = project.files[0]
+    return ir.System(
+        name=first.package,
+        interfaces=tuple(interfaces),
+        events=tuple(events),
+        functions=tuple(functions),
+        components=tuple(components),
+        members=tuple(members),
+        machines=tuple(machines),
+        environments=tuple(environments),
+        swarms=tuple(swarms),
+        doc=first.model.package.doc if first.model.package else "",
+        origin=first.model.package.span if first.model.package else None,
+    )

@@ -1,0 +1,195 @@
+"""Which declaration a name means in a file.
+
+A file sees what it declares itself and what the files it imports declare. Its own
+declarations win; a name that two imported files declare must be qualified by a package.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+from typing import TypeVar
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.load import File, Project
+from swarmdsl.source import Span
+from swarmdsl.syntax import (
+    ActionType,
+    AliasType,
+    Choice,
+    Component,
+    Declaration,
+    Documented,
+    Environment,
+    Event,
+    FinalState,
+    Function,
+    Member,
+    MessageType,
+    Node,
+    Parallel,
+    Param,
+    Part,
+    Port,
+    Region,
+    ServiceType,
+    State,
+    StateMachine,
+    StructType,
+    Swarm,
+    Variable,
+)
+
+D = TypeVar("D", bound=Documented)
+
+KINDS: dict[type[Node], str] = {
+    StructType: "a struct",
+    AliasType: "a type",
+    MessageType: "a message",
+    ServiceType: "a service",
+    ActionType: "an action",
+    Event: "an event",
+    Function: "a function",
+    Component: "a component",
+    Member: "a member",
+    StateMachine: "a state machine",
+    Swarm: "a swarm",
+    Environment: "an environment",
+    Part: "a part",
+    Port: "a port",
+    Param: "a param",
+    Variable: "a variable",
+    State: "a state",
+    Parallel: "a parallel state",
+    Region: "a region",
+    Choice: "a choice",
+    FinalState: "a final state",
+}
+
+
+def kind_of(node: Node | type[Node]) -> str:
+    """What a person calls it, with an article: `a state machine`."""
+    return KINDS[node if isinstance(node, type) else type(node)]
+
+
+def bare(kind: str) -> str:
+    """The same without the article."""
+    return kind.split(" ", 1)[1]
+
+
+class FileScope:
+    """The declarations that one file sees."""
+
+    def __init__(self, file: File, project: Project) -> None:
+        self._project = project
+        self.file = file
+        self.own = _by_name(file)
+        self._imported = [(other, _by_name(other)) for _, other in file.imports]
+        # Whatever is missing may stand in text that could not be parsed or read.
+        self.lost = file.parsed.lost_names.union(
+            *(other.parsed.lost_names for other, _ in self._imported)
+        )
+        self.complete = len(file.imports) == len(file.model.imports)
+
+    def find(self, name: str) -> list[Declaration]:
+        """All declarations `name` could mean, the nearest only."""
+        if name in self.own:
+            return [self.own[name]]
+        found = [names[name] for _, names in self._imported if name in names]
+        if found or "." not in name:
+            return list(dict.fromkeys(found))
+        package, _, last = name.rpartition(".")
+        return [
+            names[last]
+            for other, names in [(self.file, self.own), *self._imported]
+            if other.package == package and last in names
+        ]
+
+    def resolve(
+        self, name: str, at: Span, wanted: type[D] | tuple[type[D], ...], report: Diagnostics
+    ) -> D | None:
+        """Find the declaration a name means; None when there is none, which is reported."""
+        kinds = wanted if isinstance(wanted, tuple) else (wanted,)
+        found = self.find(name)
+        fitting = [node for node in found if isinstance(node, kinds)]
+        if len(fitting) == 1:
+            return fitting[0]
+        expected = kind_of(kinds[0])
+        if len(fitting) > 1:
+            report.report(
+                "ambiguous-name",
+                at,
+                name=name,
+                related=tuple(Label(node.name.span, "declared here") for node in fitting),
+                help="put the name of the package before it: `package.Name`",
+            )
+        elif found:
+            report.report(
+                "wrong-kind",
+                at,
+                name=name,
+                actual=kind_of(found[0]),
+                expected=expected,
+                related=(Label(found[0].name.span, "declared here"),),
+            )
+        elif self.complete:
+            self._report_unresolved(name, at, kinds, report)
+        return None
+
+    def _report_unresolved(
+        self, name: str, at: Span, kinds: tuple[type[D], ...], report: Diagnostics
+    ) -> None:
+        if name.rpartition(".")[2] in self.lost:
+            return
+        elsewhere = next(
+            (
+                (file, node)
+                for file, node in self._project.declarations()
+                if node.name == name and isinstance(node, kinds)
+            ),
+            None,
+        )
+        if elsewhere is not None:
+            file, node = elsewhere
+            report.report(
+                "unresolved-name",
+                at,
+                kind=bare(kind_of(kinds[0])),
+                name=name,
+                related=(Label(node.name.span, "declared in a file that is not imported"),),
+                help=f"import `{file.source.name}`",
+            )
+            return
+        names = {**self.own}
+        for _, imported in self._imported:
+            names.update(imported)
+        candidates = [key for key, node in names.items() if isinstance(node, kinds)]
+        report_unresolved(bare(kind_of(kinds[0])), name, at, candidates, names, report)
+
+
+def report_unresolved(
+    kind: str,
+    name: str,
+    at: Span,
+    candidates: Iterable[str],
+    nodes: dict[str, Declaration] | None,
+    report: Diagnostics,
+) -> None:
+    """Report a name that means nothing, with the most similar one that would."""
+    close = get_close_matches(name, list(candidates), 1, 0.6)
+    similar = nodes.get(close[0]) if close and nodes else None
+    report.report(
+        "unresolved-name",
+        at,
+        kind=kind,
+        name=name,
+        related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
+        help=f"did you mean `{close[0]}`?" if close else None,
+    )
+
+
+def _by_name(file: File) -> dict[str, Declaration]:
+    names: dict[str, Declaration] = {}
+    for declaration in file.model.declarations:
+        names.setdefault(str(declaration.name), declaration)
+    return names

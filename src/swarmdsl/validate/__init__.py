@@ -1,0 +1,61 @@
+"""Every rule about a model whose names are resolved.
+
+A declaration with a piece missing after a syntax error is passed over: what it seems to
+lack may stand in the piece.
+"""
+
+from __future__ import annotations
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.load import Project
+from swarmdsl.syntax import (
+    Component,
+    Environment,
+    Event,
+    Function,
+    Member,
+    StateMachine,
+    Swarm,
+)
+from swarmdsl.validate.activities import check_activities
+from swarmdsl.validate.architecture import check_component, check_member
+from swarmdsl.validate.composition import check_environment, check_swarm
+from swarmdsl.validate.context import make_context
+from swarmdsl.validate.expressions import check_expressions
+from swarmdsl.validate.interfaces import check_event, check_function
+from swarmdsl.validate.names import check_names
+from swarmdsl.validate.reachability import check_reachability
+from swarmdsl.validate.structure import check_structure, check_submachine_cycles
+from swarmdsl.validate.transitions import check_transitions
+
+
+def validate(project: Project, report: Diagnostics) -> None:
+    """Run all rules."""
+    context = make_context(project, report)
+    check_names(project, report)
+    check_submachine_cycles(project, report)
+    for file, declaration in project.declarations():
+        if declaration in file.parsed.damaged:
+            continue
+        match declaration:
+            case Event():
+                check_event(declaration, context)
+            case Function():
+                check_function(declaration, context)
+            case Component():
+                check_component(declaration, context)
+            case Member():
+                check_member(declaration, context)
+            case StateMachine():
+                check_structure(declaration, context)
+                check_transitions(declaration, context)
+                check_reachability(declaration, context)
+                check_activities(declaration, context)
+                check_expressions(declaration, context)
+            case Swarm():
+                check_swarm(declaration, context)
+            case Environment():
+                check_environment(declaration, context)
+
+
+__all__ = ["validate"]

@@ -1,0 +1,132 @@
+"""Activities: goals and requests filled, results and responses stored."""
+
+from __future__ import annotations
+
+from swarmdsl.diagnostics import Label, listed
+from swarmdsl.inference import Typing, assignable, report_unknown_field
+from swarmdsl.ir.types import Named
+from swarmdsl.syntax import (
+    ActionType,
+    Activity,
+    Argument,
+    Communication,
+    Field,
+    ResultMapping,
+    ServiceType,
+    StateMachine,
+    Word,
+    walk,
+)
+from swarmdsl.validate.context import Context
+
+
+def check_activities(machine: StateMachine, context: Context) -> None:
+    """Check each call of a function against the interface of its action or service."""
+    users: dict[str, Activity] = {}
+    for activity in walk(machine):
+        if isinstance(activity, Activity):
+            _check_activity(activity, context)
+            for callback in (activity.goal_callback, activity.result_callback):
+                if callback is not None:
+                    _check_callback(callback, activity, users, context)
+
+
+def _check_activity(activity: Activity, context: Context) -> None:
+    context.check_repeated((argument.name for argument in activity.arguments), "field")
+    context.check_repeated((result.field for result in activity.results), "field")
+    function = activity.function.target
+    call = (
+        next((item for item in function.items if isinstance(item, Communication)), None)
+        if function is not None
+        else None
+    )
+    known = (
+        context.interfaces.get(call.type.type)
+        if call and isinstance(call.type.type, Named)
+        else None
+    )
+    sent: list[Field] | None = None
+    received: list[Field] | None = None
+    words = ("", "")
+    match known:
+        case ActionType():
+            sent, received, words = known.goal, known.result, ("goal", "result")
+        case ServiceType():
+            sent, received, words = known.request, known.response, ("request", "response")
+    name = f"`{call.type.span.text}`" if call else ""
+    if activity.goal_callback is None:
+        check_arguments(activity.arguments, sent, f"the {words[0]} of {name}", context.typing)
+        _check_missing(activity, sent, f"the {words[0]} of {name}", context)
+    for result in activity.results:
+        _check_result(result, received, f"the {words[1]} of {name}", context)
+
+
+def check_arguments(
+    arguments: list[Argument], fields: list[Field] | None, owner: str, typing: Typing
+) -> None:
+    """Check values given to fields by name; `fields` None means they are not known."""
+    for argument in arguments:
+        wanted = None
+        if fields is not None:
+            field = next((known for known in fields if known.name == argument.name), None)
+            if field is None:
+                report_unknown_field(
+                    owner, argument.name, argument.name.span, fields, typing.report
+                )
+            else:
+                wanted = field.type.type
+        typing.expect(argument.value.tree, wanted)
+
+
+def _check_missing(
+    activity: Activity, fields: list[Field] | None, owner: str, context: Context
+) -> None:
+    given = {str(argument.name) for argument in activity.arguments}
+    missing = [field for field in fields or () if field.name not in given]
+    if missing:
+        names = [str(field.name) for field in missing]
+        values = ", ".join(f"{name} = ..." for name in names)
+        context.report.report(
+            "missing-field",
+            activity.function.span,
+            owner=owner,
+            fields=listed(names, "and"),
+            related=tuple(Label(field.name.span, "declared here") for field in missing),
+            help=f"add `{values}`",
+        )
+
+
+def _check_result(
+    result: ResultMapping, fields: list[Field] | None, owner: str, context: Context
+) -> None:
+    tree = result.target.tree
+    if tree is not None and not assignable(tree):
+        context.report.report(
+            "not-assignable",
+            result.target.span,
+            text=result.target.span.text,
+            help="a result is stored in a variable, or in a field of one",
+        )
+        return
+    found = next((field for field in fields or () if field.name == result.field), None)
+    if found is None and fields is not None:
+        report_unknown_field(owner, result.field, result.field.span, fields, context.report)
+    if tree is None or found is None:
+        return
+    wanted = context.typing.infer(tree)
+    context.check_fits(found.type.type, wanted, result.span)
+
+
+def _check_callback(
+    callback: Word, activity: Activity, users: dict[str, Activity], context: Context
+) -> None:
+    """One callback serves one function: its goal has one type."""
+    first = users.setdefault(str(callback), activity)
+    if first.function.target is not activity.function.target:
+        context.report.report(
+            "duplicate-name",
+            callback.span,
+            kind="callback",
+            name=callback,
+            related=(Label(first.span, "used for another function here"),),
+        )

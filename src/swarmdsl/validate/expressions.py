@@ -1,0 +1,70 @@
+"""Types of guards, effects, delays and values in a state machine."""
+
+from __future__ import annotations
+
+from swarmdsl.inference import Typing, assignable
+from swarmdsl.ir.types import BOOL, DURATION, Named
+from swarmdsl.syntax import (
+    Assignment,
+    Branch,
+    Effect,
+    EventTrigger,
+    Param,
+    Send,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Variable,
+    walk,
+)
+from swarmdsl.validate.activities import check_arguments
+from swarmdsl.validate.context import Context
+
+
+def check_expressions(machine: StateMachine, context: Context) -> None:
+    """Check every expression of a machine but those of activities."""
+    for node in walk(machine):
+        match node:
+            case Param():
+                context.check_default(node, node.default)
+            case Variable():
+                context.check_default(node, node.initial)
+            case TimeTrigger():
+                context.expect(node.delay, DURATION, context.typing)
+            case Transition():
+                events = [t for t in node.triggers if isinstance(t, EventTrigger)]
+                all_events = events and len(events) == len(node.triggers)
+                typing = context.with_event(events) if all_events else context.typing
+                context.expect(node.guard, BOOL, typing)
+                _check_effects(node.effects, typing, context)
+            case Branch():
+                context.expect(node.guard, BOOL, context.typing)
+                _check_effects(node.effects, context.typing, context)
+
+
+def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> None:
+    for effect in effects:
+        match effect:
+            case Assignment():
+                _check_assignment(effect, typing, context)
+            case Send():
+                context.check_repeated((argument.name for argument in effect.arguments), "field")
+                event = effect.event.target
+                type_ = event.type.type if event is not None else None
+                fields = typing.interfaces.get(type_) if isinstance(type_, Named) else None
+                check_arguments(effect.arguments, fields, f"`{type_}`", typing)
+
+
+def _check_assignment(effect: Assignment, typing: Typing, context: Context) -> None:
+    target = effect.target.tree
+    if target is None:
+        return
+    if not assignable(target):
+        context.report.report(
+            "not-assignable",
+            effect.target.span,
+            text=effect.target.span.text,
+            help="only variables (`var name : Type`) and their fields can be assigned to",
+        )
+        return
+    typing.expect(effect.value.tree, typing.infer(target))

@@ -1,0 +1,116 @@
+"""No name is declared twice where one of the two would be hidden."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from typing import TypeVar
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.link_machines import regions, vertices
+from swarmdsl.load import Project
+from swarmdsl.scopes import bare, kind_of
+from swarmdsl.syntax import (
+    ActionType,
+    Component,
+    Declaration,
+    Event,
+    Field,
+    Function,
+    Member,
+    MessageType,
+    Node,
+    Parallel,
+    Param,
+    Part,
+    Port,
+    Region,
+    Role,
+    ServiceType,
+    State,
+    StateMachine,
+    StructType,
+    Swarm,
+    Variable,
+    Vertex,
+    Word,
+    walk,
+)
+
+Named = Declaration | Field | Param | Port | Part | Variable | Vertex | Region | Role
+
+N = TypeVar("N", bound=Named)
+
+# SCXML's own events start like this (SCXML 1.0, 5.10.1); `done` is a keyword anyway.
+_RESERVED_EVENTS = ("error",)
+
+
+def check_names(project: Project, report: Diagnostics) -> None:
+    """Check top-level names across files and all names inside declarations."""
+    top_level: dict[Hashable, Declaration] = {}
+    for file, declaration in project.declarations():
+        name = str(declaration.name)
+        key = name if "/" in name else (file.package, name)
+        _check_first(key, declaration, top_level, report)
+        if isinstance(declaration, Event) and name in _RESERVED_EVENTS:
+            report.report(
+                "reserved-event-name",
+                declaration.name.span,
+                name=name,
+                help="SCXML keeps it for errors of its own",
+            )
+        for node in walk(declaration):
+            for names in _namespaces(node):
+                seen: dict[Hashable, Named] = {}
+                for named in names:
+                    _check_first(str(named.name), named, seen, report)
+
+
+def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
+    """The groups of named things in a node whose names must differ."""
+    match node:
+        case StructType(fields=fields) | MessageType(fields=fields):
+            return (fields,)
+        case ServiceType(request=request, response=response):
+            return (request, response)
+        case ActionType(goal=goal, result=result, feedback=feedback):
+            return (goal, result, feedback)
+        case Function(items=items):
+            return ([item for item in items if isinstance(item, Param)],)
+        case Component(items=items):
+            return (items,)
+        case Member(items=items):
+            return ([item for item in items if isinstance(item, (Port, Param, Part))],)
+        case Swarm(items=items):
+            return ([item for item in items if isinstance(item, Role)],)
+        case StateMachine(items=items):
+            return (
+                [item for item in items if isinstance(item, (Param, Variable))],
+                vertices(node),
+            )
+        case Parallel():
+            return (regions(node),)
+        case State() | Region():
+            return (vertices(node),)
+    return ()
+
+
+def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:
+    first = seen.setdefault(key, named)
+    if first is not named:
+        name: Word = named.name
+        report.report(
+            "duplicate-name",
+            name.span,
+            kind=_kind(named),
+            name=name,
+            related=(Label(first.name.span, "first declared here"),),
+        )
+
+
+def _kind(named: Named) -> str:
+    match named:
+        case Field():
+            return "field"
+        case Role():
+            return "role"
+    return bare(kind_of(named))

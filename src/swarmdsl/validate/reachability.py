@@ -1,0 +1,85 @@
+"""Which states a machine can ever be in."""
+
+from __future__ import annotations
+
+from swarmdsl.link_machines import regions, vertices
+from swarmdsl.scopes import bare, kind_of
+from swarmdsl.syntax import (
+    Choice,
+    Container,
+    Initial,
+    Parallel,
+    Region,
+    State,
+    StateMachine,
+    Transition,
+    Vertex,
+)
+from swarmdsl.validate.context import Context
+
+
+def check_reachability(machine: StateMachine, context: Context) -> None:
+    """Report states that no way from the initial state leads to.
+
+    Guards and triggers are taken to be possible. Of states inside each other that are not
+    reached only the outermost is reported, and none in a container without initial state.
+    """
+    around: dict[Vertex | Region, Container] = {}
+    _collect(machine, around)
+    reached: set[Vertex | Region] = set()
+    work = _initials(machine)
+    while work:
+        state = work.pop()
+        if state in reached:
+            continue
+        reached.add(state)
+        work += _successors(state)
+        outer = around[state]
+        if not isinstance(outer, StateMachine):
+            work.append(outer)  # to be in a state is to be in those around it
+    _report(machine, reached, context)
+
+
+def _collect(container: Container, around: dict[Vertex | Region, Container]) -> None:
+    for inside in (*vertices(container), *regions(container)):
+        around[inside] = container
+        if isinstance(inside, (State, Parallel, Region)):
+            _collect(inside, around)
+
+
+def _initials(container: Container) -> list[Vertex | Region]:
+    return [
+        item.target.target
+        for item in container.items
+        if isinstance(item, Initial) and item.target.target is not None
+    ]
+
+
+def _successors(state: Vertex | Region) -> list[Vertex | Region]:
+    """What a state leads to: its regions, its initial state, its transitions' targets."""
+    found: list[Vertex | Region] = [*regions(state)]
+    if isinstance(state, (State, Region)):
+        found += _initials(state)
+    arrows = [
+        *(state.branches if isinstance(state, Choice) else ()),
+        *(
+            item
+            for item in (state.items if isinstance(state, (State, Parallel)) else ())
+            if isinstance(item, Transition)
+        ),
+    ]
+    return found + [arrow.target.target for arrow in arrows if arrow.target.target is not None]
+
+
+def _report(container: Container, reached: set[Vertex | Region], context: Context) -> None:
+    for region in regions(container):
+        _report(region, reached, context)
+    if not isinstance(container, Parallel) and not _initials(container):
+        return
+    for state in vertices(container):
+        if state not in reached:
+            context.report.report(
+                "unreachable-state", state.name.span, kind=bare(kind_of(state)), name=state.name
+            )
+        elif isinstance(state, (State, Parallel)):
+            _report(state, reached, context)

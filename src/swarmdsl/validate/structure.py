@@ -1,0 +1,152 @@
+"""What stands in a state machine: initial and final states, regions, contents of states."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.graph import cycles
+from swarmdsl.link_machines import content, regions, vertices
+from swarmdsl.load import Project
+from swarmdsl.syntax import (
+    Activity,
+    Choice,
+    Container,
+    FinalState,
+    Initial,
+    Parallel,
+    Param,
+    Ref,
+    Region,
+    State,
+    StateMachine,
+    walk,
+)
+from swarmdsl.validate.context import Context
+
+
+def check_structure(machine: StateMachine, context: Context) -> None:
+    """Check a machine and all its states."""
+    if not machine.endless and not _finals(machine):
+        context.report.report(
+            "missing-final",
+            machine.name.span,
+            owner=f"state machine `{machine.name}`",
+            help="add `final Done`, or write `endless statemachine` if it never ends",
+        )
+    for node in walk(machine):
+        match node:
+            case StateMachine():
+                _check_initial(node, f"state machine `{node.name}`", context)
+            case Region():
+                _check_initial(node, f"region `{node.name}`", context)
+            case Parallel():
+                if not regions(node):
+                    context.report.report("too-few-regions", node.name.span, name=node.name)
+            case State():
+                _check_state(node, context)
+            case Choice():
+                _check_choice(node, context)
+
+
+def check_submachine_cycles(project: Project, report: Diagnostics) -> None:
+    """No machine contains itself, through however many others."""
+    machines = [node for _, node in project.declarations() if isinstance(node, StateMachine)]
+    for machine, uses in cycles(machines, _reused):
+        *way, last = uses
+        report.report(
+            "submachine-cycle",
+            last.span,
+            name=machine.name,
+            related=tuple(Label(use.span, "by way of this state") for use in way),
+        )
+
+
+def _reused(machine: StateMachine) -> Iterator[tuple[Ref[StateMachine], StateMachine]]:
+    for state in walk(machine):
+        if isinstance(state, State) and state.machine is not None and state.machine.target:
+            yield state.machine, state.machine.target
+
+
+def _check_state(state: State, context: Context) -> None:
+    activities = [item for item in state.items if isinstance(item, Activity)]
+    context.check_single([item.span for item in activities], "the activity")
+    contents = []
+    if state.machine is not None:
+        contents.append("the content of another machine")
+    if any(True for _ in vertices(state)):
+        contents.append("states of its own")
+        if state.machine is None:
+            _check_initial(state, f"composite state `{state.name}`", context)
+    elif state.machine is None:
+        for item in state.items:
+            if isinstance(item, Initial):
+                context.report.report(
+                    "mixed-content",
+                    item.span,
+                    state=state.name,
+                    content="an initial state and no states",
+                )
+    if activities:
+        contents.append("an activity")
+    if len(contents) > 1:
+        context.report.report(
+            "mixed-content",
+            state.name.span,
+            state=state.name,
+            content=" and ".join(contents),
+            help="keep one of them; put the rest into a state of its own",
+        )
+    if state.machine is not None and state.machine.target is not None:
+        _check_reuse(state, state.machine.target, context)
+
+
+def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
+    """A reused machine cannot be given params yet: each needs a default."""
+    assert state.machine is not None
+    for param in machine.items:
+        if isinstance(param, Param) and param.default is None:
+            context.report.report(
+                "missing-value",
+                state.machine.span,
+                name=param.name,
+                machine=machine.name,
+                related=(Label(param.name.span, "declared here, without a default"),),
+            )
+
+
+def _check_initial(container: Container, owner: str, context: Context) -> None:
+    found = [item for item in container.items if isinstance(item, Initial)]
+    inside = [str(state.name) for state in vertices(container)]
+    if not found:
+        context.report.report(
+            "missing-initial",
+            container.name.span,
+            owner=owner,
+            help=f"add `initial {inside[0]}`, for instance" if inside else "add a state",
+        )
+    context.check_single([item.span for item in found], "the initial state")
+
+
+def _check_choice(choice: Choice, context: Context) -> None:
+    if not any(branch.otherwise for branch in choice.branches):
+        context.report.report(
+            "choice-without-else",
+            choice.name.span,
+            name=choice.name,
+            help="add `else -> ...`",
+        )
+
+
+def _finals(container: Container | None) -> list[FinalState]:
+    if container is None:
+        return []
+    return [state for state in vertices(container) if isinstance(state, FinalState)]
+
+
+def completes(state: State | Parallel | Region | Container) -> bool:
+    """Whether a state can become done: each region, or itself, has a final state."""
+    if isinstance(state, Parallel):
+        return all(completes(region) for region in regions(state))
+    inside = content(state)
+    return inside is None or bool(_finals(inside))

@@ -1,0 +1,206 @@
+"""Transitions: what triggers them, whether they can fire, where they may lead."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+from swarmdsl.diagnostics import Label
+from swarmdsl.inference import UNITS
+from swarmdsl.link_machines import regions
+from swarmdsl.source import Span
+from swarmdsl.syntax import (
+    Activity,
+    Choice,
+    Container,
+    DoneTrigger,
+    EventTrigger,
+    OutcomeTrigger,
+    Parallel,
+    Region,
+    State,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    Value,
+    Vertex,
+    walk,
+)
+from swarmdsl.validate.context import Context
+from swarmdsl.validate.structure import completes
+
+
+def check_transitions(machine: StateMachine, context: Context) -> None:
+    """Check the transitions of all states of a machine."""
+    for node in walk(machine):
+        match node:
+            case State() | Parallel():
+                transitions = [item for item in node.items if isinstance(item, Transition)]
+                _check_shadowed(transitions, context)
+                for transition in transitions:
+                    for trigger in transition.triggers:
+                        _check_trigger(trigger, node, context)
+                if isinstance(node, State):
+                    _check_outcomes(node, transitions, context)
+            case Choice():
+                _check_branches(node, context)
+    _check_targets(machine, context)
+
+
+def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) -> None:
+    match trigger:
+        case OutcomeTrigger(outcome=outcome):
+            if not _activities(owner):
+                context.report.report(
+                    "outcome-without-activity",
+                    trigger.span,
+                    state=owner.name,
+                    outcome=outcome,
+                    help="add `do function` to the state, or wait for `done`",
+                )
+        case DoneTrigger(region=region):
+            of = region.target if region is not None else owner
+            simple = isinstance(of, State) and of.machine is None and not _has_states(of)
+            if of is not None and (simple or not completes(of)):
+                kind = "region" if isinstance(of, Region) else "state"
+                context.report.report(
+                    "done-without-content",
+                    trigger.span,
+                    owner=f"{kind} `{of.name}`",
+                    related=(Label(of.name.span, "declared here"),),
+                    help="a composite state is done when a final state in it is reached",
+                )
+
+
+def _check_outcomes(state: State, transitions: list[Transition], context: Context) -> None:
+    """Each end of the activity needs a transition that is taken without condition."""
+    for activity in _activities(state):
+        for outcome in ("succeeded", "aborted"):
+            handled = [
+                transition
+                for transition in transitions
+                for trigger in transition.triggers
+                if isinstance(trigger, OutcomeTrigger) and trigger.outcome == outcome
+            ]
+            if any(transition.guard is None for transition in handled):
+                continue
+            context.report.report(
+                "unhandled-outcome",
+                activity.function.span,
+                outcome=outcome,
+                function=activity.function.name,
+                related=tuple(
+                    Label(transition.span, "only while its guard holds") for transition in handled
+                ),
+                help=f"add `on {outcome} -> ...` to state `{state.name}`",
+            )
+
+
+def _check_shadowed(transitions: list[Transition], context: Context) -> None:
+    """A transition without guard takes all that its triggers bring from those after it."""
+    taken: dict[Hashable, Transition] = {}
+    earliest: tuple[float, Transition] | None = None
+    for transition in transitions:
+        blockers = []
+        for trigger in transition.triggers:
+            delay = _constant_delay(trigger)
+            if delay is not None and earliest is not None and earliest[0] <= delay:
+                blockers.append(earliest[1])
+            else:
+                blockers += [taken[key] for key in _keys(trigger) if key in taken][:1]
+        if len(blockers) == len(transition.triggers):
+            _report_shadowed(transition.span, blockers[0].span, context)
+        elif transition.guard is None:
+            for trigger in transition.triggers:
+                taken.setdefault(_keys(trigger)[0], transition)
+                delay = _constant_delay(trigger)
+                if delay is not None and (earliest is None or delay < earliest[0]):
+                    earliest = (delay, transition)
+
+
+def _check_branches(choice: Choice, context: Context) -> None:
+    last = None
+    for branch in choice.branches:
+        if last is not None:
+            _report_shadowed(branch.span, last.span, context)
+        elif branch.otherwise:
+            last = branch
+
+
+def _report_shadowed(span: Span, blocker: Span, context: Context) -> None:
+    context.report.report(
+        "transition-never-fires",
+        span,
+        related=(Label(blocker, "this one is always taken first"),),
+        help="give the first one a guard, or remove one of the two",
+    )
+
+
+def _keys(trigger: Trigger) -> list[Hashable]:
+    """What a trigger reacts to, first itself, then the more general triggers that cover it."""
+    match trigger:
+        case EventTrigger(event=event):
+            return [("event", event.name)]
+        case OutcomeTrigger(outcome=outcome):
+            return [("outcome", outcome)]
+        case DoneTrigger(region=region, final=final):
+            whole = ("done", region.name if region else None, None)
+            return [whole] if final is None else [(*whole[:2], final.name), whole]
+        case TimeTrigger(delay=delay):
+            return [("after", delay.span.text)]
+
+
+def _constant_delay(trigger: Trigger) -> float | None:
+    if isinstance(trigger, TimeTrigger) and isinstance(trigger.delay.tree, Value):
+        value = trigger.delay.tree
+        if isinstance(value.value, (int, float)):
+            return value.value * UNITS.get(value.unit, 1)
+    return None
+
+
+def _check_targets(machine: StateMachine, context: Context) -> None:
+    """A transition cannot lead from one region into another of the same parallel state."""
+    homes: dict[Vertex, tuple[Region, ...]] = {}
+    arrows: list[tuple[Transition, tuple[Region, ...]]] = []
+
+    def visit(container: Container, inside: tuple[Region, ...]) -> None:
+        for item in container.items:
+            match item:
+                case Region():
+                    visit(item, (*inside, item))
+                case State() | Parallel():
+                    homes[item] = inside
+                    visit(item, inside)
+                case Transition():
+                    arrows.append((item, inside))
+                case _ if isinstance(item, Vertex):
+                    homes[item] = inside
+
+    visit(machine, ())
+    siblings = {
+        region: parallel
+        for parallel in walk(machine)
+        if isinstance(parallel, Parallel)
+        for region in regions(parallel)
+    }
+    for transition, source in arrows:
+        target = transition.target.target
+        if target is None:
+            continue
+        for here, there in zip(source, homes[target], strict=False):
+            if here is not there and siblings[here] is siblings[there]:
+                context.report.report(
+                    "target-outside",
+                    transition.target.span,
+                    target=transition.target.name,
+                    reason=f"it is in region `{there.name}`, the transition in `{here.name}`",
+                    related=(Label(target.name.span, "declared here"),),
+                )
+
+
+def _activities(state: State | Parallel) -> list[Activity]:
+    return [item for item in state.items if isinstance(item, Activity)]
+
+
+def _has_states(state: State) -> bool:
+    return any(isinstance(item, Vertex) for item in state.items)
