@@ -37,7 +37,9 @@ def check(paths: Sequence[Path]) -> Result:
     return Result(report, len(project.files), lower(project))
 
 
-def build(paths: Sequence[Path], requests: Sequence[Request], out: Path) -> Result:
+def build(
+    paths: Sequence[Path], requests: Sequence[Request], out: Path, *, force: bool = False
+) -> Result:
     """Check the model and write what the requested targets make of it below `out`."""
     checked = check(paths)
     if checked.system is None:
@@ -46,4 +48,4 @@ def build(paths: Sequence[Path], requests: Sequence[Request], out: Path) -> Resu
     files = emit(checked.system, requests, report)
     if report.has_errors:
         return checked
-    return Result(report, checked.files, checked.system, write(files, out, report))
+    return Result(report, checked.files, checked.system, write(files, out, report, force=force))

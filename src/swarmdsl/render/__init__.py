@@ -1,0 +1,34 @@
+"""Diagnostics for people and for programs, one module a format."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from importlib import import_module
+from typing import TextIO
+
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+
+_MODULES = {"text": "text", "concise": "concise", "json": "json_lines"}
+
+FORMATS = tuple(_MODULES)
+
+
+def render(found: Iterable[Diagnostic], format_: str, stream: TextIO) -> None:
+    """Write diagnostics to a stream in one of the FORMATS."""
+    # Imported here: only the format for people needs rich.
+    import_module(f"{__name__}.{_MODULES[format_]}").render(found, stream)
+
+
+def summary(report: Diagnostics, files: int) -> str:
+    """All in all: "2 errors, 1 warning in 3 files"."""
+    counts = [
+        counted(number, severity.value)
+        for severity in Severity
+        if (number := report.count(severity))
+    ]
+    return f"{', '.join(counts) or 'no errors'} in {counted(files, 'file')}"
+
+
+def counted(number: int, noun: str) -> str:
+    """A number of things: "1 file", "3 files"."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

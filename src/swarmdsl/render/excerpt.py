@@ -1,0 +1,63 @@
+"""The line of a source around a span, and where under it the marks go, in terminal cells."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from rich.cells import cell_len
+
+from swarmdsl.render.printable import printable
+from swarmdsl.source import Span
+
+WIDTH = 120
+_TAB = "    "
+_CONTEXT = 30
+_ELLIPSIS = "…"
+
+
+class Excerpt(NamedTuple):
+    """A line to show; the marks are `length` cells from cell `indent` on."""
+
+    text: str
+    indent: int
+    length: int
+
+
+def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
+    """The line where the span starts, cut to `width` cells around it.
+
+    A span of several lines is marked to the end of its first one, an empty span with
+    one cell.
+    """
+    line, column = span.source.line_column(span.start)
+    text = span.source.line_text(line)
+    first = min(column - 1, len(text))
+    last = min(first + max(span.end - span.start, 0), len(text.rstrip()))
+    shown = [_TAB if character == "\t" else printable(character) for character in text]
+    before, marked, after = (
+        "".join(part) for part in (shown[:first], shown[first:last], shown[last:])
+    )
+    if cell_len(before + marked + after) > width:
+        before = _last_cells(before, max(_CONTEXT, width - cell_len(marked + after) - 1))
+        marked = _first_cells(marked, width - cell_len(before))
+        after = _first_cells(after, width - cell_len(before + marked))
+    return Excerpt((before + marked + after).rstrip(), cell_len(before), max(cell_len(marked), 1))
+
+
+def _first_cells(text: str, cells: int) -> str:
+    """As much of the start of a text as fits, with an ellipsis for the rest."""
+    if cell_len(text) <= cells:
+        return text
+    kept, used = [], 1
+    for character in text:
+        used += cell_len(character)
+        if used > cells:
+            break
+        kept.append(character)
+    return "".join(kept) + _ELLIPSIS
+
+
+def _last_cells(text: str, cells: int) -> str:
+    if cell_len(text) <= cells:
+        return text
+    return _first_cells(text[::-1], cells)[::-1]

@@ -1,0 +1,19 @@
+"""Text of a model made safe to show: nothing in it can steer a terminal."""
+
+from __future__ import annotations
+
+import unicodedata
+
+# Control and invisible characters (escape sequences, changes of writing direction),
+# and what ends a line.
+_UNSAFE = frozenset({"Cc", "Cf", "Cs", "Zl", "Zp"})
+_STAND_IN = "\N{REPLACEMENT CHARACTER}"
+
+
+def printable(text: str) -> str:
+    """The text in one line, with a stand-in for each character that cannot be shown."""
+    if text.isprintable():
+        return text
+    return "".join(
+        _STAND_IN if unicodedata.category(character) in _UNSAFE else character for character in text
+    )

@@ -1,0 +1,95 @@
+"""What the targets are and what each can do, for people and for programs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from swarmdsl import plugins
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import Feature, Generator
+from swarmdsl.options import options_of
+from swarmdsl.suggest import suggest
+
+
+def all_targets(report: Diagnostics) -> list[Generator]:
+    """Every target that works; one that does not is reported."""
+    for name in plugins.hidden_names():
+        reason = "its name is that of a built-in target, which is used instead"
+        report.report("broken-generator", name=name, reason=reason)
+    found = []
+    for name in plugins.target_names():
+        generator = plugins.load(name)
+        if isinstance(generator, Generator):
+            found.append(generator)
+        elif generator is not None:
+            report.report("broken-generator", name=name, reason=generator.reason)
+    return found
+
+
+def one_target(name: str, report: Diagnostics) -> list[Generator]:
+    """The target of that name, if there is one and it works."""
+    generator = plugins.load(name)
+    if isinstance(generator, Generator):
+        return [generator]
+    if generator is None:
+        hint = suggest(name, plugins.target_names(), "targets")
+        report.report("unknown-target", name=name, help=hint)
+    else:
+        report.report("generator-failed", target=name, reason=generator.reason)
+    return []
+
+
+def as_list(generators: Sequence[Generator]) -> str:
+    """One line a target."""
+    width = max((len(generator.target) for generator in generators), default=0)
+    return "".join(f"{made.target:<{width}}  {made.summary}\n" for made in generators)
+
+
+def as_page(generator: Generator) -> str:
+    """All about one target."""
+    return "\n".join(_page(generator)) + "\n"
+
+
+def _page(generator: Generator) -> Iterator[str]:
+    yield f"{generator.target}: {generator.summary}"
+    if options := options_of(generator).values():
+        yield f"\noptions, given as `--option {generator.target}.NAME=VALUE`"
+        for option in options:
+            yield f"  {option.name}: {option.help}"
+            yield f"    takes {option.takes}; default: {_shown(option.default)}"
+    missing = _cannot_express(generator)
+    yield "\ncannot express" if missing else "\ncan express every construct of state machines"
+    yield from (f"  {construct}" for construct in missing)
+
+
+def _shown(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def _cannot_express(generator: Generator) -> list[str]:
+    return [feature.value for feature in Feature if feature not in generator.supports]
+
+
+def as_json(generators: Sequence[Generator]) -> str:
+    """The same as a list of objects."""
+    return json.dumps([_as_json(generator) for generator in generators], indent=2) + "\n"
+
+
+def _as_json(generator: Generator) -> dict[str, Any]:
+    return {
+        "name": generator.target,
+        "summary": generator.summary,
+        "options": [
+            {
+                "name": option.name,
+                "type": option.type.__name__,
+                "default": option.default,
+                "choices": list(option.choices),
+                "help": option.help,
+            }
+            for option in options_of(generator).values()
+        ],
+        "cannot_express": _cannot_express(generator),
+    }
