@@ -1,0 +1,76 @@
+"""Registers the language and its targets with textX: `textx check`, `textx generate`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from textx import GeneratorDesc, LanguageDesc, TextXError, TextXSemanticError
+
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+
+
+def _metamodel(**_params: Any) -> Any:
+    from swarmdsl.parse import metamodel
+
+    # One of textX's own: with the check in it, ours could not parse without checking.
+    made = metamodel.__wrapped__()
+    made.register_model_processor(_check)
+    return made
+
+
+def _check(model: Any, _metamodel: Any) -> None:
+    """Raise what swarmc finds wrong with a file; textX can show but one mistake."""
+    from swarmdsl import compiler
+
+    path = getattr(model, "_tx_filename", None)
+    if path is not None:
+        _raise_errors(compiler.check([Path(path)]).report)
+
+
+def _raise_errors(report: Diagnostics) -> None:
+    errors = [found for found in report if found.severity is Severity.ERROR]
+    if errors:
+        raise _as_textx_error(errors[0], len(errors) - 1)
+
+
+def _as_textx_error(error: Diagnostic, others: int) -> TextXError:
+    message = f"{error.message} [{error.code}]"
+    if others:
+        message += f" (and {others} more; run `swarmc check`)"
+    if error.primary is None:
+        return TextXSemanticError(message)
+    source, start, end = error.primary.span
+    line, column = source.line_column(start)
+    return TextXSemanticError(message, line, column, nchar=end - start, filename=source.name)
+
+
+def _generator(target: str, description: str) -> GeneratorDesc:
+    def generate(
+        _metamodel: Any,
+        model: Any,
+        output_path: str | None,
+        overwrite: bool,
+        _debug: bool,
+        **options: str | bool,
+    ) -> None:
+        from swarmdsl import compiler
+        from swarmdsl.emit import Request
+
+        if model is None:
+            raise TextXError("give a .swarm file to generate from")
+        path = Path(model._tx_filename)
+        # An option without a value arrives as True.
+        texts = {name: "true" if value is True else str(value) for name, value in options.items()}
+        out = Path(output_path) if output_path else path.parent
+        result = compiler.build([path], [Request(target, texts)], out, force=overwrite)
+        _raise_errors(result.report)
+
+    return GeneratorDesc("swarm", target, description, generate)
+
+
+swarm = LanguageDesc("swarm", "*.swarm", "Swarms of robots: members, behaviour", _metamodel)
+
+scxml = _generator("scxml", "SCXML documents of the state machines")
+adf = _generator("adf", "Abstraction description file of the functions")
+smach = _generator("smach", "ROS 1 packages that run the state machines with SMACH")
