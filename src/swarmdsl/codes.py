@@ -107,9 +107,7 @@ CODES: dict[str, Code] = {
     "would-overwrite": Code("SW0908", "error", "`{path}` would be overwritten, but {reason}"),
     "cannot-write": Code("SW0909", "error", "cannot write `{path}`: {reason}"),
     "nothing-to-generate": Code("SW0910", "warning", "target `{target}` found nothing to generate"),
-    "target-left-out": Code(
-        "SW0911", "warning", "target `{target}` is left out: it cannot express this model"
-    ),
+    "target-left-out": Code("SW0911", "warning", "target `{target}` is left out"),
     "generator-failed": Code(
         "SW0912", "error", "the generator of target `{target}` does not work: {reason}"
     ),

@@ -15,6 +15,9 @@ from swarmdsl.options import parse_options
 from swarmdsl.output_path import clash_key, stays_inside
 from swarmdsl.suggest import suggest
 
+# What a target cannot do, whatever it is asked for.
+_UNABLE = frozenset({"unsupported-construct", "generator-failed"})
+
 Output = dict[str, list[OutputFile]]
 """The files of each target, in the order of the requests."""
 
@@ -25,7 +28,8 @@ _LOG = logging.getLogger(__name__)
 class Request:
     """A target to build and its options, as text.
 
-    One that is not `required` is left out, with a warning, when it cannot express the model.
+    One that is not `required` is left out, with a warning, when it cannot express the model
+    or does not work, as long as another one can.
     """
 
     target: str
@@ -41,7 +45,7 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
     for request in _merged(requests, report):
         found = Diagnostics()
         files = _emit_target(system, request, uses, found)
-        if not request.required and _only_unsupported(found):
+        if not request.required and _is_unable(found):
             left_out[request.target] = found
             continue
         report.include(found)
@@ -83,7 +87,7 @@ def _emit_target(
         report.report("unknown-target", name=request.target, help=hint)
         return None
     if isinstance(generator, plugins.Broken):
-        _report_broken(request, generator.reason, report)
+        _report_broken(request.target, generator.reason, report)
         return None
     for feature, place in uses:
         if feature not in generator.supports:
@@ -114,7 +118,7 @@ def _run(
     # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
     except (Exception, SystemExit) as error:
         _LOG.debug("running the generator of target %s", request.target, exc_info=True)
-        _report_broken(request, plugins.describe(error), report)
+        _report_broken(request.target, plugins.describe(error), report)
         return None
     for file in files:
         if not (
@@ -122,44 +126,31 @@ def _run(
             and isinstance(file.path, str)
             and isinstance(file.text, str)
         ):
-            _report_broken(request, f"it returned {file!r:.80}, not an `OutputFile`", report)
+            _report_broken(request.target, f"it returned {file!r:.80}, not an `OutputFile`", report)
             return None
     return files
 
 
-def _report_broken(request: Request, reason: str, report: Diagnostics) -> None:
-    if request.required:
-        hint = "run again with `--debug` to see where it fails"
-        report.report("generator-failed", target=request.target, reason=reason, help=hint)
-    else:
-        report.report("broken-generator", name=request.target, reason=reason)
+def _report_broken(target: str, reason: str, report: Diagnostics) -> None:
+    hint = "`--debug` shows where it fails"
+    report.report("generator-failed", target=target, reason=reason, help=hint)
 
 
 def _errors(found: Diagnostics) -> list[Diagnostic]:
     return [diagnostic for diagnostic in found if diagnostic.severity is Severity.ERROR]
 
 
-def _only_unsupported(found: Diagnostics) -> bool:
-    errors = _errors(found)
-    return bool(errors) and all(error.name == "unsupported-construct" for error in errors)
+def _is_unable(found: Diagnostics) -> bool:
+    return found.has_errors and all(error.name in _UNABLE for error in _errors(found))
 
 
 def _report_left_out(target: str, found: Diagnostics, report: Diagnostics) -> None:
     first, *others = _errors(found)
     notes = [first.message]
     if others:
-        notes.append(f"there is more that it cannot express, in {_count(len(others), 'place')}")
-    report.report(
-        "target-left-out",
-        first.primary.span if first.primary else None,
-        notes=tuple(notes),
-        help=f"`--target {target}` shows all of it",
-        target=target,
-    )
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"
+        notes.append(f"and {len(others)} more: `--target {target}` shows them")
+    place = first.primary.span if first.primary else None
+    report.report("target-left-out", place, notes=tuple(notes), help=first.help, target=target)
 
 
 def _check_collisions(output: Output, report: Diagnostics) -> None:
