@@ -55,27 +55,34 @@ def _check_activity(activity: Activity, context: Context) -> None:
             sent, received, words = known.request, known.response, ("request", "response")
     name = f"`{call.type.span.text}`" if call else ""
     if activity.goal_callback is None:
-        check_arguments(activity.arguments, sent, f"the {words[0]} of {name}", context.typing)
-        _check_missing(activity, sent, f"the {words[0]} of {name}", context)
+        owner = f"the {words[0]} of {name}"
+        if check_arguments(activity.arguments, sent, owner, context.typing):
+            _check_missing(activity, sent, owner, context)
     for result in activity.results:
         _check_result(result, received, f"the {words[1]} of {name}", context)
 
 
 def check_arguments(
     arguments: list[Argument], fields: list[Field] | None, owner: str, typing: Typing
-) -> None:
-    """Check values given to fields by name; `fields` None means they are not known."""
+) -> bool:
+    """Check values given to fields by name; return whether all the fields exist.
+
+    `fields` None means that they are not known.
+    """
+    exist = True
     for argument in arguments:
         wanted = None
         if fields is not None:
             field = next((known for known in fields if known.name == argument.name), None)
             if field is None:
+                exist = False
                 report_unknown_field(
                     owner, argument.name, argument.name.span, fields, typing.report
                 )
             else:
                 wanted = field.type.type
         typing.expect(argument.value.tree, wanted)
+    return exist
 
 
 def _check_missing(

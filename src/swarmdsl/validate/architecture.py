@@ -93,9 +93,9 @@ def _check_connector(connector: Connector, context: Context) -> None:
     source, target = connector.source.port.target, connector.target.port.target
     if source is None or target is None:
         return
-    _check_end(connector.source, source, "out", context)
-    _check_end(connector.target, target, "in", context)
-    if not fits(source.type.type, target.type.type):
+    directed = _check_end(connector.source, source, "out", context)
+    directed &= _check_end(connector.target, target, "in", context)
+    if directed and not fits(source.type.type, target.type.type):
         context.report.report(
             "port-type-mismatch",
             connector.span,
@@ -110,15 +110,15 @@ def _check_connector(connector: Connector, context: Context) -> None:
         )
 
 
-def _check_end(end: PortRef, port: Port, wanted: str, context: Context) -> None:
-    """Check that data leaves a part by `out` and enters it by `in`.
+def _check_end(end: PortRef, port: Port, wanted: str, context: Context) -> bool:
+    """Check that data leaves a part by `out` and enters it by `in`; return whether it does.
 
     For the member's own ports it is the other way round: they are seen from inside.
     """
     if end.part is None:
         wanted = {"in": "out", "out": "in"}[wanted]
     if port.direction in (wanted, "inout"):
-        return
+        return True
     verb = "receives" if port.direction == "in" else "sends"
     where = "only" if end.part is not None else "only, seen from outside the member,"
     context.report.report(
@@ -128,3 +128,4 @@ def _check_end(end: PortRef, port: Port, wanted: str, context: Context) -> None:
         related=(Label(port.name.span, "declared here"),),
         help="a connector leads from the sender to the receiver: `connect sender -> receiver`",
     )
+    return False

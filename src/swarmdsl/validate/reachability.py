@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
+    Branch,
     Choice,
     Container,
     Initial,
@@ -14,6 +15,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
+    walk,
 )
 from swarmdsl.validate.context import Context
 
