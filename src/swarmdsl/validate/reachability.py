@@ -24,8 +24,12 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     """Report states that no way from the initial state leads to.
 
     Guards and triggers are taken to be possible. Of states inside each other that are not
-    reached only the outermost is reported, and none in a container without initial state.
+    reached only the outermost is reported, none in a container without initial state, and
+    none at all where a name was not resolved: it may have meant the state.
     """
+    arrows = (Initial, Transition, Branch)
+    if any(isinstance(node, arrows) and node.target.target is None for node in walk(machine)):
+        return
     around: dict[Vertex | Region, Container] = {}
     _collect(machine, around)
     reached: set[Vertex | Region] = set()
