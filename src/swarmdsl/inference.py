@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.ir.types import (
@@ -26,6 +25,7 @@ from swarmdsl.ir.types import (
 )
 from swarmdsl.scopes import report_unresolved
 from swarmdsl.source import Span
+from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
     Call,
     ExpressionTree,
@@ -198,11 +198,8 @@ def report_unknown_field(
 ) -> None:
     """Report a field that a message does not have, with those it has."""
     names = [str(known.name) for known in fields]
-    close = get_close_matches(name, names, 1)
-    if close:
-        help_ = f"did you mean `{close[0]}`?"
-    else:
-        help_ = f"it has {listed(names, 'and')}" if names else "it has no fields"
+    has = f"it has {listed(names, 'and')}" if names else "it has no fields"
+    help_ = did_you_mean(name, names) or has
     report.report("unknown-field", at, owner=owner, name=name, help=help_)
 
 

@@ -12,6 +12,7 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.source import Source, Span
+from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import Declaration, Import, Model
 
 SUFFIX = ".swarm"
@@ -101,10 +102,7 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     try:
         data = path.read_bytes()
     except FileNotFoundError:
-        near = _similar_file(path)
-        report.report(
-            "file-not-found", at, path=path, help=f"did you mean `{near}`?" if near else None
-        )
+        report.report("file-not-found", at, path=path, help=_similar_file(path))
         return None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
@@ -144,14 +142,11 @@ def _report_encoding(
 
 
 def _similar_file(path: Path) -> str | None:
-    from difflib import get_close_matches
-
     try:
         names = [entry.name for entry in path.parent.iterdir() if entry.suffix == SUFFIX]
     except OSError:
         return None
-    close = get_close_matches(path.name, names, 1)
-    return close[0] if close else None
+    return did_you_mean(path.name, names)
 
 
 def _report_cycles(project: Project, report: Diagnostics) -> None:

@@ -7,12 +7,12 @@ declarations win; a name that two imported files declare must be qualified by a 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.load import File, Project
 from swarmdsl.source import Span
+from swarmdsl.suggest import closest
 from swarmdsl.syntax import (
     ActionType,
     AliasType,
@@ -176,15 +176,15 @@ def report_unresolved(
     report: Diagnostics,
 ) -> None:
     """Report a name that means nothing, with the most similar one that would."""
-    close = get_close_matches(name, list(candidates), 1, 0.6)
-    similar = nodes.get(close[0]) if close and nodes else None
+    close = closest(name, candidates)
+    similar = nodes.get(close) if close and nodes else None
     report.report(
         "unresolved-name",
         at,
         kind=kind,
         name=name,
         related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
-        help=f"did you mean `{close[0]}`?" if close else None,
+        help=f"did you mean `{close}`?" if close else None,
     )
 
 

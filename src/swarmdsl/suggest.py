@@ -8,11 +8,17 @@ from difflib import get_close_matches
 from swarmdsl.diagnostics import listed
 
 
-def did_you_mean(word: str, known: Iterable[str]) -> str | None:
-    """A question that names the closest known word, None when nothing comes close."""
+def closest(word: str, known: Iterable[str]) -> str | None:
+    """The known word most like another, None when nothing comes close."""
     by_lower = {name.lower(): name for name in known}
     close = get_close_matches(word.lower(), by_lower, n=1)
-    return f"did you mean `{by_lower[close[0]]}`?" if close else None
+    return by_lower[close[0]] if close else None
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str | None:
+    """A question that names the closest known word, None when nothing comes close."""
+    name = closest(word, known)
+    return f"did you mean `{name}`?" if name else None
 
 
 def suggest(word: str, known: Iterable[str], what: str) -> str:
