@@ -1,0 +1,35 @@
+"""The classes of the syntax tree follow the grammar."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+
+import pytest
+
+from swarmdsl.parse import metamodel
+from swarmdsl.syntax import NODES
+
+# Words with a place, and the two rules for expressions, become `Word` and `Expression`.
+WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
+EXPRESSIONS = {"Expression", "Operand"}
+# Nodes that come from expression.lark, and the bases.
+OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "Operation"}
+
+
+def common_rules() -> dict[str, set[str]]:
+    return {
+        rule.__name__: set(rule._tx_attrs)
+        for rule in metamodel()
+        if rule._tx_type == "common" and rule.__name__ not in WORDS | EXPRESSIONS
+    }
+
+
+def test_each_rule_has_a_class_and_each_class_a_rule() -> None:
+    assert set(NODES) - OTHERS == set(common_rules())
+
+
+@pytest.mark.parametrize("rule", sorted(common_rules()))
+def test_attributes_are_those_of_the_rule(rule: str) -> None:
+    made = {attribute.name for attribute in fields(NODES[rule]) if attribute.init} - {"span"}
+
+    assert made == common_rules()[rule]
