@@ -84,6 +84,7 @@ CODES: dict[str, Code] = {
     ),
     "interface-kind": Code("SW0604", "error", "`{name}` is {actual}, not {expected}"),
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
+    "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),
@@ -110,5 +111,12 @@ CODES: dict[str, Code] = {
     "target-left-out": Code("SW0911", "warning", "target `{target}` is left out"),
     "generator-failed": Code(
         "SW0912", "error", "the generator of target `{target}` does not work: {reason}"
+    ),
+    "profile-left-out": Code("SW0913", "warning", "`{path}` is left out"),
+    "complete-by-hand": Code(
+        "SW0914", "warning", "the code generated from `{path}` needs a line by hand: {what}"
+    ),
+    "value-not-a-number": Code(
+        "SW0915", "warning", "the CPSwarm code generator cannot read the value of param `{name}`"
     ),
 }

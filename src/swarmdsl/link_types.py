@@ -75,7 +75,9 @@ class TypeLinker:
             )
         else:
             element = self._declared(ref, scope, seen)
-        if element is not None and ref.array:
+        if isinstance(element, Array) and ref.array:
+            self._report.report("nested-array", ref.span, help="put the inner array into a struct")
+        elif element is not None and ref.array:
             size = ref.array.strip("[] \t\n")
             element = Array(element, int(size) if size else None)
         ref.type = element

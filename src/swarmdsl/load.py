@@ -41,7 +41,10 @@ class File:
 
 @dataclass
 class Project:
-    """All files of a run: those that were named first, then what they import."""
+    """All files of a run: first those that no other imports, then what they import.
+
+    So a folder and the one file in it that imports all others are the same project.
+    """
 
     files: list[File] = field(default_factory=list)
 
@@ -74,7 +77,20 @@ def load(paths: Iterable[Path], report: Diagnostics) -> Project:
         if importer is not None and statement is not None and imported is not None:
             importer.imports.append((statement, imported))
     _report_cycles(project, report)
+    project.files = _in_import_order(project.files)
     return project
+
+
+def _in_import_order(files: list[File]) -> list[File]:
+    """Start with the files that no other imports, level by level."""
+    imported = {target for file in files for _, target in file.imports}
+    ordered = dict.fromkeys(file for file in files if file not in imported)
+    work = deque(ordered or files)  # in a cycle none is first
+    while work:
+        file = work.popleft()
+        ordered.setdefault(file)
+        work.extend(target for _, target in file.imports if target not in ordered)
+    return list(ordered)
 
 
 def _expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
