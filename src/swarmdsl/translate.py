@@ -42,7 +42,7 @@ class Dialect:
 
     `operators` renames those the target spells otherwise; `literal`, `variable` and
     `param` print a leaf; `event` is the message of the triggering event; `functions`
-    renames the built-in functions.
+    renames the built-in functions, to `.name` where the target has a property instead.
     """
 
     literal: Callable[[Literal], str]
@@ -73,8 +73,11 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
         case FieldAccess(base=base, field=field):
             return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
         case Call(function=function, arguments=arguments):
+            name = dialect.functions.get(function, function)
+            if name.startswith("."):
+                return f"{_operand(arguments[0], _PRIMARY, dialect)}{name}", _PRIMARY
             values = ", ".join(translate(argument, dialect) for argument in arguments)
-            return f"{dialect.functions.get(function, function)}({values})", _PRIMARY
+            return f"{name}({values})", _PRIMARY
         case Unary(operator="not", operand=operand):
             level = _PRECEDENCE["not"]
             word = dialect.operators.get("not", "not ")
@@ -105,5 +108,6 @@ def python_literal(literal: Literal) -> str:
 def ecmascript_literal(literal: Literal) -> str:
     """A literal in ECMAScript; a duration in milliseconds, as SCXML delays are."""
     if literal.type == DURATION:
-        return f"{literal.milliseconds:g}"
+        length = literal.milliseconds
+        return json.dumps(int(length) if length.is_integer() else length)
     return json.dumps(literal.value)

@@ -1,0 +1,1 @@
+"""The exchange formats of the field, written from the IR."""

@@ -1,0 +1,75 @@
+"""Target `scxml`: each state machine as SCXML, portable and in the CPSwarm dialect."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
+from swarmdsl.exchange.scxml.portable import portable
+from swarmdsl.exchange.scxml.xml import document
+from swarmdsl.generator import Generator, OutputFile, option
+from swarmdsl.ir import StateMachine, System
+
+PROFILES = ("both", "portable", "cpswarm")
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options of target `scxml`."""
+
+    profile: str = option(
+        "both", "W3C SCXML (portable), the CPSwarm dialect (cpswarm) or both", PROFILES
+    )
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """The files of each machine."""
+    for machine in system.machines:
+        if options.profile != "cpswarm":
+            text = document(portable(machine, system))
+            yield OutputFile(f"{machine.name}.scxml", text, origin=machine.origin)
+        if options.profile != "portable":
+            yield from _in_dialect(machine, system, options, report)
+
+
+def _in_dialect(
+    machine: StateMachine, system: System, options: Options, report: Diagnostics
+) -> Iterator[OutputFile]:
+    found = Diagnostics()
+    tree = cpswarm(machine, system, found)
+    if tree is not None:
+        report.include(found)
+        yield OutputFile(file_name(machine), document(tree), origin=machine.origin)
+    elif options.profile == "cpswarm":
+        report.include(found)
+    else:
+        _report_left_out(machine, found, report)
+
+
+def _report_left_out(machine: StateMachine, found: Diagnostics, report: Diagnostics) -> None:
+    """Warn that one of two files is missing, at the first thing that stands in its way."""
+    first, *others = _errors(found)
+    notes = [first.message]
+    if others:
+        notes.append(f"this is the first of {len(others) + 1} such places")
+    report.report(
+        "profile-left-out",
+        first.primary.span if first.primary is not None else machine.origin,
+        notes=tuple(notes),
+        help="option `profile` of the target says which files are wanted",
+        path=file_name(machine),
+    )
+
+
+def _errors(found: Diagnostics) -> list[Diagnostic]:
+    return [each for each in found if each.severity is Severity.ERROR]
+
+
+generator = Generator(
+    target="scxml",
+    summary="each state machine as SCXML, for any engine and for the CPSwarm code generator",
+    emit=emit,
+    options_type=Options,
+)

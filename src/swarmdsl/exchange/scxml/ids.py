@@ -1,0 +1,46 @@
+"""What states and data are called in a portable SCXML document.
+
+All ids of an XML document share one space. Ids of states have no dots: SCXML matches event
+names by their dotted prefixes, so `done.state.A` would also stand for a state `A.B`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+
+from swarmdsl.ir import StateMachine
+
+# What cannot be the name of a variable in ECMAScript, or is the name of one of SCXML's own.
+_RESERVED = re.compile(
+    "arguments|await|break|case|catch|class|const|continue|debugger|default|"
+    "delete|do|else|enum|eval|export|extends|false|finally|for|function|"
+    "if|implements|import|in|instanceof|interface|let|new|null|package|"
+    "private|protected|public|return|static|super|switch|this|throw|true|"
+    "try|typeof|undefined|var|void|while|with|yield|In|Math|NaN|Infinity|_.*"
+)
+
+
+def data_ids(machine: StateMachine) -> dict[str, str]:
+    """The `<data>` id of each variable and param: its name, or one much like it."""
+    names = [param.name for param in machine.params]
+    names += [variable.name for variable in machine.variables]
+    ids: dict[str, str] = {}
+    for name in names:
+        candidate = f"data_{name}" if _RESERVED.fullmatch(name) else name
+        while candidate in ids.values() or (candidate != name and candidate in names):
+            candidate += "_"
+        ids[name] = candidate
+    return ids
+
+
+def state_ids(machine: StateMachine, taken: set[str]) -> dict[str, str]:
+    """The XML id of each state: its name where that is unique, else its path."""
+    named = Counter(state.name for state in machine.walk())
+    ids: dict[str, str] = {}
+    for state in machine.walk():
+        path = state.id.replace(".", "-")
+        candidate = state.name if named[state.name] == 1 else path
+        # No name of the model has a `-`, and no state is called `state`.
+        ids[state.id] = f"{path}-state" if candidate in taken else candidate
+    return ids

@@ -1,0 +1,115 @@
+"""What SCXML has no words for: ROS, types and documentation, in a namespace of our own.
+
+The elements stand directly below `<scxml>` and `<state>`; engines skip them, and a reader
+finds in them what the IR had. Expressions are in the document's data model.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from lxml import etree
+
+from swarmdsl.exchange.constants import params_by_name
+from swarmdsl.exchange.policy import goal_policy, result_policy
+from swarmdsl.exchange.scxml.xml import add_payload, legal
+from swarmdsl.ir import (
+    Activity,
+    EventTrigger,
+    Param,
+    Send,
+    State,
+    StateMachine,
+    System,
+)
+from swarmdsl.translate import Dialect, translate
+
+
+def describe_machine(
+    root: etree._Element, machine: StateMachine, system: System, data: Mapping[str, str]
+) -> None:
+    """Say of the machine, and of the events and functions that it uses, what SCXML cannot."""
+    _doc(root, machine.doc)
+    if machine.endless:
+        add_payload(root, "endless")
+    used = set(_events(machine))
+    for event in system.events:
+        if event.name in used:
+            element = add_payload(
+                root,
+                "event",
+                name=event.name,
+                type=str(event.type),
+                topic=event.topic,
+                swarm="true" if event.swarm else "false",
+            )
+            _doc(element, event.doc)
+    called = {state.activity.function for state in machine.walk() if state.activity is not None}
+    for function in system.functions:
+        if function.name in called:
+            element = add_payload(
+                root,
+                "function",
+                name=function.name,
+                category=function.category,
+                paradigm=function.communication.paradigm,
+                server=function.communication.name,
+                type=str(function.communication.type),
+            )
+            _doc(element, function.doc)
+    for tag, items in (("parameter", machine.params), ("variable", machine.variables)):
+        for item in items:
+            element = add_payload(
+                root, tag, name=item.name, type=str(item.type), location=data[item.name]
+            )
+            _doc(element, item.doc)
+
+
+def describe_state(
+    element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
+) -> None:
+    """Say of a state what SCXML cannot."""
+    _doc(element, state.doc)
+    if state.submachine is not None:
+        add_payload(element, "submachine", name=state.submachine)
+    if state.activity is not None:
+        _activity(element, state.activity, params_by_name(machine.params), dialect)
+
+
+def _activity(
+    parent: etree._Element, activity: Activity, params: Mapping[str, Param], dialect: Dialect
+) -> None:
+    element = add_payload(parent, "activity", function=activity.function)
+    goal = add_payload(
+        element,
+        "goal",
+        policy=goal_policy(activity, params).value,
+        callback=activity.goal_callback,
+    )
+    for field, value in activity.arguments:
+        add_payload(goal, "argument", field=field, expr=translate(value, dialect))
+    result = add_payload(
+        element,
+        "result",
+        policy=result_policy(activity).value,
+        callback=activity.result_callback,
+    )
+    for mapping in activity.results:
+        location = ".".join((dialect.variable(mapping.variable), *mapping.path))
+        add_payload(result, "mapping", field=mapping.field, location=location)
+
+
+def _events(machine: StateMachine) -> Iterator[str]:
+    for state in machine.walk():
+        for transition in state.transitions:
+            for trigger in transition.triggers:
+                if isinstance(trigger, EventTrigger):
+                    yield trigger.event
+            for effect in transition.effects:
+                if isinstance(effect, Send):
+                    yield effect.event
+
+
+def _doc(parent: etree._Element, text: str) -> None:
+    if text:
+        add_payload(parent, "doc").text = legal(text)
