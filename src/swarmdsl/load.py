@@ -82,14 +82,16 @@ def load(paths: Iterable[Path], report: Diagnostics) -> Project:
 
 
 def _in_import_order(files: list[File]) -> list[File]:
-    """Start with the files that no other imports, level by level."""
+    """Start with the files that no other imports, then level by level what they import."""
     imported = {target for file in files for _, target in file.imports}
     ordered = dict.fromkeys(file for file in files if file not in imported)
-    work = deque(ordered or files)  # in a cycle none is first
+    work = deque(ordered)
     while work:
-        file = work.popleft()
-        ordered.setdefault(file)
-        work.extend(target for _, target in file.imports if target not in ordered)
+        for _, target in work.popleft().imports:
+            if target not in ordered:
+                ordered[target] = None
+                work.append(target)
+    ordered.update(dict.fromkeys(files))  # those of a cycle that nothing else leads to
     return list(ordered)
 
 
