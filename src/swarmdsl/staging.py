@@ -25,6 +25,8 @@ class Staging:
         """Write the content of a file beside its place."""
         with _blamed_on(path):
             self._make_folder(path.parent)
+            with suppress(FileNotFoundError):
+                path.lstat()  # a name that the disk does not take must fail before any move
             beside = path.with_name(f".swarmc-{secrets.token_hex(8)}.tmp")
             # Noted first: it must go also when writing it is interrupted.
             self._staged[path] = beside

@@ -1,0 +1,55 @@
+"""What all tests share: `--bless`, models from text, real files of the field."""
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.ir import System
+
+ROOT = Path(__file__).resolve().parents[1]
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--bless",
+        action="store_true",
+        help="take today's output as what the golden tests expect",
+    )
+
+
+@pytest.fixture
+def bless(request: pytest.FixtureRequest) -> bool:
+    """Whether golden files are to be rewritten instead of compared."""
+    return bool(request.config.getoption("--bless"))
+
+
+@pytest.fixture(scope="session")
+def examples() -> Path:
+    return ROOT / "examples"
+
+
+@pytest.fixture(scope="session")
+def corpus() -> Path:
+    """Files that projects of the field published; they are not part of this one."""
+    named = os.environ.get("SWARMDSL_CORPUS")
+    folder = Path(named) if named else ROOT.parent / "shared" / "corpus"
+    if not folder.is_dir():
+        pytest.skip("no corpus here; SWARMDSL_CORPUS names its folder")
+    return folder
+
+
+@pytest.fixture
+def compiled(tmp_path: Path) -> Callable[[str], System]:
+    """Compile the text of a valid model."""
+
+    def compile_text(text: str) -> System:
+        path = tmp_path / "model.swarm"
+        path.write_text(text, encoding="utf-8")
+        result = compiler.check([path])
+        assert result.system is not None, [found.message for found in result.report]
+        return result.system
+
+    return compile_text

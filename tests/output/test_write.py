@@ -1,0 +1,314 @@
+"""Writing: all or nothing, never over what the user wrote, never outside the folder."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.manifest import NAME
+from swarmdsl.output import Written, write
+
+
+def write_ok(output, out: Path, **options) -> Written:
+    report = Diagnostics()
+    written = write(output, out, report, **options)
+    assert written is not None, [found.message for found in report]
+    assert len(report) == 0
+    return written
+
+
+def errors(output, out: Path, **options) -> list[str]:
+    """The names of what was reported; nothing may have been written."""
+    before = tree(out)
+    report = Diagnostics()
+    assert write(output, out, report, **options) is None
+    assert tree(out) == before
+    return [found.name for found in report]
+
+
+def tree(folder: Path) -> dict[str, bytes | None]:
+    if not folder.is_dir():
+        return {}
+    return {
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None
+        for path in sorted(folder.rglob("*"))
+    }
+
+
+def files(**texts: str) -> dict[str, list[OutputFile]]:
+    return {"t": [OutputFile(name.replace("_", "."), text) for name, text in texts.items()]}
+
+
+def test_files_lie_below_the_folder_of_their_target(tmp_path):
+    output = {"a": [OutputFile("x/y.txt", "é\n")], "b": [OutputFile("run", "", executable=True)]}
+    written = write_ok(output, tmp_path / "deep" / "out")
+    out = tmp_path / "deep" / "out"
+    assert tree(out).keys() == {NAME, "a", "a/x", "a/x/y.txt", "b", "b/run"}
+    assert (out / "a/x/y.txt").read_bytes() == "é\n".encode()
+    assert os.access(out / "b/run", os.X_OK)
+    assert not os.access(out / "a/x/y.txt", os.X_OK)
+    assert written.written == ("a/x/y.txt", "b/run")
+
+
+def test_the_manifest_lists_hashes_in_order_and_is_deterministic(tmp_path):
+    write_ok({"t": [OutputFile("b", "1"), OutputFile("a", "2")]}, tmp_path / "one")
+    write_ok({"t": [OutputFile("a", "2"), OutputFile("b", "1")]}, tmp_path / "two")
+    assert (tmp_path / "one" / NAME).read_bytes() == (tmp_path / "two" / NAME).read_bytes()
+    listed = json.loads((tmp_path / "one" / NAME).read_text())["files"]
+    # sha256 of "2" and "1", by coreutils.
+    assert list(listed.items()) == [
+        ("t/a", "d4735e3a265e16eee03f59718b9b5d03019c07d8b6c51f90da3a666eec13ab35"),
+        ("t/b", "6b86b273ff34fce19d6b804eff5a3f5747ada4eaa22f1d49c01e52ddb7875b4b"),
+    ]
+
+
+def test_what_is_up_to_date_is_not_touched(tmp_path):
+    write_ok(files(a="1", b="1"), tmp_path)
+    for name in ("t/a", "t/b", NAME):
+        os.utime(tmp_path / name, (1, 1))
+    written = write_ok(files(a="1", b="2"), tmp_path)
+    assert (written.unchanged, written.written) == (("t/a",), ("t/b",))
+    assert (tmp_path / "t/a").stat().st_mtime == 1
+    assert (tmp_path / "t/b").stat().st_mtime != 1
+    os.utime(tmp_path / NAME, (1, 1))
+    write_ok(files(a="1", b="2"), tmp_path)
+    assert (tmp_path / NAME).stat().st_mtime == 1
+
+
+def test_a_lost_executable_bit_comes_back(tmp_path):
+    output = {"t": [OutputFile("run", "x", executable=True)]}
+    write_ok(output, tmp_path)
+    (tmp_path / "t/run").chmod(0o644)
+    assert write_ok(output, tmp_path).written == ("t/run",)
+    assert os.access(tmp_path / "t/run", os.X_OK)
+
+
+def test_a_file_from_elsewhere_stops_everything(tmp_path):
+    (tmp_path / "t").mkdir()
+    (tmp_path / "t/b").write_text("mine")
+    assert errors(files(a="1", b="1"), tmp_path) == ["would-overwrite"]
+    assert not (tmp_path / "t/a").exists()
+    assert write_ok(files(a="1", b="1"), tmp_path, force=True).written == ("t/a", "t/b")
+    assert (tmp_path / "t/b").read_text() == "1"
+
+
+def test_a_file_from_elsewhere_with_the_same_content_is_adopted(tmp_path):
+    (tmp_path / "t").mkdir()
+    (tmp_path / "t/a").write_text("1")
+    assert write_ok(files(a="1"), tmp_path).unchanged == ("t/a",)
+    assert write_ok(files(a="2"), tmp_path).written == ("t/a",)
+
+
+def test_an_edited_file_is_not_overwritten_unasked(tmp_path):
+    write_ok(files(a="1"), tmp_path)
+    (tmp_path / "t/a").write_text("edited")
+    report = Diagnostics()
+    assert write(files(a="2"), tmp_path, report) is None
+    (found,) = report
+    assert found.name == "would-overwrite"
+    assert "edited" in found.message
+    assert "--force" in (found.help or "")
+    assert (tmp_path / "t/a").read_text() == "edited"
+    write_ok(files(a="2"), tmp_path, force=True)
+    assert (tmp_path / "t/a").read_text() == "2"
+
+
+def test_a_deleted_file_is_written_again(tmp_path):
+    write_ok(files(a="1"), tmp_path)
+    (tmp_path / "t/a").unlink()
+    assert write_ok(files(a="1"), tmp_path).written == ("t/a",)
+
+
+def test_a_file_to_keep_is_written_once(tmp_path):
+    def output(text):
+        return {"t": [OutputFile("body.py", text, keep=True)]}
+
+    assert write_ok(output("1"), tmp_path).written == ("t/body.py",)
+    assert write_ok(output("2"), tmp_path).kept == ("t/body.py",)
+    (tmp_path / "t/body.py").write_text("mine")
+    assert write_ok(output("3"), tmp_path, force=True).kept == ("t/body.py",)
+    assert write_ok({"t": []}, tmp_path).removed == ()
+    assert (tmp_path / "t/body.py").read_text() == "mine"
+
+
+def test_what_is_no_longer_generated_is_removed_with_its_folder(tmp_path):
+    write_ok({"t": [OutputFile("d/e/old", "1"), OutputFile("new", "1")]}, tmp_path)
+    assert write_ok(files(new="1"), tmp_path).removed == ("t/d/e/old",)
+    assert tree(tmp_path).keys() == {NAME, "t", "t/new"}
+
+
+def test_what_is_no_longer_generated_but_was_edited_stays(tmp_path):
+    write_ok(files(old="1", new="1"), tmp_path)
+    (tmp_path / "t/old").write_text("edited")
+    written = write_ok(files(new="1"), tmp_path, force=True)
+    assert (written.removed, written.left) == ((), ("t/old",))
+    assert (tmp_path / "t/old").read_text() == "edited"
+    # From now on it is the user's, and no longer worth a word.
+    assert write_ok(files(new="1"), tmp_path).left == ()
+
+
+def test_the_output_of_targets_that_are_not_built_stays(tmp_path):
+    write_ok({"a": [OutputFile("x", "1")], "b": [OutputFile("y", "1")]}, tmp_path)
+    assert write_ok({"a": [OutputFile("x", "2")]}, tmp_path).removed == ()
+    assert write_ok({"b": [OutputFile("y", "2")]}, tmp_path).written == ("b/y",)
+
+
+def test_a_target_that_makes_nothing_any_more_leaves_nothing(tmp_path):
+    write_ok(files(a="1"), tmp_path)
+    assert write_ok({"t": []}, tmp_path).removed == ("t/a",)
+    assert tree(tmp_path).keys() == {NAME}
+
+
+def test_a_file_renamed_in_case_only_is_not_lost(tmp_path):
+    write_ok(files(Robot="1"), tmp_path)
+    write_ok(files(robot="1"), tmp_path)
+    assert (tmp_path / "t/robot").read_text() == "1"
+
+
+@pytest.mark.parametrize(
+    "content", ["", "{", "[]", '{"files": 1}', '{"files": {"t/a": 7}}', "\xff"]
+)
+def test_a_spoilt_manifest_makes_every_file_the_users(tmp_path, content):
+    write_ok(files(a="1"), tmp_path)
+    (tmp_path / NAME).write_text(content, encoding="latin-1")
+    assert errors(files(a="2"), tmp_path) == ["would-overwrite"]
+
+
+@pytest.mark.parametrize("path", ["t/../../victim", "/victim", "../victim", "t/link/victim"])
+def test_a_manifest_cannot_have_a_file_outside_removed(tmp_path, path):
+    out = tmp_path / "out"
+    write_ok(files(a="1"), out)
+    victim = tmp_path / "victim"
+    victim.write_text("1")
+    (out / "t/link").symlink_to(tmp_path)
+    listed = json.loads((out / NAME).read_text())
+    hash_of_1 = listed["files"]["t/a"]
+    listed["files"] = {"t/a": hash_of_1, path: hash_of_1, str(victim): hash_of_1}
+    (out / NAME).write_text(json.dumps(listed))
+    assert write_ok(files(a="1"), out).removed == ()
+    assert victim.read_text() == "1"
+
+
+def test_a_link_that_leads_out_is_refused(tmp_path):
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "t").symlink_to(elsewhere)
+    assert errors(files(a="1"), out) == ["outside-output"]
+    assert list(elsewhere.iterdir()) == []
+
+
+def test_a_link_in_place_of_a_file_is_refused_when_it_leads_out(tmp_path):
+    victim = tmp_path / "victim"
+    victim.write_text("mine")
+    (tmp_path / "out/t").mkdir(parents=True)
+    (tmp_path / "out/t/a").symlink_to(victim)
+    assert errors(files(a="1"), tmp_path / "out", force=True) == ["outside-output"]
+    assert victim.read_text() == "mine"
+
+
+def test_links_that_lead_in_a_circle_are_an_error(tmp_path):
+    (tmp_path / "t").symlink_to(tmp_path / "u")
+    (tmp_path / "u").symlink_to(tmp_path / "t")
+    report = Diagnostics()
+    assert write(files(a="1"), tmp_path, report) is None
+    assert [found.name for found in report] == ["cannot-write"]
+
+
+def test_the_output_folder_itself_may_be_a_link(tmp_path):
+    (tmp_path / "real").mkdir()
+    (tmp_path / "out").symlink_to(tmp_path / "real")
+    write_ok(files(a="1"), tmp_path / "out")
+    assert (tmp_path / "real/t/a").read_text() == "1"
+
+
+@pytest.mark.parametrize("obstacle", ["out", "out/t"])
+def test_a_file_where_a_folder_is_needed_is_named(tmp_path, obstacle):
+    place = tmp_path / obstacle
+    place.parent.mkdir(exist_ok=True)
+    place.write_text("mine")
+    report = Diagnostics()
+    assert write(files(a="1", b="1"), tmp_path / "out", report) is None
+    (found,) = report
+    assert found.name == "cannot-write"
+    assert f"`{place}`" in found.message
+    assert place.read_text() == "mine"
+
+
+def test_a_folder_where_a_file_is_to_be_is_an_error(tmp_path):
+    (tmp_path / "t/a").mkdir(parents=True)
+    assert errors(files(a="1", b="1"), tmp_path, force=True) == ["cannot-write"]
+
+
+def test_a_pipe_where_a_file_is_to_be_does_not_hang(tmp_path):
+    (tmp_path / "t").mkdir()
+    os.mkfifo(tmp_path / "t/a")
+    report = Diagnostics()
+    assert write(files(a="1"), tmp_path, report, force=True) is None
+    assert [found.name for found in report] == ["cannot-write"]
+
+
+def test_text_that_is_not_unicode_is_an_error(tmp_path):
+    assert errors(files(a="\ud800", b="1"), tmp_path) == ["cannot-write"]
+
+
+def test_a_name_too_long_for_the_disk_changes_nothing(tmp_path):
+    assert errors({"t": [OutputFile("a", "1"), OutputFile("x" * 300, "1")]}, tmp_path) == [
+        "cannot-write"
+    ]
+
+
+def failing_replace(monkeypatch, error: BaseException, after: int) -> None:
+    """Let `os.replace` work some times and then fail."""
+    real, done = os.replace, []
+
+    def replace(source, destination):
+        if len(done) == after:
+            raise error
+        done.append(destination)
+        real(source, destination)
+
+    monkeypatch.setattr(os, "replace", replace)
+
+
+def test_a_failing_disk_leaves_no_half_written_output(tmp_path, monkeypatch):
+    with monkeypatch.context() as patch:
+        failing_replace(patch, OSError(28, "No space left on device"), after=0)
+        report = Diagnostics()
+        assert write(files(a="1", b="1"), tmp_path / "out", report) is None
+    (found,) = report
+    assert found.message == f"cannot write `{tmp_path / 'out/t/a'}`: no space left on device"
+    assert tree(tmp_path) == {}
+
+
+def test_the_manifest_is_true_when_only_some_files_could_be_replaced(tmp_path, monkeypatch):
+    write_ok(files(a="1", b="1"), tmp_path)
+    with monkeypatch.context() as patch:
+        real, done = os.replace, []
+
+        def replace(source, destination):
+            if Path(destination).name == "b":
+                raise OSError(5, "Input/output error")
+            done.append(destination)
+            real(source, destination)
+
+        patch.setattr(os, "replace", replace)
+        report = Diagnostics()
+        assert write(files(a="2", b="2"), tmp_path, report) is None
+    assert tree(tmp_path).keys() == {NAME, "t", "t/a", "t/b"}
+    assert ((tmp_path / "t/a").read_text(), (tmp_path / "t/b").read_text()) == ("2", "1")
+    # Neither of them counts as edited.
+    assert write_ok(files(a="3", b="3"), tmp_path).written == ("t/a", "t/b")
+
+
+def test_an_interrupted_build_leaves_no_half_written_output(tmp_path, monkeypatch):
+    write_ok(files(a="1"), tmp_path)
+    before = tree(tmp_path)
+    failing_replace(monkeypatch, KeyboardInterrupt(), after=0)
+    with pytest.raises(KeyboardInterrupt):
+        write(files(a="2", b="2"), tmp_path, Diagnostics())
+    assert tree(tmp_path) == before
