@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
+from functools import cache
 from typing import Generic, Literal, TypeVar
 
 from swarmdsl.ir.types import Type
@@ -559,10 +560,15 @@ NODES: dict[str, type[Node]] = {
 }
 
 
+@cache
+def _attributes(cls: type[Node]) -> tuple[str, ...]:
+    return tuple(attribute.name for attribute in fields(cls))
+
+
 def children(node: Node) -> Iterator[Node]:
     """The nodes directly inside a node, in document order."""
-    for attribute in fields(node):
-        value = getattr(node, attribute.name)
+    for attribute in _attributes(type(node)):
+        value = getattr(node, attribute)
         if isinstance(value, Node):
             yield value
         elif isinstance(value, (list, tuple)):
