@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
-from functools import cache
 from typing import Generic, Literal, TypeVar
 
 from swarmdsl.ir.types import Type
@@ -558,16 +557,12 @@ NODES: dict[str, type[Node]] = {
     for cls in list(globals().values())
     if isinstance(cls, type) and issubclass(cls, Node)
 }
-
-
-@cache
-def _attributes(cls: type[Node]) -> tuple[str, ...]:
-    return tuple(attribute.name for attribute in fields(cls))
+_ATTRIBUTES = {cls: [attribute.name for attribute in fields(cls)] for cls in NODES.values()}
 
 
 def children(node: Node) -> Iterator[Node]:
     """The nodes directly inside a node, in document order."""
-    for attribute in _attributes(type(node)):
+    for attribute in _ATTRIBUTES[type(node)]:
         value = getattr(node, attribute)
         if isinstance(value, Node):
             yield value
