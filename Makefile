@@ -5,8 +5,13 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+EXTENSION := editors/vscode
+EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
+VSIX_DIR := dist
+# The time in the package of the extension: the same commit gives the same bytes.
+SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test check fmt bench bless dist clean
+.PHONY: demo test test-editor check fmt bench bless dist vsix clean
 
 demo: $(READY) ## Compile an example and show what was made.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -14,6 +19,9 @@ demo: $(READY) ## Compile an example and show what was made.
 
 test: $(READY) ## Run the tests.
 	$(BIN)/pytest
+
+test-editor: $(READY) $(EXTENSION_READY) ## Run the tests of the editor support.
+	$(BIN)/pytest tests/editor
 
 check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff format --check
@@ -33,6 +41,11 @@ bless: $(READY) ## Take today's output as what the golden tests expect.
 dist: $(READY) ## Build the source distribution and the wheel.
 	$(BIN)/python -m build
 
+vsix: $(EXTENSION_READY) ## Package the VS Code extension; needs Node 20.
+	mkdir -p $(VSIX_DIR)
+	cd $(EXTENSION) && TZ=UTC SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) \
+		npm run package -- --out $(abspath $(VSIX_DIR))/
+
 clean: ## Remove what was built, except .venv.
 	rm -rf build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis
 	find src generators tests benchmarks -name __pycache__ -prune -exec rm -rf {} +
@@ -40,4 +53,8 @@ clean: ## Remove what was built, except .venv.
 $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	touch $@
+
+$(EXTENSION_READY): $(EXTENSION)/package-lock.json
+	cd $(EXTENSION) && npm ci
 	touch $@

@@ -1,0 +1,108 @@
+"""What the tests of the editor support share: the words of the language, and the tools of Node."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from arpeggio import RegExMatch, StrMatch, Terminal
+from textx import metamodel_from_file
+
+ROOT = Path(__file__).resolve().parents[2]
+EXTENSION = ROOT / "editors" / "vscode"
+OFFLINE = re.compile(r"ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT")
+
+# A token: line, first column, column after it (from 0), scopes from the outermost.
+Token = tuple[int, int, int, list[str]]
+Npm = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+class Language:
+    """The textX grammar: the words it knows, and texts parsed with it."""
+
+    def __init__(self) -> None:
+        self.metamodel = metamodel_from_file(ROOT / "grammar" / "swarm.tx", autokwd=True)
+        # What a name refers to does not matter here, but textX wants an object.
+        self.metamodel.register_scope_providers({"*.*": lambda *_: object()})
+        rules = list(_rules(self.metamodel._parser_blueprint.parser_model, set()))
+        self.keywords = {rule.to_match for rule in rules if self.is_keyword(rule)}
+        self.regexes = {r.rule_name: r.to_match for r in rules if isinstance(r, RegExMatch)}
+        reserved = re.match(r"\(\?!\(\?:([a-z|]+)\)\\b\)", self.regexes["IDENT"])
+        assert reserved, "IDENT in grammar/lexical.tx has no list of reserved words"
+        self.reserved = set(reserved[1].split("|"))
+        self.contextual = self.keywords - self.reserved
+
+    @staticmethod
+    def is_keyword(rule: Any) -> bool:
+        """Tell whether a rule of the parser is a keyword; `autokwd` makes regexes of them."""
+        return isinstance(rule, StrMatch | RegExMatch) and rule.to_match.isalpha()
+
+    def parse(self, text: str) -> list[Terminal]:
+        """Return what `text` consists of; textX raises where it is not the language."""
+        return list(_terminals(self.metamodel.model_from_str(text)._tx_parser.parse_tree))
+
+
+def _rules(rule: Any, seen: set[int]) -> Iterator[Any]:
+    if id(rule) not in seen:
+        seen.add(id(rule))
+        yield rule
+        for inner in getattr(rule, "nodes", ()):
+            yield from _rules(inner, seen)
+
+
+def _terminals(node: Any) -> Iterator[Terminal]:
+    if isinstance(node, Terminal):
+        yield node
+    else:
+        for inner in node:
+            yield from _terminals(inner)
+
+
+@pytest.fixture(scope="session")
+def language() -> Language:
+    return Language()
+
+
+@pytest.fixture(scope="session")
+def npm() -> Npm:
+    """Run npm in the folder of the extension, with its development tools installed."""
+    program = shutil.which("npm")
+    if program is None or shutil.which("node") is None:
+        pytest.skip("node and npm are not installed")
+
+    def run(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [program, *arguments], cwd=EXTENSION, capture_output=True, text=True, **options
+        )
+
+    lock = EXTENSION / "package-lock.json"
+    installed = EXTENSION / "node_modules" / ".package-lock.json"
+    if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
+        result = run("ci")
+        if result.returncode and OFFLINE.search(result.stderr):
+            pytest.skip("the tools of the extension are not installed, and npm cannot fetch them")
+        assert result.returncode == 0, result.stderr
+    return run
+
+
+@pytest.fixture(scope="session")
+def tokenize(npm: Npm) -> Callable[[str], list[Token]]:
+    """Tokenise a text with the TextMate grammar, by the library that VS Code uses."""
+
+    def run(text: str) -> list[Token]:
+        result = subprocess.run(
+            ["node", EXTENSION / "tests" / "tokenize.js"],
+            input=text,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        return [tuple(token) for token in json.loads(result.stdout)]
+
+    return run

@@ -1,0 +1,140 @@
+"""Every part of a text gets the scope of its role: textX says what each part is."""
+
+from __future__ import annotations
+
+import re
+from itertools import accumulate
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+INLINE = ROOT / "editors" / "vscode" / "tests"
+# What is wrong in this one is wrong on purpose.
+INCOMPLETE = INLINE / "incomplete.swarm"
+MODELS = sorted({*(ROOT / "examples").rglob("*.swarm"), *INLINE.glob("*.swarm")} - {INCOMPLETE})
+
+# How the innermost scope of a part may begin, by what the part is.
+KEYWORD = ("keyword.", "storage.")
+NAME = ("entity.", "variable.other.", "variable.parameter.", "support.")
+SEPARATOR = ("punctuation.accessor.", "punctuation.separator.")
+STRING = ("string.", "punctuation.definition.string.", "constant.character.escape.")
+NUMBER = ("constant.numeric.", "keyword.other.unit.")
+OPERATOR = ("keyword.operator.", "punctuation.", "constant.language.unbounded.")
+COMMENT = ("comment.", "punctuation.definition.comment.")
+# Keywords that stand for a value rather than for a construct.
+VALUES = {
+    "true": ("constant.language.",),
+    "false": ("constant.language.",),
+    "event": (*KEYWORD, "variable.language."),
+}
+
+
+def scopes_of(part: Any, language: Any) -> tuple[str, ...]:
+    """Return how the scope of what textX read as `part` may begin."""
+    if language.is_keyword(part.rule):
+        return VALUES.get(part.value, KEYWORD)
+    if part.value.startswith('"'):
+        return STRING
+    if part.value[:1].isdigit():
+        return NUMBER
+    if re.match(r"[A-Za-z_]", part.value):
+        return NAME
+    if re.match(r"[./]\w", part.value):  # the rest of `package.Name` or `package/Type`
+        return NAME + SEPARATOR
+    if re.match(r"\[\s*\d", part.value):  # the size of an array
+        return OPERATOR + NUMBER
+    return OPERATOR
+
+
+def miscoloured(text: str, language: Any, tokenize: Any) -> list[str]:
+    """Return the parts of `text` that do not have the scope of their role."""
+    allowed = [COMMENT] * len(text)
+    for part in language.parse(text):
+        end = part.position + len(part.value)
+        allowed[part.position : end] = [scopes_of(part, language)] * len(part.value)
+    lines = text.split("\n")
+    starts = [0, *accumulate(len(line) + 1 for line in lines)]
+    return [
+        f"line {line + 1}: `{lines[line][start:end].strip()}` is {scopes[-1]}"
+        for line, start, end, scopes in tokenize(text)
+        if not all(
+            character.isspace() or scopes[-1].startswith(allowed[at])
+            for at, character in enumerate(lines[line][start:end], starts[line] + start)
+        )
+    ]
+
+
+def test_inline_assertions(npm: Any) -> None:
+    result = npm("test")
+    assert result.returncode == 0, result.stdout
+    for path in INLINE.glob("*.swarm"):
+        assert path.name in result.stdout
+
+
+@pytest.mark.parametrize("path", MODELS, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_every_part_of_a_model_has_the_scope_of_its_role(
+    path: Path, language: Any, tokenize: Any
+) -> None:
+    assert miscoloured(path.read_text(encoding="utf-8"), language, tokenize) == []
+
+
+def test_a_wrong_scope_is_found(language: Any, tokenize: Any) -> None:
+    # TextMate grammars read line by line, so this one cannot know that `goal` is a field here.
+    text = "action A {\n  goal {\n    goal\n    : string } }"
+    assert miscoloured(text, language, tokenize) == ["line 3: `goal` is meta.action.swarm"]
+
+
+def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) -> None:
+    words = sorted(language.keywords | language.reserved)
+    fields = " ".join(f"{word} : pkg/{word}\n" for word in words)
+    models = [
+        f"message M {{\n{fields}}}",
+        f"service S {{ request {{ {fields} }} response {{ {fields} }} }}",
+        f"action A {{ goal {{ {fields} }} result {{ {fields} }} feedback {{ {fields} }} }}",
+        *(
+            f"""
+            member R {{ part : Part {{ {word} = 1 }} }}
+            statemachine M {{
+              state S {{
+                do f({word} = v.{word}) gives ({word} => v.{word}, {word}=>v)
+                on E [v.{word} == 1] / v.{word} = 2, send E({word}= 3, {word} =v) -> S
+              }}
+            }}"""
+            for word in words
+        ),
+    ]
+    assert miscoloured("\n".join(models), language, tokenize) == []
+
+
+def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
+    model = """
+    package {0}
+    struct {0} {{ {0} : {0} }}
+    type {0} = {0}[3]
+    event {0} : {0}/{0}
+    function {0} : abstraction {{ param {0} : {0} = {0} }}
+    sensor {0} {{ in {0} : {0} param {0} : {0} }}
+    member {0} {{
+      behavior {0}
+      {0} : {0} {{ {0} = {0} }}
+      connect {0}.{0} -> {0}.{0}
+    }}
+    statemachine {0} {{
+      var {0} : {0} = {0} + {0}({0})
+      initial {0}
+      state {0} = {0} {{
+        do {0}(by {0}) gives by {0}
+        on {0} [{0} > {0}.{0}] / send {0}, {0} = {0} -> {0}
+        on done.{0} -> {0}
+        after {0} -> {0}
+      }}
+      parallel state {0} {{ region {0} {{ initial {0} final {0} }} on {0}.done -> {0} }}
+      choice {0} {{ [{0}] / send {0}({0} = {0}) -> {0} else -> {0} }}
+    }}
+    swarm {0} {{ {0} : {0}[1..*] environment {0} }}
+    environment {0} {{ world "w" size 1 m x 1 m }}
+    """
+    for word in sorted(language.contextual):
+        assert miscoloured(model.format(word), language, tokenize) == [], word
