@@ -50,6 +50,8 @@ class TypeLinker:
     def __init__(self, scopes: Mapping[File, FileScope], report: Diagnostics) -> None:
         self._scopes = scopes
         self._report = report
+        # Aliases of which a cycle was reported.
+        self._endless: set[AliasType] = set()
         self._homes = {
             declaration: file for file in scopes for declaration in file.model.declarations
         }
@@ -83,18 +85,24 @@ class TypeLinker:
         ref.type = element
 
     def _declared(self, ref: TypeRef, scope: FileScope, seen: tuple[AliasType, ...]) -> Type | None:
-        declaration = scope.resolve(ref.name, ref.span, _TYPES, self._report)
+        declaration = scope.resolve(
+            ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES
+        )
         if declaration is None:
             return None
         home = self._homes[declaration]
         if not isinstance(declaration, AliasType):
             return interface_name(home, declaration.name)
+        if declaration in self._endless:
+            return None
         if declaration in seen:
+            self._endless.update(seen)
+            first, *others = seen[seen.index(declaration) :]
             self._report.report(
                 "type-cycle",
-                declaration.name.span,
+                first.type.span,
                 name=declaration.name,
-                related=tuple(Label(alias.type.span, "by way of this") for alias in seen),
+                related=tuple(Label(alias.type.span, "by way of this") for alias in others),
             )
             return None
         self.link(declaration.type, home, (*seen, declaration))

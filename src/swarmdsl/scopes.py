@@ -6,10 +6,12 @@ declarations win; a name that two imported files declare must be qualified by a 
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
+from pathlib import Path
 from typing import TypeVar
 
-from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.load import File, Project
 from swarmdsl.source import Span
 from swarmdsl.suggest import closest
@@ -77,6 +79,11 @@ def bare(kind: str) -> str:
     return kind.split(" ", 1)[1]
 
 
+def kind_of_any(kinds: tuple[type[Node], ...]) -> str:
+    """What a person calls something of one of these kinds: several are those of types."""
+    return kind_of(kinds[0]) if len(kinds) == 1 else "a type"
+
+
 class FileScope:
     """The declarations that one file sees."""
 
@@ -91,56 +98,76 @@ class FileScope:
         )
         self.complete = len(file.imports) == len(file.model.imports)
 
-    def find(self, name: str) -> list[Declaration]:
-        """All declarations `name` could mean, the nearest only."""
+    def find(self, name: str) -> list[tuple[str, Declaration]]:
+        """All declarations `name` could mean, the nearest only, each with its package."""
         if name in self.own:
-            return [self.own[name]]
-        found = [names[name] for _, names in self._imported if name in names]
+            return [(self.file.package, self.own[name])]
+        found = [(other.package, names[name]) for other, names in self._imported if name in names]
         if found or "." not in name:
-            return list(dict.fromkeys(found))
+            return found
         package, _, last = name.rpartition(".")
         return [
-            names[last]
+            (package, names[last])
             for other, names in [(self.file, self.own), *self._imported]
             if other.package == package and last in names
         ]
 
     def resolve(
-        self, name: str, at: Span, wanted: type[D] | tuple[type[D], ...], report: Diagnostics
+        self,
+        name: str,
+        at: Span,
+        wanted: type[D] | tuple[type[D], ...],
+        report: Diagnostics,
+        *,
+        built_in: Iterable[str] = (),
     ) -> D | None:
-        """Find the declaration a name means; None when there is none, which is reported."""
+        """Find the declaration a name means; None when there is none, which is reported.
+
+        `built_in` are names that need no declaration: one of them may be meant.
+        """
         kinds = wanted if isinstance(wanted, tuple) else (wanted,)
         found = self.find(name)
-        fitting = [node for node in found if isinstance(node, kinds)]
+        # Of one package's declarations with this name only the first counts: the others
+        # are reported where they stand.
+        fitting: dict[str, D] = {}
+        for package, node in found:
+            if isinstance(node, kinds):
+                fitting.setdefault(package, node)
         if len(fitting) == 1:
-            return fitting[0]
-        expected = kind_of(kinds[0])
-        if len(fitting) > 1:
+            return next(iter(fitting.values()))
+        expected = kind_of_any(kinds)
+        if fitting:
             report.report(
                 "ambiguous-name",
                 at,
                 name=name,
-                related=tuple(Label(node.name.span, "declared here") for node in fitting),
-                help="put the name of the package before it: `package.Name`",
+                related=tuple(Label(node.name.span, "declared here") for node in fitting.values()),
+                help=f"write {listed([f'{package}.{name}' for package in fitting])}",
             )
         elif found:
             report.report(
                 "wrong-kind",
                 at,
                 name=name,
-                actual=kind_of(found[0]),
+                actual=kind_of(found[0][1]),
                 expected=expected,
-                related=(Label(found[0].name.span, "declared here"),),
+                related=(Label(found[0][1].name.span, "declared here"),),
             )
         elif self.complete:
-            self._report_unresolved(name, at, kinds, report)
+            self._report_unresolved(name, at, kinds, built_in, report)
         return None
 
     def _report_unresolved(
-        self, name: str, at: Span, kinds: tuple[type[D], ...], report: Diagnostics
+        self,
+        name: str,
+        at: Span,
+        kinds: tuple[type[D], ...],
+        built_in: Iterable[str],
+        report: Diagnostics,
     ) -> None:
         if name.rpartition(".")[2] in self.lost:
             return
+        kind = bare(kind_of_any(kinds))
         elsewhere = next(
             (
                 (file, node)
@@ -154,17 +181,22 @@ class FileScope:
             report.report(
                 "unresolved-name",
                 at,
-                kind=bare(kind_of(kinds[0])),
+                kind=kind,
                 name=name,
                 related=(Label(node.name.span, "declared in a file that is not imported"),),
-                help=f"import `{file.source.name}`",
+                help=f'add `import "{self._way_to(file)}"`',
             )
             return
         names = {**self.own}
         for _, imported in self._imported:
             names.update(imported)
         candidates = [key for key, node in names.items() if isinstance(node, kinds)]
-        report_unresolved(bare(kind_of(kinds[0])), name, at, candidates, names, report)
+        report_unresolved(kind, name, at, [*candidates, *built_in], names, report)
+
+    def _way_to(self, other: File) -> str:
+        """How an import in this file names another file."""
+        way = os.path.relpath(other.source.name, Path(self.file.source.name).parent)
+        return Path(way).as_posix()
 
 
 def report_unresolved(
