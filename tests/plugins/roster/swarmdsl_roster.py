@@ -1,0 +1,40 @@
+"""Target `roster`: who is in a swarm, as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import Feature, Generator, OutputFile, option
+from swarmdsl.ir import System
+
+
+@dataclass(frozen=True)
+class Options:
+    """What can be chosen."""
+
+    style: str = option("plain", "How a role is written.", choices=("plain", "markdown"))
+    title: str = option("", "A first line.")
+    indent: int = option(0, "Spaces before each role.")
+    count: bool = option(True, "Whether to say how many.")
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """One file a swarm."""
+    for swarm in system.swarms:
+        lines = [options.title] if options.title else []
+        for role in swarm.roles:
+            mark = "- " if options.style == "markdown" else ""
+            many = f" [{role.multiplicity}]" if options.count else ""
+            lines.append(f"{' ' * options.indent}{mark}{role.name}{many}")
+        yield OutputFile(f"{swarm.name}.txt", "".join(f"{line}\n" for line in lines))
+
+
+generator = Generator(
+    target="roster",
+    summary="Who is in a swarm",
+    emit=emit,
+    options_type=Options,
+    supports=frozenset(Feature) - {Feature.TIMEOUT},
+)

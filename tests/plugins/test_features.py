@@ -1,0 +1,97 @@
+"""Every use of a feature is found, where it stands."""
+
+import pytest
+
+from swarmdsl.features import used_features
+from swarmdsl.generator import Feature
+
+MODEL = """
+action m/Work {
+  goal { distance : float64 }
+  result { distance : float64 }
+}
+message m/Level { level : float64 }
+function work : abstraction { action "work" : m/Work }
+event Low : m/Level
+statemachine M {
+  param far : float64 = 1.0
+  var got : float64
+  initial Plain
+  state Plain {
+    on Low -> Work
+  }
+  state Work {
+    do work(distance = far) gives (distance => got)
+    on succeeded -> Decide
+    on aborted   -> Decide
+    on Low [event.level < 2.0] / got = event.level, send Low(level = got) -> Decide
+    after 3 s -> Decide
+  }
+  choice Decide {
+    [got < 1.0] -> Box
+    else -> Both
+  }
+  state Box {
+    initial In
+    state In {
+      on Low -> End
+    }
+  }
+  parallel state Both {
+    region A {
+      initial A1
+      state A1 {
+        do work(by make_goal) gives by take_result
+        on succeeded -> A2
+        on aborted   -> A2
+      }
+      final A2
+    }
+    on A.done -> End
+  }
+  final End
+}
+"""
+
+
+@pytest.fixture
+def found(compiled) -> dict[Feature, list[str]]:
+    by_feature: dict[Feature, list[str]] = {}
+    for feature, place in used_features(compiled(MODEL)):
+        assert place is not None
+        by_feature.setdefault(feature, []).append(" ".join(place.text.split()))
+    return by_feature
+
+
+@pytest.mark.parametrize(
+    ("feature", "starts"),
+    [
+        (Feature.PARAM, ["far"]),
+        (Feature.VARIABLE, ["got"]),
+        (Feature.COMPOSITE, ["Box"]),
+        (Feature.PARALLEL, ["Both"]),
+        (Feature.CHOICE, ["Decide"]),
+        (Feature.GUARD, ["event.level < 2.0", "got < 1.0"]),
+        (Feature.ASSIGNMENT, ["got = event.level"]),
+        (Feature.SEND, ["send Low"]),
+        (Feature.TIMEOUT, ["after 3 s"]),
+        (Feature.RESULT, ["distance => got"]),
+        (Feature.CALLBACK, ["do work(by make_goal) gives by take_result"]),
+        (Feature.EVENT_DATA, ["event", "event"]),
+        (Feature.CROSS_LEVEL, ["on Low -> End"]),
+    ],
+)
+def test_every_use_is_found(found, feature, starts):
+    places = found[feature]
+    assert len(places) == len(starts)
+    for place, start in zip(places, starts, strict=True):
+        assert place.startswith(start)
+
+
+def test_there_is_a_case_for_every_feature(found):
+    assert set(found) == set(Feature)
+
+
+def test_a_plain_machine_uses_nothing(compiled, examples):
+    text = (examples / "minimal" / "blinker.swarm").read_text(encoding="utf-8")
+    assert list(used_features(compiled(text))) == []
