@@ -1,0 +1,79 @@
+"""`swarmc targets`, `explain`, `--help` and `--version`."""
+
+import json
+from importlib.metadata import version
+
+import pytest
+
+from swarmdsl import explain, plugins
+from swarmdsl.cli import cli
+from swarmdsl.codes import CODES
+
+PAGES = sorted(explain.page_path("SW0000").parent.glob("*.md"))
+
+
+def test_the_list_of_targets(swarmc):
+    ran = swarmc("targets")
+    assert ran.code == 0
+    assert [line.split()[0] for line in ran.out.splitlines()][:3] == list(plugins.BUILT_IN)
+
+
+def test_one_target(swarmc):
+    ran = swarmc("targets", "scxml")
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.startswith("scxml: ")
+    assert "--option scxml.NAME=VALUE" in ran.out
+
+
+def test_targets_as_json(swarmc):
+    found = json.loads(swarmc("targets", "--format", "json").out)
+    assert [one["name"] for one in found][:3] == list(plugins.BUILT_IN)
+
+
+def test_an_unknown_target(swarmc):
+    ran = swarmc("targets", "smahc")
+    assert (ran.code, ran.out) == (2, "")
+    assert "did you mean `smach`?" in ran.err
+
+
+@pytest.mark.parametrize("word", ["SW0908", "sw0908", "would-overwrite", "Would-Overwrite"])
+def test_a_page_is_found_by_code_and_by_name(swarmc, word):
+    ran = swarmc("explain", word)
+    assert (ran.code, ran.err) == (0, "")
+    assert ran.out.startswith("# SW0908 would-overwrite\n")
+
+
+def test_a_word_that_is_no_diagnostic(swarmc):
+    ran = swarmc("explain", "unresolvd-name")
+    assert (ran.code, ran.out) == (2, "")
+    assert "did you mean `unresolved-name`?" in ran.err
+
+
+def test_the_list_of_diagnostics(swarmc):
+    lines = swarmc("explain").out.splitlines()
+    assert [line.split()[:2] for line in lines] == [
+        [entry.code, name] for name, entry in CODES.items()
+    ]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_pages_have_one_form(page):
+    names = {entry.code: name for name, entry in CODES.items()}
+    headings = [line for line in page.read_text(encoding="utf-8").splitlines() if line[:1] == "#"]
+    assert headings == [
+        f"# {page.stem} {names[page.stem]}",
+        "## What it means",
+        "## Example",
+        "## Way out",
+    ]
+
+
+def test_version(swarmc):
+    assert swarmc("--version").out == f"swarmc, version {version('swarmdsl')}\n"
+
+
+@pytest.mark.parametrize("command", [None, *cli.commands])
+def test_help_has_an_example(swarmc, command):
+    ran = swarmc(*([command] if command else []), "--help")
+    assert ran.code == 0
+    assert "Example: swarmc " in ran.out

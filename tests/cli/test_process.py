@@ -1,0 +1,113 @@
+"""`swarmc` as a process: signals, pipes, full disks and what it imports."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+posix = pytest.mark.skipif(os.name != "posix", reason="signals and limits of POSIX")
+
+HEAVY = ("textx", "arpeggio", "lark", "jinja2", "lxml", "rich", "importlib.metadata")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "allowed"),
+    [(["--version"], {"importlib.metadata"}), (["check", "--help"], set())],
+)
+def test_little_is_imported_for_a_little_answer(arguments, allowed):
+    code = (
+        "import sys\nfrom swarmdsl.cli import run\n"
+        f"run({arguments!r})\n"
+        f"print([name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert set(eval(ran.stderr)) <= allowed
+
+
+def test_debug_shows_where_a_bug_of_ours_is(tmp_path):
+    code = (
+        "import sys\nfrom swarmdsl import cli, compiler\n"
+        "compiler.check = lambda paths: {}['gone']\n"
+        "sys.exit(cli.run(['check', '--debug']))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ran.returncode == 3
+    assert "Traceback (most recent call last)" in ran.stderr
+    assert "KeyError: 'gone'" in ran.stderr
+
+
+@posix
+def test_a_closed_pipe_ends_it_quietly(spawn):
+    process = spawn("explain")
+    process.stdout.close()
+    assert process.stderr.read() == b""
+    assert process.wait() == -signal.SIGPIPE
+    process.stderr.close()
+
+
+@posix
+def test_a_full_disk_behind_stdout_is_an_error(spawn):
+    with Path("/dev/full").open("wb") as full:
+        process = spawn("explain", stdout=full)
+        _, err = process.communicate()
+    assert process.returncode == 1
+    assert err.decode() == "swarmc: cannot write the output: No space left on device\n"
+
+
+@posix
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_a_signal_ends_it_quietly(spawn, tmp_path, number, code):
+    # Opening a pipe waits for the other end: swarmc is certainly at work when it is there.
+    pipe = tmp_path / "model.swarm"
+    os.mkfifo(pipe)
+    process = spawn("check", pipe)
+    with pipe.open("wb"):
+        process.send_signal(number)
+        out, err = process.communicate()
+    assert (process.returncode, out, err.strip()) == (code, b"", b"")
+
+
+@posix
+def test_a_disk_that_fills_up_leaves_the_output_as_it_was(good, tmp_path):
+    """A limit on the size of files stands for the disk: it stops a write in the middle."""
+    made = tmp_path / "made"
+    code = (
+        "import resource, sys\nfrom swarmdsl.cli import run\n"
+        "from swarmdsl import plugins\nfrom swarmdsl.generator import Generator, OutputFile\n"
+        "limited = lambda system, options, report: [\n"
+        "    OutputFile('small', 'x'), OutputFile('large', 'x' * 100_000)]\n"
+        "generator = Generator('t', '', limited)\n"
+        "plugins.BUILT_IN['t'] = '__main__:generator'\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))\n"
+        f"sys.exit(run(['build', {str(good)!r}, '-t', 't', '-o', {str(made)!r}]))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ran.returncode == 1
+    assert f"error[SW0909]: cannot write `{made}/t/large`: file too large" in ran.stdout
+    assert not made.exists()
+
+
+@posix
+def test_a_terminal_without_unicode_shows_what_it_can(spawn, tmp_path):
+    path = tmp_path / "日本.swarm"
+    path.write_text("state Größe", encoding="utf-8")
+    environment = {**os.environ, "PYTHONIOENCODING": "ascii"}
+    process = spawn("check", path, env=environment)
+    out, err = process.communicate()
+    assert process.returncode == 1
+    assert b"\\u65e5\\u672c.swarm:1:1" in out
+    assert b"Traceback" not in err
+
+
+@posix
+def test_a_file_name_that_is_not_unicode(spawn, tmp_path):
+    path = os.fsencode(tmp_path) + b"/\xff.swarm"
+    Path(os.fsdecode(path)).write_text("state X")
+    process = spawn("check", os.fsdecode(path))
+    out, err = process.communicate()
+    assert process.returncode == 1
+    assert b"error[" in out
+    assert b"Traceback" not in err

@@ -1,0 +1,92 @@
+"""The language and its targets in textX's own command line."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+from swarmdsl import plugins, textx_entry
+
+TEXTX = "from textx.cli import textx; textx()"
+
+
+def textx(*arguments: object) -> "subprocess.CompletedProcess[str]":
+    command = [sys.executable, "-c", TEXTX, *map(str, arguments)]
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+def test_the_language_is_listed():
+    listed = textx("list-languages")
+    assert "swarm (*.swarm)" in listed.stdout + listed.stderr
+
+
+def test_every_built_in_target_is_listed():
+    listed = textx("list-generators")
+    for target in plugins.BUILT_IN:
+        assert f"swarm -> {target}" in listed.stdout + listed.stderr
+        assert getattr(textx_entry, target).description
+
+
+def test_check_of_good_models(examples):
+    ran = textx("check", *sorted(examples.rglob("*.swarm")))
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_check_says_where_the_first_mistake_is(bad):
+    ran = textx("check", bad)
+    assert ran.returncode == 1
+    assert f"{bad}:8:21: no state called `Of`" in ran.stderr
+    assert "and 1 more; run `swarmc check`" in ran.stderr
+    assert "Traceback" not in ran.stderr
+
+
+def test_check_of_a_file_with_a_syntax_error(tmp_path):
+    path = tmp_path / "x.swarm"
+    path.write_text("member {")
+    ran = textx("check", path)
+    assert ran.returncode == 1
+    assert f"{path}:1:" in ran.stderr
+    assert "Traceback" not in ran.stderr
+
+
+def test_generate(good, tmp_path):
+    for target in ("scxml", "adf"):
+        ran = textx("generate", good, "--target", target, "-o", tmp_path / "made")
+        assert ran.returncode == 0, ran.stderr
+        files = [path for path in (tmp_path / "made" / target).rglob("*") if path.is_file()]
+        assert files, target
+
+
+def test_generate_with_an_option(good, tmp_path):
+    ran = textx(
+        *("generate", good, "--target", "scxml", "-o", tmp_path, "--profile", "portable"),
+    )
+    assert ran.returncode == 0, ran.stderr
+    assert [path.name for path in (tmp_path / "scxml").iterdir()] == ["Blinking.scxml"]
+
+
+def test_generate_overwrites_only_when_told(good, tmp_path):
+    textx("generate", good, "--target", "scxml", "-o", tmp_path)
+    edited = next((tmp_path / "scxml").glob("*.scxml"))
+    edited.write_text("mine")
+    refused = textx("generate", good, "--target", "scxml", "-o", tmp_path)
+    assert refused.returncode == 1
+    assert "would be overwritten" in refused.stderr
+    assert edited.read_text() == "mine"
+    forced = textx("generate", good, "--target", "scxml", "-o", tmp_path, "--overwrite")
+    assert forced.returncode == 0, forced.stderr
+    assert edited.read_text() != "mine"
+
+
+def test_generate_from_a_model_with_mistakes(bad, tmp_path):
+    ran = textx("generate", bad, "--target", "scxml", "-o", tmp_path / "made")
+    assert ran.returncode == 1
+    assert not (tmp_path / "made").exists()
+
+
+def test_the_metamodel_is_textx_s_own_and_checks(good):
+    """Our own parser must not run the check that textX runs after parsing."""
+    from swarmdsl.parse import metamodel
+
+    made = textx_entry.swarm.metamodel()
+    assert made is not metamodel()
+    assert type(made.model_from_file(str(Path(good)))).__name__ == "Model"
