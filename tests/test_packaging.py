@@ -1,0 +1,121 @@
+"""The wheel, installed where there is no checkout, with a plug-in beside it.
+
+Takes a minute and needs the package index: `pytest -m packaging` runs it alone,
+`pytest -m "not packaging"` all the rest.
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import venv
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+
+pytestmark = pytest.mark.packaging
+
+
+def run(*command: object, cwd: Path) -> "subprocess.CompletedProcess[str]":
+    # Nothing of the checkout may leak into what is tested.
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return subprocess.run(
+        [str(word) for word in command], cwd=cwd, env=environment, capture_output=True, text=True
+    )
+
+
+def run_ok(*command: object, cwd: Path) -> str:
+    ran = run(*command, cwd=cwd)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    return ran.stdout + ran.stderr
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("packaging")
+
+
+@pytest.fixture(scope="module")
+def python(folder: Path) -> Path:
+    """A fresh environment, and proof that there is a package index to fill it from."""
+    venv.create(folder / "venv", with_pip=True)
+    python = folder / "venv" / ("Scripts" if os.name == "nt" else "bin") / "python"
+    pip = (python, "-m", "pip", "--disable-pip-version-check")
+    probe = run(*pip, "download", "--no-deps", "-d", folder / "probe", "hatchling", cwd=folder)
+    if probe.returncode != 0:
+        pytest.skip(f"no package index: {probe.stderr.strip().splitlines()[-1]}")
+    return python
+
+
+@pytest.fixture(scope="module")
+def wheel(folder: Path, python: Path) -> Path:
+    """The wheel, made from the source distribution as it is for a release."""
+    run_ok(sys.executable, "-m", "build", "--outdir", folder / "dist", ROOT, cwd=folder)
+    (wheel,) = (folder / "dist").glob("*.whl")
+    return wheel
+
+
+@pytest.fixture(scope="module")
+def installed(folder: Path, python: Path, wheel: Path) -> Path:
+    """The folder of the installed commands."""
+    plugin = shutil.copytree(ROOT / "tests" / "plugins" / "roster", folder / "roster")
+    run_ok(python, "-m", "pip", "install", "--quiet", wheel, plugin, cwd=folder)
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    return python.parent
+
+
+def test_the_wheel_has_every_file_of_the_package(wheel):
+    with zipfile.ZipFile(wheel) as archive:
+        packed = set(archive.namelist())
+    listed = subprocess.run(
+        ["git", "ls-files", "-co", "--exclude-standard", "src/swarmdsl", "grammar", "generators"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+    )
+    if listed.returncode != 0:
+        pytest.skip("not a git checkout: nothing says which files there ought to be")
+    expected = {
+        path.removeprefix("src/") if path.startswith("src/") else f"swarmdsl/{path}"
+        for path in listed.stdout.splitlines()
+    }
+    assert "swarmdsl/grammar/swarm.tx" in expected
+    assert expected - packed == set()
+
+
+def test_the_package_is_the_installed_one(installed, folder):
+    shown = run_ok(
+        installed / "python", "-c", "import swarmdsl; print(swarmdsl.__file__)", cwd=folder
+    )
+    assert str(folder / "venv") in shown
+
+
+def test_examples_build_from_another_folder(installed, folder):
+    for target in ("scxml", "adf", "smach"):
+        made = folder / "made"
+        example = folder / "examples" / "search_and_rescue"
+        run_ok(installed / "swarmc", "build", example, "-t", target, "-o", made, cwd=folder)
+        assert any(path.is_file() for path in (made / target).rglob("*"))
+
+
+def test_pages_are_there(installed, folder):
+    assert "SW0908 would-overwrite" in run_ok(installed / "swarmc", "explain", "SW0908", cwd=folder)
+
+
+def test_textx_knows_the_language_and_the_targets(installed, folder):
+    assert "swarm (*.swarm)" in run_ok(installed / "textx", "list-languages", cwd=folder)
+    listed = run_ok(installed / "textx", "list-generators", cwd=folder)
+    assert all(f"swarm -> {target}" in listed for target in ("scxml", "adf", "smach"))
+    example = Path("examples") / "minimal" / "blinker.swarm"
+    assert "OK" in run_ok(installed / "textx", "check", example, cwd=folder)
+
+
+def test_a_plug_in_is_a_target_like_any_other(installed, folder):
+    assert "Who is in a swarm" in run_ok(installed / "swarmc", "targets", cwd=folder)
+    example = folder / "examples" / "minimal"
+    command = ("build", example, "-t", "roster", "--option", "roster.style=markdown")
+    run_ok(installed / "swarmc", *command, "-o", "made", cwd=folder)
+    assert (folder / "made/roster/Blinkers.txt").read_text() == "- blinker [2..*]\n"
