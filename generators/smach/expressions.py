@@ -1,0 +1,131 @@
+"""Expressions, values and types of the model in Python with rospy."""
+
+from __future__ import annotations
+
+import keyword
+from dataclasses import replace
+
+from swarmdsl.ir import (
+    Array,
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    Named,
+    ParamRef,
+    Primitive,
+    Type,
+    Unary,
+    VariableRef,
+)
+from swarmdsl.ir.types import DURATION, FLOATS
+from swarmdsl.translate import Dialect, python_literal, translate
+
+from .imports import Imports
+
+EVENT = "event"
+USERDATA = "userdata"
+
+
+def python_expression(expression: Expression, imports: Imports) -> str:
+    """The expression in Python; variables and params are userdata."""
+    for part in parts(expression):
+        if isinstance(part, Literal) and part.type == DURATION:
+            imports.module("rospy")
+        if isinstance(part, Call) and part.function == "sqrt":
+            imports.module("math")
+    return translate(_for_python(expression), _DIALECT)
+
+
+def parts(expression: Expression) -> list[Expression]:
+    """The expression and all inside it."""
+    found: list[Expression] = [expression]
+    match expression:
+        case FieldAccess(base=base):
+            found += parts(base)
+        case Unary(operand=operand):
+            found += parts(operand)
+        case Binary(left=left, right=right):
+            found += parts(left) + parts(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                found += parts(argument)
+    return found
+
+
+def keys(expression: Expression) -> list[str]:
+    """The userdata keys an expression reads: variables and params."""
+    return [p.name for p in parts(expression) if isinstance(p, (VariableRef, ParamRef))]
+
+
+def uses_event(expression: Expression) -> bool:
+    """Whether it needs the message of the triggering event."""
+    return any(isinstance(part, EventData) for part in parts(expression))
+
+
+def field_name(name: str) -> str:
+    """A field's name in Python: genpy appends `_` to what Python reserves."""
+    return f"{name}_" if keyword.iskeyword(name) or name == "self" else name
+
+
+def default_value(type_: Type, imports: Imports) -> str:
+    """The value of a variable that the model gives none."""
+    match type_:
+        case Array(element=Primitive(name="uint8" | "char"), size=size):
+            return "b''" if size is None else f"bytes({size})"
+        case Array(size=None):
+            return "[]"
+        case Array(element=element, size=size):
+            return f"[{default_value(element, imports)} for _ in range({size})]"
+        case Named():
+            return f"{imports.interface(type_, 'msg')}()"
+        case Primitive(name="bool"):
+            return "False"
+        case Primitive(name="string"):
+            return "''"
+        case Primitive(name="time" | "duration" as name):
+            imports.module("rospy")
+            return f"rospy.{name.capitalize()}()"
+        case Primitive(name=name):
+            return "0.0" if name in FLOATS else "0"
+    raise AssertionError(type_)
+
+
+def _for_python(expression: Expression) -> Expression:
+    """The same with names and operands as Python and rospy take them."""
+    match expression:
+        case FieldAccess(base=base, field=field):
+            return replace(expression, base=_for_python(base), field=field_name(field))
+        case Unary(operand=operand):
+            return replace(expression, operand=_for_python(operand))
+        case Binary(operator="*", left=left, right=right, type=type_) if (
+            type_ == DURATION and getattr(right, "type", None) == DURATION
+        ):
+            # rospy.Duration can be multiplied by a number, not a number by it
+            return replace(expression, left=_for_python(right), right=_for_python(left))
+        case Binary(left=left, right=right):
+            return replace(expression, left=_for_python(left), right=_for_python(right))
+        case Call(arguments=arguments):
+            return replace(expression, arguments=tuple(map(_for_python, arguments)))
+    return expression
+
+
+def _literal(literal: Literal) -> str:
+    text = python_literal(literal)
+    return f"rospy.Duration({text})" if literal.type == DURATION else text
+
+
+def _key(name: str) -> str:
+    return f"{USERDATA}.{name}"
+
+
+_DIALECT = Dialect(
+    literal=_literal,
+    variable=_key,
+    param=_key,
+    event=EVENT,
+    operators={},
+    functions={"sqrt": "math.sqrt"},
+)

@@ -1,0 +1,125 @@
+"""What gathers while one state machine becomes a Python module."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ir import Param, StateMachine, System, Variable
+from swarmdsl.naming import snake_case
+from swarmdsl.source import Span
+
+from .imports import Imports
+
+TARGET = "smach"
+CANCELLED = "cancelled"
+PREEMPTED = "preempted"
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A state added to a container: the statement, and the comments above it."""
+
+    label: str
+    statement: str
+    comments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Container:
+    """A function that builds a StateMachine or a Concurrence.
+
+    `variable` is what the container is called in it; `initial` the label of the first state
+    where that is not the one added first.
+    """
+
+    function: str
+    doc: str
+    variable: str
+    construction: str
+    entries: tuple[Entry, ...]
+    initial: str | None = None
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of the module with the lines of its body."""
+
+    name: str
+    parameters: str
+    body: tuple[str, ...]
+    comment: str = ""
+
+
+@dataclass
+class Module:
+    """The module of one state machine."""
+
+    system: System
+    machine: StateMachine
+    imports: Imports
+    report: Diagnostics
+    events: dict[str, str]
+    containers: list[Container] = field(default_factory=list)
+    functions: list[Function] = field(default_factory=list)
+    callbacks: list[tuple[str, str, Span | None]] = field(default_factory=list)
+    sent: dict[str, None] = field(default_factory=dict)
+    message_keys: dict[str, str] = field(default_factory=dict)
+    _names: set[str] = field(default_factory=set)
+
+    @property
+    def keys(self) -> list[str]:
+        """The userdata keys of the model: params and variables."""
+        named: list[Param | Variable] = [*self.machine.params, *self.machine.variables]
+        return [item.name for item in named]
+
+    def function_name(self, *words: str) -> str:
+        """A name for a private function, unlike those given before."""
+        name = fresh("_" + "_".join(filter(None, map(snake_case, words))), self._names)
+        self._names.add(name)
+        return name
+
+    def add_function(
+        self, words: Iterable[str], parameters: str, body: Iterable[str], comment: str = ""
+    ) -> str:
+        """Add a function and return its name."""
+        name = self.function_name(*words)
+        self.functions.append(Function(name, parameters, tuple(body), comment))
+        return name
+
+    def own(self, module: str, name: str) -> str:
+        """Need a name of a module of the generated package; return it."""
+        return self.imports.name(f"{self.imports.types.package}.{module}", name)
+
+    def reserve(self) -> int:
+        """Keep a place for a container before those that are inside it."""
+        self.containers.append(Container("", "", "", "", ()))
+        return len(self.containers) - 1
+
+    def event(self, name: str) -> str:
+        """How the module writes an event; needs its import."""
+        self.imports.name(self.imports.types.package, "events")
+        return f"events.{self.events[name]}"
+
+    def message_key(self, event: str) -> str:
+        """The userdata key that holds the last message of an event that was taken."""
+        if event not in self.message_keys:
+            taken = {*self.keys, *self.message_keys.values()}
+            self.message_keys[event] = fresh(f"{snake_case(event)}_event", taken)
+        return self.message_keys[event]
+
+    def unsupported(self, construct: str, at: Span | None, hint: str | None = None) -> None:
+        """Report what this target cannot express."""
+        self.report.report(
+            "unsupported-construct", at, target=TARGET, construct=construct, help=hint
+        )
+
+
+def fresh(name: str, taken: Iterable[str]) -> str:
+    """The name, with a number where it is taken."""
+    known, number, found = set(taken), 1, name
+    while found in known:
+        number += 1
+        found = f"{name}_{number}"
+    return found

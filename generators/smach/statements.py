@@ -1,0 +1,98 @@
+"""Effects and results as Python statements, one string a line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.ir import Assignment, Effect, Named, Send
+
+from .expressions import EVENT, USERDATA, field_name, keys, python_expression, uses_event
+from .module import Module
+from .python import Call, Source, layout
+
+STEP = "    "
+
+
+def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[str]:
+    """The effects in their order."""
+    lines: list[str] = []
+    for effect in effects:
+        match effect:
+            case Assignment(variable=variable, path=path, value=value):
+                lines += assign(
+                    variable, path, python_expression(value, module.imports), depth, module
+                )
+            case Send():
+                lines.append(_send(effect, depth, module))
+    return lines
+
+
+def assign(
+    variable: str, path: tuple[str, ...], value: str, depth: int, module: Module
+) -> list[str]:
+    """Store a value in a variable or in a field of one.
+
+    A message is never changed in place: another state may be reading it.
+    """
+    indent = STEP * depth
+    if not path:
+        return [f"{indent}{USERDATA}.{variable} = {value}"]
+    module.imports.module("copy")
+    fields = ".".join(map(field_name, path))
+    # A local name must not hide what the value may read.
+    local = f"new_{variable}"
+    return [
+        f"{indent}{local} = copy.deepcopy({USERDATA}.{variable})",
+        f"{indent}{local}.{fields} = {value}",
+        f"{indent}{USERDATA}.{variable} = {local}",
+    ]
+
+
+def _send(send: Send, depth: int, module: Module) -> str:
+    module.sent.setdefault(send.event)
+    event = module.system.event(send.event)
+    assert isinstance(event.type, Named)
+    message = Call(
+        module.imports.interface(event.type, "msg"),
+        (),
+        tuple(
+            (field_name(name), Source(python_expression(value, module.imports)))
+            for name, value in send.arguments
+        ),
+    )
+    return layout(Call(f"{module.event(send.event)}.send", (message,)), depth, STEP * depth)
+
+
+def effect_reads(effects: Iterable[Effect]) -> list[str]:
+    """The userdata keys that effects read."""
+    found: list[str] = []
+    for effect in effects:
+        match effect:
+            case Assignment(variable=variable, path=path, value=value):
+                found += keys(value) + ([variable] if path else [])
+            case Send(arguments=arguments):
+                found += [key for _, value in arguments for key in keys(value)]
+    return found
+
+
+def effect_writes(effects: Iterable[Effect]) -> list[str]:
+    """The userdata keys that effects write."""
+    return [effect.variable for effect in effects if isinstance(effect, Assignment)]
+
+
+def effects_use_event(effects: Iterable[Effect]) -> bool:
+    """Whether effects need the message of the triggering event."""
+    return any(
+        uses_event(value)
+        for effect in effects
+        for value in (
+            [effect.value]
+            if isinstance(effect, Assignment)
+            else [value for _, value in effect.arguments]
+        )
+    )
+
+
+def load_event(key: str, depth: int = 1) -> str:
+    """Give the stored message of an event its name in expressions."""
+    return f"{STEP * depth}{EVENT} = {USERDATA}.{key}"

@@ -1,0 +1,308 @@
+"""From a state machine to SMACH containers: which states stand in which, and how they are bound.
+
+What a state does and what may interrupt it run together in a Concurrence, which ends with
+the first of them. A transition out of a composite state becomes an outcome of each container
+it leaves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from swarmdsl.ir import EventTrigger, State, StateKind, TimeTrigger
+from swarmdsl.source import Span
+
+from .activities import activity_call
+from .module import PREEMPTED, Container, Entry, Module, fresh
+from .python import Call, Source, comment_lines, docstring, layout, place
+from .routes import Branch, Content, Leave, Route, branches, done, ended, is_total, reachable
+from .scopes import Scope, Targets
+from .statements import STEP
+from .triggers import decision, triggers_of
+
+
+def build(module: Module, function: str) -> None:
+    """Fill the module with the functions that build its machine, the root's being `function`."""
+    machine = module.machine
+    structure = _Structure(module)
+    scope = Scope("", {state.name for state in machine.states})
+    initial = structure.initial(machine.initial, scope, machine.origin)
+    doc = docstring(machine.doc) or f"State machine {machine.name}."
+    structure.machine(scope, function, doc, initial, machine.states)
+
+
+class _Structure:
+    def __init__(self, module: Module) -> None:
+        self.module = module
+        self.targets = Targets(module)
+
+    # ---- containers
+
+    def machine(
+        self, scope: Scope, function: str, doc: str, initial: str | None, states: Iterable[State]
+    ) -> None:
+        """A StateMachine of these states."""
+        slot = self.module.reserve()
+        for state in states:
+            self._add_state(scope, state)
+        self._finish(slot, scope, function, doc, initial)
+
+    def _finish(
+        self, slot: int, scope: Scope, function: str, doc: str, initial: str | None = None
+    ) -> None:
+        class_ = self.module.own("containers", "StateMachine")
+        call = Call(class_, (scope.outcomes, Source("userdata")))
+        first = scope.entries[0].label if scope.entries else None
+        self.module.containers[slot] = Container(
+            function=function,
+            doc=doc,
+            variable="machine",
+            construction=layout(call, 1, f"{STEP}machine = "),
+            entries=tuple(scope.entries),
+            initial=initial if initial != first else None,
+        )
+
+    def initial(self, initial: str | None, scope: Scope, at: Span | None) -> str | None:
+        """The label of the state entered first."""
+        found = self.targets.states[initial] if initial is not None else None
+        if found is None or self.targets.parent[found.id] != scope.owner:
+            self.module.unsupported("an initial state inside another state", at)
+            return None
+        if found.kind is StateKind.FINAL:
+            self.module.unsupported("an initial state that is final", at)
+            return None
+        return found.name
+
+    def _composite(self, state: State, word: str) -> Content:
+        """The StateMachine inside a composite state or a region."""
+        function = self.module.function_name(state.id, word)
+        scope = Scope(state.id, {inside.name for inside in state.states})
+        initial = self.initial(state.initial, scope, state.origin)
+        what = "region" if state.kind is StateKind.REGION else "state"
+        self.machine(scope, function, f"Build {what} {state.id}.", initial, state.states)
+        routes: dict[str, Route] = {
+            outcome: branches(state, done(state.id, final.id))
+            for outcome, final in scope.finals.items()
+        }
+        routes |= _leaving(scope)
+        return Content(_built_by(function), routes)
+
+    def _parallel(self, state: State, word: str) -> Content:
+        """The Concurrence of the regions of a parallel state."""
+        slot = self.module.reserve()
+        function = self.module.function_name(state.id, word)
+        members: dict[str, Content] = {}
+        all_may_complete = True
+        for region in state.states:
+            inside = self._composite(region, "")
+            names = {s.name: s.id for s in region.states if s.kind is StateKind.FINAL}
+            routes: dict[str, Route] = {}
+            may_complete = False
+            for outcome, route in inside.routes.items():
+                if isinstance(route, Leave):
+                    routes[outcome] = route
+                elif ending := branches(state, done(region.id, names[outcome])):
+                    self._require_total(ending)
+                    routes[outcome] = ending
+                else:
+                    may_complete = True
+            all_may_complete = all_may_complete and may_complete
+            members[region.name] = Content(inside.call, routes)
+        default = branches(state, done(state.id, None)) if all_may_complete else None
+        doc = f"Build the regions of state {state.id}."
+        return self._concurrence(slot, function, doc, members, _origins(state.states), default)
+
+    def _require_total(self, ending: Sequence[Branch]) -> None:
+        if not is_total(ending):
+            self.module.unsupported(
+                "a guard on the completion of a region without a transition for when it is false",
+                ending[0].transition.origin,
+                "add a transition on the same trigger without a guard",
+            )
+
+    def _interrupted(
+        self, slot: int, function: str, state: State, content: Content | None
+    ) -> Content:
+        """The Concurrence of what a state does and what may interrupt it."""
+        members: dict[str, Content] = {}
+        places = _origins([state])
+        if content is not None:
+            members[state.name] = self._staying(state, content)
+        for trigger in triggers_of(state, self.module):
+            label = fresh(trigger.label, members)
+            members[label] = Content(trigger.call, trigger.routes)
+            places[label] = place(trigger.origin)
+        doc = f"Build state {state.id}, with what may end it."
+        return self._concurrence(slot, function, doc, members, places)
+
+    def _concurrence(
+        self,
+        slot: int,
+        function: str,
+        doc: str,
+        members: Mapping[str, Content],
+        places: Mapping[str, str],
+        default: list[Branch] | None = None,
+    ) -> Content:
+        """A Concurrence that ends with the first outcome that leads somewhere.
+
+        When all members are complete otherwise, it ends with `done`, which leads to `default`.
+        """
+        routes: dict[str, Route] = {}
+        deciding: dict[str, dict[str, str]] = {}
+        entries = []
+        for label, member in members.items():
+            for outcome, route in member.routes.items():
+                taken = {*routes, "done", PREEMPTED}
+                name = fresh(outcome, taken)
+                if name != outcome:
+                    name = fresh(f"{label}_{outcome}", taken)
+                routes[name] = route
+                deciding[name] = {label: outcome}
+            add = Call("Concurrence.add", (label, member.call))
+            comments = (places[label],) if places.get(label) else ()
+            entries.append(Entry(label, layout(add, 2, STEP * 2), comments))
+        keywords: list[tuple[str, object]] = []
+        if default is not None:
+            routes["done"] = default
+            keywords.append(("default_outcome", "done"))
+        class_ = self.module.own("containers", "Concurrence")
+        arguments = ([*routes, PREEMPTED], deciding, Source("userdata"))
+        self.module.containers[slot] = Container(
+            function=function,
+            doc=doc,
+            variable="concurrence",
+            construction=layout(
+                Call(class_, arguments, tuple(keywords)), 1, f"{STEP}concurrence = "
+            ),
+            entries=tuple(entries),
+        )
+        return Content(_built_by(function), routes)
+
+    # ---- states
+
+    def _add_state(self, scope: Scope, state: State) -> None:
+        for transition in state.transitions:
+            self.targets.check(state, transition)
+        if state.kind is StateKind.FINAL:
+            return
+        if state.kind is StateKind.CHOICE:
+            choices = [Branch(transition) for transition in reachable(state.transitions)]
+            self._add_decision(scope, state.name, (state.id,), choices, None, _comments(state))
+            return
+        awaited = {
+            trigger
+            for transition in state.transitions
+            for trigger in transition.triggers
+            if isinstance(trigger, (EventTrigger, TimeTrigger))
+        }
+        does_something = state.kind is not StateKind.SIMPLE or state.activity is not None
+        if awaited and (does_something or len(awaited) > 1):
+            slot = self.module.reserve()
+            function = self.module.function_name(state.id)
+            inside = self._content(state, ("states", "regions"))
+            content = self._interrupted(slot, function, state, inside)
+        elif awaited:
+            (trigger,) = triggers_of(state, self.module)
+            content = Content(trigger.call, trigger.routes)
+        else:
+            content = self._content(state, ("", "")) or Content(self._wait(), {})
+        self._add(scope, state, content)
+
+    def _content(self, state: State, words: tuple[str, str]) -> Content | None:
+        """What a state does, without what may interrupt it."""
+        if state.kind is StateKind.COMPOSITE:
+            return self._composite(state, words[0])
+        if state.kind is StateKind.PARALLEL:
+            return self._parallel(state, words[1])
+        if state.activity is None:
+            return None
+        call, outcomes = activity_call(state, self.module)
+        return Content(
+            call, {outcome: branches(state, ended(state, outcome)) for outcome in outcomes}
+        )
+
+    def _staying(self, state: State, content: Content) -> Content:
+        """The same, in a StateMachine that waits where no transition is taken."""
+        if not content.may_stay:
+            return content
+        slot = self.module.reserve()
+        function = self.module.function_name(state.id, "stays")
+        scope = Scope(state.id)
+        self._add(scope, state, content)
+        doc = f"Build state {state.id}, which stays where no transition is taken."
+        self._finish(slot, scope, function, doc)
+        return Content(_built_by(function), _leaving(scope))
+
+    def _add(self, scope: Scope, state: State, content: Content) -> None:
+        """Add a state, with what has to be decided or done when it ends."""
+        scope.labels.add(state.name)
+        waiting = scope.label(f"{state.name}_waiting") if content.may_stay else None
+        transitions: dict[str, str] = {}
+        later: list[tuple[str, str, list[Branch]]] = []
+        for outcome, route in content.routes.items():
+            if isinstance(route, Leave):
+                transitions[outcome] = self.targets.bind(scope, route.target)
+            elif not route:
+                assert waiting is not None
+                transitions[outcome] = waiting
+            elif route[0].is_plain:
+                transitions[outcome] = self.targets.bind(scope, route[0].transition.target)
+            else:
+                label = scope.label(f"{state.name}_{outcome}")
+                transitions[outcome] = label
+                later.append((label, outcome, route))
+        self._add_entry(scope, state.name, content.call, transitions, _comments(state))
+        for label, outcome, ways in later:
+            comments = tuple(filter(None, (place(way.transition.origin) for way in ways)))
+            otherwise = None if is_total(ways) else waiting
+            self._add_decision(scope, label, (state.id, "on", outcome), ways, otherwise, comments)
+        if waiting is not None:
+            self._add_entry(scope, waiting, self._wait(), {}, ())
+
+    def _add_decision(
+        self,
+        scope: Scope,
+        label: str,
+        words: Iterable[str],
+        ways: Sequence[Branch],
+        otherwise: str | None,
+        comments: tuple[str, ...],
+    ) -> None:
+        outcomes = [self.targets.bind(scope, way.transition.target) for way in ways]
+        call = decision(words, ways, outcomes, otherwise, self.module)
+        bound = [*outcomes, *([otherwise] if otherwise is not None else [])]
+        self._add_entry(scope, label, call, {target: target for target in bound}, comments)
+
+    def _add_entry(
+        self,
+        scope: Scope,
+        label: str,
+        call: Call,
+        transitions: Mapping[str, str],
+        comments: tuple[str, ...],
+    ) -> None:
+        bound = {**transitions, PREEMPTED: PREEMPTED}
+        add = Call("StateMachine.add", (label, call), (("transitions", bound),))
+        scope.entries.append(Entry(label, layout(add, 2, STEP * 2), comments))
+
+    def _wait(self) -> Call:
+        return Call(self.module.own("states", "Wait"))
+
+
+def _built_by(function: str) -> Call:
+    return Call(function, (Source("userdata"),))
+
+
+def _leaving(scope: Scope) -> dict[str, Route]:
+    return {outcome: Leave(target) for outcome, target in scope.exits.items()}
+
+
+def _origins(states: Iterable[State]) -> dict[str, str]:
+    return {state.name: place(state.origin) for state in states}
+
+
+def _comments(state: State) -> tuple[str, ...]:
+    """Where a state stands in the model and what is said of it there."""
+    origin = (place(state.origin),) if state.origin else ()
+    return (*origin, *comment_lines(state.doc))
