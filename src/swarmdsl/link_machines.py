@@ -2,18 +2,19 @@
 
 A name is looked for where the transition starts: among the states beside its source,
 then outwards level by level, then inside the source. A path (`Search.Sweep`) goes down
-from the state its first name means.
+from the state its first name means. States in another region of the same parallel state
+come last: no transition can lead there, which is reported later.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TypeVar
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.scopes import FileScope, report_unresolved
+from swarmdsl.source import Span
 from swarmdsl.syntax import (
-    Branch,
     Choice,
     Container,
     DoneTrigger,
@@ -30,10 +31,13 @@ from swarmdsl.syntax import (
 
 V = TypeVar("V", bound=Vertex | Region)
 
+# States by name; several of one name are in different regions.
+Level = Mapping[str, list[Vertex]]
+
 
 def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the references between the states of a machine."""
-    _link_container(machine, (), scope, report)
+    _link_container(machine, (), (), scope, report)
 
 
 def vertices(container: Container) -> Iterator[Vertex]:
@@ -58,60 +62,106 @@ def content(state: Vertex | Container) -> Container | None:
 
 
 def _link_container(
-    container: Container, outer: tuple[Container, ...], scope: FileScope, report: Diagnostics
+    container: Container,
+    outer: tuple[Level, ...],
+    beside: tuple[Level, ...],
+    scope: FileScope,
+    report: Diagnostics,
 ) -> None:
-    """Link what stands in a container; `outer` are those around it, the innermost last."""
-    around = (*outer, container)
+    """Link what stands in a container.
+
+    `outer` are the states around it, the nearest first, `beside` those in all regions of
+    the parallel states around it.
+    """
+    inside = _by_name(container)
     for item in container.items:
         match item:
-            case Initial():
-                _link_vertex(item.target, (container,), None, scope, report)
+            case Initial() if inside or not isinstance(container, State):
+                # An initial state in a state without states is reported as such.
+                _link_vertex(item.target, (inside,), scope, report)
             case Transition():
                 assert isinstance(container, (State, Parallel))
-                _link_vertex(item.target, outer, container, scope, report)
+                _link_vertex(item.target, (*outer, inside, *beside), scope, report)
                 for trigger in item.triggers:
                     if isinstance(trigger, DoneTrigger):
                         _link_done(trigger, container, scope, report)
             case Choice():
                 for branch in item.branches:
-                    _link_branch(branch, around, scope, report)
-            case State() | Parallel() | Region():
-                _link_container(item, around, scope, report)
+                    _link_vertex(branch.target, (inside, *outer, *beside), scope, report)
+            case Region():
+                _link_container(item, outer, (inside, *beside), scope, report)
+            case State() | Parallel():
+                _link_container(item, (inside, *outer), beside, scope, report)
 
 
-def _link_branch(
-    branch: Branch, around: tuple[Container, ...], scope: FileScope, report: Diagnostics
-) -> None:
-    _link_vertex(branch.target, around, None, scope, report)
+def _by_name(state: Vertex | Container) -> Level:
+    """The states inside another, regions not counted as a level of their own."""
+    containers: list[Container] = [*regions(state)]
+    if isinstance(state, (State, StateMachine, Region)):
+        containers.append(state)
+    names: dict[str, list[Vertex]] = {}
+    for container in containers:
+        # The second of two in one container is reported there.
+        first = {str(inside.name): inside for inside in reversed(list(vertices(container)))}
+        for name, inside in first.items():
+            names.setdefault(name, []).append(inside)
+    return names
 
 
 def _link_vertex(
-    ref: Ref[Vertex],
-    around: tuple[Container, ...],
-    source: State | Parallel | None,
-    scope: FileScope,
-    report: Diagnostics,
+    ref: Ref[Vertex], levels: tuple[Level, ...], scope: FileScope, report: Diagnostics
 ) -> None:
-    first, *rest = ref.name.split(".")
-    levels = [*reversed(around), *([source] if source else [])]
-    found = next(
-        (state for level in levels for state in vertices(level) if state.name == first), None
-    )
-    for name in rest:
-        found = _below(found, name) if found is not None else None
-    if found is not None:
-        ref.target = found
-    elif first not in scope.lost:
-        candidates = [str(state.name) for level in levels for state in vertices(level)]
-        report_unresolved("state", ref.name, ref.span, candidates, None, report)
+    """Resolve a path to a state: its first name in the levels in sight, the nearest first."""
+    outer: Vertex | None = None
+    start = ref.span.start
+    for name in ref.name.split("."):
+        at = Span(ref.span.source, start, start + len(name))
+        found = next((level[name] for level in levels if name in level), None)
+        if found is None:
+            if name not in scope.lost:
+                _report_missing_state(name, at, outer, levels, report)
+            return
+        if len(found) > 1:
+            report.report(
+                "ambiguous-name",
+                at,
+                name=name,
+                related=tuple(Label(state.name.span, "declared here") for state in found),
+                help="give the states in the regions different names",
+            )
+            return
+        outer, levels = found[0], (_by_name(found[0]),)
+        start += len(name) + 1
+    ref.target = outer
 
 
-def _below(state: Vertex, name: str) -> Vertex | None:
-    """The state `name` inside another, regions not counted as a level of their own."""
-    inside: list[Container] = list(regions(state))
-    if isinstance(state, State):
-        inside.append(state)
-    return next((v for level in inside for v in vertices(level) if v.name == name), None)
+def _report_missing_state(
+    name: str, at: Span, outer: Vertex | None, levels: tuple[Level, ...], report: Diagnostics
+) -> None:
+    """Report a name that no state in sight has; `outer` is the state it should be in."""
+    states = [state for level in levels for found in level.values() for state in found]
+    ways = (_way_to(name, state) for state in states)
+    way = next((way for way in ways if way), [])
+    if way:
+        report.report(
+            "unresolved-name",
+            at,
+            kind="state",
+            name=name,
+            related=(Label(way[-1].name.span, "declared here, inside another state"),),
+            help=f"write `{'.'.join(state.name for state in way)}`",
+        )
+        return
+    kind = "state" if outer is None else f"state in `{outer.name}`"
+    report_unresolved(kind, name, at, [str(state.name) for state in states], None, report)
+
+
+def _way_to(name: str, state: Vertex) -> list[Vertex]:
+    """The states from one down to another inside it; none if there is none of that name."""
+    if state.name == name:
+        return [state]
+    ways = (_way_to(name, inside) for found in _by_name(state).values() for inside in found)
+    return next(([state, *way] for way in ways if way), [])
 
 
 def _link_done(
