@@ -13,7 +13,14 @@ ROOT = Path(__file__).resolve().parents[2]
 INLINE = ROOT / "editors" / "vscode" / "tests"
 # What is wrong in this one is wrong on purpose.
 INCOMPLETE = INLINE / "incomplete.swarm"
-MODELS = sorted({*(ROOT / "examples").rglob("*.swarm"), *INLINE.glob("*.swarm")} - {INCOMPLETE})
+MODELS = sorted(
+    {
+        *(ROOT / "examples").rglob("*.swarm"),
+        *(ROOT / "tests" / "golden").rglob("*.swarm"),
+        *INLINE.glob("*.swarm"),
+    }
+    - {INCOMPLETE}
+)
 
 # How the innermost scope of a part may begin, by what the part is.
 KEYWORD = ("keyword.", "storage.")
@@ -138,3 +145,17 @@ def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
     """
     for word in sorted(language.contextual):
         assert miscoloured(model.format(word), language, tokenize) == [], word
+
+
+@pytest.mark.parametrize("typed", ["on", "on E", "on E / x = 1", "after 3 s", "after 3 s / x ="])
+def test_a_transition_being_typed_ends_where_the_next_item_begins(
+    typed: str, tokenize: Any
+) -> None:
+    items = ["after", "choice", "do", "final", "initial", "on", "param", "region", "state", "var"]
+    half = [f"{typed}\n{item} X {{ }} }}" for item in [*items, "parallel state"]]
+    text = "statemachine M {" + "".join(f"state S {{\n{lines}" for lines in half)
+    first = {line: scopes[-1] for line, start, _, scopes in tokenize(text) if start == 0}
+    for number, lines in enumerate(half):
+        scope = first[2 + 2 * number]
+        assert scope.startswith(KEYWORD), lines
+        assert scope != "keyword.other.swarm", lines
