@@ -1,0 +1,120 @@
+"""The ADF has the shape of the appendix of D5.4, and describes the same functions."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import adf
+from swarmdsl.generator import NoOptions
+from swarmdsl.ir import System
+
+Compile = Callable[[str], System]
+
+
+def emitted(system: System, *expected: str) -> tuple[str, Any]:
+    """The name of the file and its content."""
+    report = Diagnostics()
+    (file,) = adf.emit(system, NoOptions(), report)
+    assert [found.name for found in report] == list(expected)
+    return file.path, json.loads(file.text)
+
+
+def as_we_write_it(node: Any, interface: str = "") -> Any:
+    """The appendix with the differences we intend.
+
+    - the package of `Header` is `std_msgs`, not `stds_msgs`;
+    - an interface is named with its package;
+    - ids of tasks are text, as in the messages of today (and the id of an event of that kind
+      is called `id`).
+    """
+    classes = {
+        "stds_msgs/Header": "std_msgs/Header",
+        "TakeOff": "uav_mavros_takeoff/TakeOff",
+        "Empty": "std_srvs/Empty",
+    }
+    if isinstance(node, list):
+        return [as_we_write_it(item, interface) for item in node]
+    if not isinstance(node, dict):
+        return node
+    interface = node.get("class", interface)
+    changed = {key: as_we_write_it(value, interface) for key, value in node.items()}
+    if "class" in changed:
+        changed["class"] = classes.get(changed["class"], changed["class"])
+    if changed.get("name") == "task_id":
+        changed["class"] = "string"
+    return changed
+
+
+@pytest.mark.parametrize("name", ["uav_mavros_takeoff", "uav_mavros_land", "auction_action"])
+def test_functions_of_the_appendix(search_and_rescue: System, corpus: Path, name: str) -> None:
+    real = json.loads((corpus / "adf" / "head_d54.json").read_text(encoding="utf-8"))
+    _, ours = emitted(search_and_rescue)
+    expected = as_we_write_it(next(f for f in real["functions"] if f["name"] == name))
+    for message in expected["api"].get("inputs", []):
+        if message["msg"]["class"] == "cpswarm_msgs/TaskAllocationEvent":
+            message["msg"]["fields"][2]["name"] = "id"
+    function = next(f for f in ours["functions"] if f["name"] == name)
+
+    # As text: the order of the keys is part of the shape.
+    assert json.dumps(expected, indent=1) == json.dumps(function, indent=1)
+    assert list(ours) == list(real)
+    assert ours["runtime-env"] == real["runtime-env"]
+
+
+def test_a_service_with_fields(compiled: Compile) -> None:
+    path, content = emitted(compiled(""))
+    ask = next(f for f in content["functions"] if f["name"] == "ask")
+
+    assert path == "test.adf.json"
+    assert ask == {
+        "name": "ask",
+        "category": "abstraction-lib",
+        "api": {
+            "comm_model": {
+                "paradigm": "rosservice",
+                "definition": {
+                    "name": "cmd/ask",
+                    "class": "test/Ask",
+                    "request": {"fields": [{"class": "uint8", "name": "times"}]},
+                    "response": {"fields": [{"class": "bool", "name": "answer"}]},
+                },
+            }
+        },
+    }
+
+
+def test_params(compiled: Compile) -> None:
+    system = compiled(
+        """
+        function f : swarm {
+          service "f" : std_srvs/Empty
+          /// How fast.
+          param speed : float64 = -2 * 1.5
+          param wait  : duration = 500 ms
+          param given : int32
+          param mode  : string = "spiral"
+          param on_off : bool = true
+        }
+        """
+    )
+    _, content = emitted(system, "value-not-a-number", "value-not-a-number")
+    (function,) = [f for f in content["functions"] if f["name"] == "f"]
+
+    assert function["category"] == "swarm-lib"
+    assert function["param_list"] == [
+        {"class": "number", "name": "speed", "value": -3.0, "description": "How fast."},
+        {"class": "number", "name": "wait", "value": 0.5},
+        {"class": "number", "name": "given"},
+        {"class": "string", "name": "mode", "value": "spiral"},
+        {"class": "boolean", "name": "on_off", "value": True},
+    ]
+
+
+def test_no_functions_no_file() -> None:
+    assert list(adf.emit(System("empty"), NoOptions(), Diagnostics())) == []

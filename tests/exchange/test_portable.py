@@ -1,0 +1,518 @@
+"""The portable profile: what each construct becomes, and how an engine of others runs it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from lxml import etree
+
+from swarmdsl.ir import System
+
+Compile = Callable[[str], System]
+Emit = Callable[..., dict[str, str]]
+Walk = Callable[..., list[set[str]]]
+
+S = "{http://www.w3.org/2005/07/scxml}"
+SW = "{urn:swarmdsl:scxml}"
+
+
+@pytest.fixture
+def written(compiled: Compile, emit: Emit) -> Callable[..., str]:
+    """Gives the text of the portable document of a machine `M`, the rest of which is as told."""
+
+    def written(body: str, others: str = "", kind: str = "statemachine") -> str:
+        return emit(compiled(f"{others}\n{kind} M {{\n{body}\n}}"))["M.scxml"]
+
+    return written
+
+
+@pytest.fixture
+def parsed(written: Callable[..., str]) -> Callable[..., Any]:
+    """Gives the same as a tree."""
+
+    def parsed(*arguments: str) -> Any:
+        return etree.fromstring(written(*arguments).encode())
+
+    return parsed
+
+
+def by_id(tree: Any, name: str) -> Any:
+    return tree.xpath(f"//*[@id='{name}']")[0]
+
+
+def transitions(element: Any) -> list[tuple[str | None, str | None, str | None]]:
+    return [
+        (t.get("event"), t.get("cond"), t.get("target")) for t in element.findall(f"{S}transition")
+    ]
+
+
+def test_a_machine_without_data_needs_no_data_model(parsed: Any) -> None:
+    tree = parsed("initial A state A { do go on succeeded, aborted -> B } final B")
+
+    assert tree.get("datamodel") == "null"
+    assert tree.get("initial") == "A"
+    assert tree.find(f"{S}datamodel") is None
+    assert transitions(by_id(tree, "A")) == [("do.A.succeeded do.A.aborted", None, "B")]
+    assert by_id(tree, "B").tag == f"{S}final"
+
+
+def test_data_have_the_first_values_that_ros_gives_them(parsed: Any) -> None:
+    tree = parsed(
+        """
+        param limit : int32
+        param pause : duration = 1 min
+        var a : int32  var b : bool  var c : string = "x"  var d : Report  var e : float64[2]
+        var f : geometry_msgs/Pose
+        initial A state A { on Start -> A }
+        """,
+        "",
+        "endless statemachine",
+    )
+    values = {data.get("id"): data.get("expr") for data in tree.iter(f"{S}data")}
+
+    assert tree.get("datamodel") == "ecmascript"
+    assert values == {
+        "limit": None,
+        "pause": "60000",
+        "a": "0",
+        "b": "false",
+        "c": '"x"',
+        "d": '({"id": "", "level": 0})',
+        "e": "[0, 0]",
+        "f": "({})",
+    }
+
+
+def test_expressions_are_ecmascript(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var n : int32  var xs : float64[]  var ok : bool
+        initial A
+        state A {
+          on Found [not (event.level > 3 and ok) or len(xs) == 2 and sqrt(n) < 1.5]
+            / n = max(n, event.level) - 1 -> A
+          on Start -> B
+        }
+        final B
+        """
+    )
+    (taken,) = [t for t in by_id(tree, "A").findall(f"{S}transition") if t.get("cond")]
+
+    assert taken.get("cond") == (
+        "!(_event.data.level > 3 && ok) || xs.length == 2 && Math.sqrt(n) < 1.5"
+    )
+    (assign,) = taken.findall(f"{S}assign")
+    assert dict(assign.attrib) == {"location": "n", "expr": "Math.max(n, _event.data.level) - 1"}
+
+
+def test_names_that_ecmascript_keeps_are_changed(parsed: Any) -> None:
+    tree = parsed(
+        "var class : int32 var _x : int32 initial A state A { on Start [class == _x] -> B } final B"
+    )
+
+    assert [data.get("id") for data in tree.iter(f"{S}data")] == ["data_class", "data__x"]
+    assert transitions(by_id(tree, "A")) == [("Start", "data_class == data__x", "B")]
+    assert [v.get("name") for v in tree.findall(f"{SW}variable")] == ["class", "_x"]
+
+
+def test_names_of_states_are_unique_in_the_file(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var Wait : int32
+        initial P
+        parallel state P {
+          region L { initial Idle state Idle { on Start -> End } final End }
+          region R { initial Idle state Idle { on Abort -> End } final End }
+          on done -> Wait
+        }
+        state Wait { on Start [Wait > 0] -> Stop }
+        final Stop
+        """
+    )
+
+    ids = [element.get("id") for element in tree.iter() if element.get("id")]
+    assert len(ids) == len(set(ids))
+    assert not [name for name in ids if "." in name]
+    assert transitions(by_id(tree, "P-L-Idle")) == [("Start", None, "P-L-End")]
+    assert transitions(by_id(tree, "P-R-Idle")) == [("Abort", None, "P-R-End")]
+    assert transitions(by_id(tree, "P")) == [("done.state.P", None, "Wait-state")]
+
+
+def test_states_of_one_name_are_told_apart_when_it_runs(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        initial P
+        parallel state P {
+          region L {
+            initial Work
+            state Work { do go on succeeded -> End on aborted -> Work }
+            final End
+          }
+          region R {
+            initial Work
+            state Work { do go on succeeded -> End on aborted -> Work }
+            final End
+          }
+          on done -> Stop
+        }
+        final Stop
+        """
+    )
+
+    first, second, third = walk(document, ["do.P-R-Work.succeeded", "do.P-L-Work.succeeded"])
+
+    assert first == {"P", "L", "R", "P-L-Work", "P-R-Work"}
+    assert second == {"P", "L", "R", "P-L-Work", "P-R-End"}
+    assert third == {"Stop"}
+
+
+def test_a_choice_takes_the_first_branch_that_holds(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        var n : int32 = 0
+        initial A
+        state A { on Found / n = event.level -> Which }
+        choice Which {
+          [n > 5]          -> High
+          [n > 2] / n = 99 -> Middle
+          else             -> A
+        }
+        state Middle { on Start [n == 99] -> A }
+        final High
+        """
+    )
+
+    assert walk(document, [("Found", {"level": 1}), ("Found", {"level": 4}), "Start"]) == [
+        {"A"},
+        {"A"},
+        {"Middle"},
+        {"A"},
+    ]
+    assert walk(document, [("Found", {"level": 6})])[-1] == {"High"}
+
+
+def test_an_inner_transition_comes_before_an_outer_one(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        initial Outer
+        state Outer {
+          initial A
+          state A { on Start -> B }
+          state B { on Abort -> End }
+          final End
+          on Start, Abort -> Stop
+          on done         -> Stop
+        }
+        final Stop
+        """
+    )
+
+    assert walk(document, ["Start", "Start"]) == [{"Outer", "A"}, {"Outer", "B"}, {"Stop"}]
+    assert walk(document, ["Start", "Abort"])[-1] == {"Stop"}
+
+
+def test_a_transition_across_levels(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        initial Out
+        state Out {
+          initial In
+          state In { initial A state A { on Start -> Stop  on Abort -> B } final E }
+          state B { on Start -> F }
+          final F
+          on done -> Stop
+        }
+        final Stop
+        """
+    )
+
+    assert walk(document, ["Abort", "Start"]) == [{"Out", "In", "A"}, {"Out", "B"}, {"Stop"}]
+    assert walk(document, ["Start"])[-1] == {"Stop"}
+
+
+FINALS = """
+    initial Try
+    state Try {
+      initial Work
+      state Work { do go on succeeded -> Good on aborted -> Bad }
+      final Good
+      final Bad
+      on done.Bad -> Try
+      on done     -> Stop
+    }
+    final Stop
+"""
+
+
+def test_which_final_state_was_reached(parsed: Any) -> None:
+    tree = parsed(FINALS)
+
+    assert transitions(by_id(tree, "Try")) == [
+        ("final.Bad", None, "Try"),
+        ("final.Good final.Bad", None, "Stop"),
+    ]
+    for name in ("Good", "Bad"):
+        (raised,) = by_id(tree, name).iterfind(f"{S}onentry/{S}raise")
+        assert raised.get("event") == f"final.{name}"
+    assert by_id(tree, "Stop").find(f"{S}onentry") is None
+
+
+def test_a_completion_counts_once(written: Any, walk: Walk) -> None:
+    """A `done` that led back in must not be answered again by what follows it in the queue."""
+    document = written(FINALS)
+
+    assert walk(document, ["do.Work.aborted", "do.Work.aborted", "do.Work.succeeded"]) == [
+        {"Try", "Work"},
+        {"Try", "Work"},
+        {"Try", "Work"},
+        {"Stop"},
+    ]
+
+
+NESTED = """
+    initial Outer
+    parallel state Outer {
+      region Left {
+        initial Inner
+        parallel state Inner {
+          region A { initial A1 state A1 { do go on succeeded -> A2 on aborted -> A1 } final A2 }
+          region B { initial B1 state B1 { do go on succeeded -> B2 on aborted -> B1 } final B2 }
+          on done -> LeftEnd
+        }
+        final LeftEnd
+      }
+      region Right { initial R1 state R1 { do go on succeeded -> R2 on aborted -> R1 } final R2 }
+      on done -> Stop
+    }
+    final Stop
+"""
+
+
+@pytest.mark.parametrize("order", [["A1", "B1", "R1"], ["R1", "A1", "B1"], ["B1", "R1", "A1"]])
+def test_nested_parallel_states_end_in_any_order(
+    written: Any, walk: Walk, order: list[str]
+) -> None:
+    active = walk(written(NESTED), [f"do.{state}.succeeded" for state in order])
+
+    assert active[-1] == {"Stop"}
+    assert all("Outer" in states for states in active[:-1])
+
+
+def test_one_region_can_end_the_parallel_state(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        initial P
+        parallel state P {
+          region Work {
+            initial W
+            state W { do go on succeeded -> W on aborted -> Lost }
+            final Lost
+          }
+          region Watch {
+            initial Ok
+            state Ok { on Low -> Empty  on Abort -> Told }
+            final Empty
+            final Told
+          }
+          on Work.done        -> P
+          on Watch.done.Told  -> Stop
+          on Watch.done.Empty -> Home
+        }
+        state Home { do land on succeeded, aborted -> Stop }
+        final Stop
+        """
+    )
+
+    assert walk(document, ["do.W.succeeded", "Low"])[-1] == {"Home"}
+    assert walk(document, ["Abort"])[-1] == {"Stop"}
+    assert walk(document, ["do.W.aborted"])[-1] == {"P", "Work", "W", "Watch", "Ok"}
+
+
+def test_time_is_sent_on_entry_and_cancelled_on_exit(parsed: Any) -> None:
+    tree = parsed(
+        """
+        param pause : duration = 2 s
+        var n : int32
+        initial A
+        state A {
+          after 1.5 s [n > 3] -> A
+          after 1.5 s         -> B
+          after pause         -> B
+          after 300 us        -> B
+        }
+        final B
+        """
+    )
+    state = by_id(tree, "A")
+    sent = [dict(send.attrib) for send in state.iterfind(f"{S}onentry/{S}send")]
+
+    assert sent == [
+        {"event": "after.A.1", "id": "after.A.1", "delay": "1500ms"},
+        {"event": "after.A.2", "id": "after.A.2", "delayexpr": 'Math.ceil(pause) + "ms"'},
+        {"event": "after.A.3", "id": "after.A.3", "delay": "1ms"},
+    ]
+    cancelled = [cancel.get("sendid") for cancel in state.iterfind(f"{S}onexit/{S}cancel")]
+    assert cancelled == ["after.A.1", "after.A.2", "after.A.3"]
+    assert [event for event, *_ in transitions(state)] == [
+        "after.A.1",
+        "after.A.1",
+        "after.A.2",
+        "after.A.3",
+    ]
+
+
+def test_time_passes(written: Any, walk: Walk) -> None:
+    document = written("initial A state A { after 20 ms -> B } final B")
+
+    # The engine waits in `send` until all that was delayed has come.
+    assert walk(document, ["Start"])[-1] == {"B"}
+
+
+def test_an_event_is_sent_to_the_swarm(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var n : int32
+        initial A
+        state A { on Start / send Found(id = "a", level = n + 1) -> B }
+        final B
+        """
+    )
+    (send,) = tree.iter(f"{S}send")
+
+    assert dict(send.attrib) == {"event": "Found", "type": "urn:swarmdsl:swarm"}
+    assert [dict(param.attrib) for param in send] == [
+        {"name": "id", "expr": '"a"'},
+        {"name": "level", "expr": "n + 1"},
+    ]
+    assert [event.get("name") for event in tree.findall(f"{SW}event")] == ["Start", "Found"]
+
+
+def test_a_result_is_stored_before_what_follows(parsed: Any) -> None:
+    body = """
+        var n : int32  var r : Report
+        initial A
+        state A {
+          do drive(speed = 1.0, name = "x") gives (count => n, name => r.id)
+          on succeeded / n = n + 1 -> B
+          on aborted               -> A
+        }
+        state B { on Start [n == 8] -> C }
+        final C
+    """
+    taken = by_id(parsed(body), "A").find(f"{S}transition")
+
+    assert [(a.get("location"), a.get("expr")) for a in taken] == [
+        ("n", "_event.data.count"),
+        ("r.id", "_event.data.name"),
+        ("n", "n + 1"),
+    ]
+
+
+def test_a_guard_sees_the_result(parsed: Any, written: Any, walk: Walk) -> None:
+    body = """
+        var n : int32 = 0
+        initial A
+        state A {
+          do go gives (count => n)
+          on succeeded [n > 3] -> B
+          on succeeded, aborted -> C
+        }
+        final B
+        final C
+    """
+
+    assert transitions(by_id(parsed(body), "A")) == [
+        ("do.A.succeeded", None, None),
+        ("gives.A.succeeded", "n > 3", "B"),
+        ("gives.A.succeeded do.A.aborted", None, "C"),
+    ]
+    document = written(body)
+    assert walk(document, [("do.A.succeeded", {"count": 5})])[-1] == {"B"}
+    assert walk(document, [("do.A.succeeded", {"count": 2})])[-1] == {"C"}
+    assert walk(document, ["do.A.aborted"])[-1] == {"C"}
+
+
+def test_what_is_of_ros_stands_in_a_namespace_of_its_own(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var n : int32  var s : string
+        initial A
+        /// Go -- and come back.
+        state A { do drive(speed = 1.5, name = s) gives (count => n) on succeeded, aborted -> B }
+        state B { do ask(by make_request) gives by on_answer on succeeded, aborted -> C }
+        state C { do land on succeeded, aborted -> D }
+        final D
+        """
+    )
+
+    (function, *_) = tree.findall(f"{SW}function")
+    assert dict(function.attrib) == {
+        "name": "drive",
+        "category": "abstraction",
+        "paradigm": "action",
+        "server": "cmd/drive",
+        "type": "test/Drive",
+    }
+    state = by_id(tree, "A")
+    assert state.findtext(f"{SW}doc") == "Go -- and come back."
+    (activity,) = state.findall(f"{SW}activity")
+    assert activity.get("function") == "drive"
+    assert [[part.tag.removeprefix(SW), part.get("policy")] for part in activity] == [
+        ["goal", "userdata"],
+        ["result", "userdata"],
+    ]
+    assert [dict(item.attrib) for part in activity for item in part] == [
+        {"field": "speed", "expr": "1.5"},
+        {"field": "name", "expr": "s"},
+        {"field": "count", "location": "n"},
+    ]
+    callbacks = [dict(part.attrib) for part in by_id(tree, "B").find(f"{SW}activity")]
+    assert callbacks == [
+        {"policy": "callback", "callback": "make_request"},
+        {"policy": "callback", "callback": "on_answer"},
+    ]
+    empty = [dict(part.attrib) for part in by_id(tree, "C").find(f"{SW}activity")]
+    assert empty == [{"policy": "empty"}, {"policy": "empty"}]
+    assert not list(tree.iter(f"{S}invoke"))
+
+
+def test_a_machine_that_reuses_another(written: Any, parsed: Any, walk: Walk) -> None:
+    others = """
+        statemachine Insist {
+          param limit : int32 = 2
+          var tries : int32 = 0
+          initial Try
+          state Try {
+            do ask(times = 1)
+            on succeeded                                   -> Ok
+            on aborted [tries < limit] / tries = tries + 1 -> Try
+            on aborted                                     -> Failed
+          }
+          final Ok
+          final Failed
+        }
+    """
+    body = """
+        initial First
+        state First = Insist { on done.Ok -> Second on done.Failed -> Bad }
+        state Second = Insist { on done -> Good }
+        final Good
+        final Bad
+    """
+    submachines = [element.get("name") for element in parsed(body, others).iter(f"{SW}submachine")]
+
+    assert submachines == ["Insist", "Insist"]
+    document = written(body, others)
+    assert walk(document, ["do.First-Try.succeeded"])[-1] == {"Second", "Second-Try"}
+    failing = walk(document, ["do.First-Try.aborted"] * 3)
+    assert failing == [{"First", "First-Try"}] * 3 + [{"Bad"}]
+
+
+def test_the_file_is_text_for_people(written: Any) -> None:
+    document = written("initial A\n/// Ä > B\nstate A { on Start -> B } final B")
+
+    assert document.startswith('<?xml version="1.0" encoding="UTF-8"?>\n<scxml ')
+    assert "\n    <sw:doc>Ä &gt; B</sw:doc>\n" in document
+    assert document.endswith("</scxml>\n")

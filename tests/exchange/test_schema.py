@@ -1,0 +1,47 @@
+"""Portable files are valid by the schema of the W3C; the same model gives the same files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from swarmdsl import compiler
+from swarmdsl.ir import System
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = sorted(
+    [*(ROOT / "examples").iterdir(), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
+)
+
+
+@pytest.fixture(scope="session")
+def schema(corpus: Path) -> etree.XMLSchema:
+    return etree.XMLSchema(etree.parse(corpus / "scxml-xsd" / "scxml.xsd"))
+
+
+def systems() -> list[tuple[str, System]]:
+    checked = [(str(model.relative_to(ROOT)), compiler.check([model])) for model in MODELS]
+    return [(name, result.system) for name, result in checked if result.system is not None]
+
+
+@pytest.mark.parametrize(("name", "system"), systems())
+def test_portable_files_are_valid(
+    name: str, system: System, schema: etree.XMLSchema, emit: Callable[..., dict[str, str]]
+) -> None:
+    files = emit(system)
+
+    assert files or not system.machines
+    for path, text in files.items():
+        assert schema.validate(etree.fromstring(text.encode())), (path, schema.error_log)
+
+
+@pytest.mark.parametrize(("name", "system"), systems())
+def test_the_same_model_gives_the_same_files(
+    name: str, system: System, emit: Callable[..., dict[str, str]]
+) -> None:
+    again = dict(systems())[name]
+
+    assert emit(again) == emit(system)
