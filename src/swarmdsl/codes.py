@@ -61,11 +61,9 @@ CODES: dict[str, Code] = {
     # ---- state machines
     "missing-initial": Code("SW0501", "error", "{owner} has no initial state"),
     "missing-final": Code("SW0502", "error", "{owner} has no final state"),
-    "unreachable-state": Code("SW0503", "warning", "nothing leads to {kind} `{name}`"),
+    "unreachable-state": Code("SW0503", "warning", "{kind} `{name}` can never be reached"),
     "transition-never-fires": Code("SW0504", "warning", "this transition can never fire"),
-    "unhandled-outcome": Code(
-        "SW0505", "error", "nothing handles outcome `{outcome}` of `{function}`"
-    ),
+    "unhandled-outcome": Code("SW0505", "error", "nothing handles {outcomes} of `{function}`"),
     "submachine-cycle": Code("SW0506", "error", "state machine `{name}` contains itself"),
     "outcome-without-activity": Code(
         "SW0507", "error", "state `{state}` does nothing that could end as `{outcome}`"
@@ -85,6 +83,7 @@ CODES: dict[str, Code] = {
     "interface-kind": Code("SW0604", "error", "`{name}` is {actual}, not {expected}"),
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
+    "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

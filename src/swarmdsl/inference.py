@@ -126,7 +126,7 @@ class Typing:
                 "bad-operand",
                 call.span,
                 operator=call.function,
-                operands=f"{len(types)} values: it takes {count}"
+                operands=f"{len(types)} value{'s' * (len(types) != 1)}: it takes {count}"
                 + (" or more" if call.function in ("min", "max") else ""),
             )
             return None

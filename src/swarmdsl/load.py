@@ -172,8 +172,8 @@ def _report_cycles(project: Project, report: Diagnostics) -> None:
         *way, last = imports
         report.report(
             "import-cycle",
-            last.span,
+            last.path.span,
             path=file.source.name,
-            related=tuple(Label(step.span, "by way of this import") for step in way),
-            help="move what both files need to a third one",
+            related=tuple(Label(step.path.span, "by way of this import") for step in way),
+            help="move what both files need to a third one" if way else "remove this import",
         )

@@ -21,9 +21,9 @@ from swarmdsl.syntax import (
     Choice,
     Component,
     Declaration,
-    Documented,
     Environment,
     Event,
+    Field,
     FinalState,
     Function,
     Member,
@@ -34,6 +34,7 @@ from swarmdsl.syntax import (
     Part,
     Port,
     Region,
+    Role,
     ServiceType,
     State,
     StateMachine,
@@ -42,7 +43,7 @@ from swarmdsl.syntax import (
     Variable,
 )
 
-D = TypeVar("D", bound=Documented)
+D = TypeVar("D", bound=Declaration)
 
 KINDS: dict[type[Node], str] = {
     StructType: "a struct",
@@ -57,9 +58,11 @@ KINDS: dict[type[Node], str] = {
     StateMachine: "a state machine",
     Swarm: "a swarm",
     Environment: "an environment",
+    Role: "a role",
     Part: "a part",
     Port: "a port",
     Param: "a param",
+    Field: "a field",
     Variable: "a variable",
     State: "a state",
     Parallel: "a parallel state",

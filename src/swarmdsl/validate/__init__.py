@@ -22,7 +22,12 @@ from swarmdsl.validate.architecture import check_component, check_member
 from swarmdsl.validate.composition import check_environment, check_swarm
 from swarmdsl.validate.context import make_context
 from swarmdsl.validate.expressions import check_expressions
-from swarmdsl.validate.interfaces import check_event, check_function
+from swarmdsl.validate.interfaces import (
+    check_event,
+    check_function,
+    check_message_cycles,
+    check_values,
+)
 from swarmdsl.validate.names import check_names
 from swarmdsl.validate.reachability import check_reachability
 from swarmdsl.validate.structure import check_structure, check_submachine_cycles
@@ -34,9 +39,11 @@ def validate(project: Project, report: Diagnostics) -> None:
     context = make_context(project, report)
     check_names(project, report)
     check_submachine_cycles(project, report)
+    check_message_cycles(context)
     for file, declaration in project.declarations():
         if declaration in file.parsed.damaged:
             continue
+        check_values(declaration, context)
         match declaration:
             case Event():
                 check_event(declaration, context)

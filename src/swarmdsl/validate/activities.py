@@ -131,9 +131,9 @@ def _check_callback(
     first = users.setdefault(str(callback), activity)
     if first.function.target is not activity.function.target:
         context.report.report(
-            "duplicate-name",
+            "shared-callback",
             callback.span,
-            kind="callback",
             name=callback,
-            related=(Label(first.span, "used for another function here"),),
+            related=(Label(first.function.span, "it serves this function already"),),
+            help="each function needs a callback of its own: goals and results differ in type",
         )

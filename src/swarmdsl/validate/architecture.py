@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.diagnostics import Label
 from swarmdsl.inference import fits
 from swarmdsl.scopes import bare, kind_of
+from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     BehaviorUse,
     Component,
@@ -77,13 +78,12 @@ def _check_part(part: Part, context: Context) -> None:
     for value in part.values:
         param = params.get(str(value.name))
         if param is None:
-            names = ", ".join(f"`{name}`" for name in params)
             context.report.report(
                 "unknown-param",
                 value.name.span,
                 owner=f"{bare(kind_of(component))} `{component.name}`",
                 name=value.name,
-                help=f"it has {names}" if names else "it has no params",
+                help=suggest(value.name, params, "params"),
             )
         else:
             context.expect(value.value, param.type.type, context.typing)
@@ -93,9 +93,9 @@ def _check_connector(connector: Connector, context: Context) -> None:
     source, target = connector.source.port.target, connector.target.port.target
     if source is None or target is None:
         return
-    directed = _check_end(connector.source, source, "out", context)
-    directed &= _check_end(connector.target, target, "in", context)
-    if directed and not fits(source.type.type, target.type.type):
+    if not _check_direction(connector, source, target, context):
+        return
+    if not fits(source.type.type, target.type.type):
         context.report.report(
             "port-type-mismatch",
             connector.span,
@@ -110,22 +110,39 @@ def _check_connector(connector: Connector, context: Context) -> None:
         )
 
 
-def _check_end(end: PortRef, port: Port, wanted: str, context: Context) -> bool:
-    """Check that data leaves a part by `out` and enters it by `in`; return whether it does.
+def _check_direction(connector: Connector, source: Port, target: Port, context: Context) -> bool:
+    """Check that a connector leads from a sender to a receiver; return whether it does."""
+    ends = ((connector.source, source, "start"), (connector.target, target, "end"))
+    wrong = [(end, port) for end, port, place in ends if place not in _places(end, port)]
+    if len(wrong) == 2:
+        context.report.report(
+            "port-direction",
+            connector.span,
+            fault="this connector leads from the receiver to the sender",
+            related=tuple(Label(port.name.span, _as_declared(end, port)) for end, port in wrong),
+            help=f"write `connect {connector.target.span.text} -> {connector.source.span.text}`",
+        )
+        return False
+    for end, port in wrong:
+        context.report.report(
+            "port-direction",
+            end.span,
+            fault=f"a connector cannot {'end' if end is connector.target else 'start'} here: "
+            + _as_declared(end, port),
+            related=(Label(port.name.span, "declared here"),),
+        )
+    return not wrong
 
-    For the member's own ports it is the other way round: they are seen from inside.
-    """
-    if end.part is None:
-        wanted = {"in": "out", "out": "in"}[wanted]
-    if port.direction in (wanted, "inout"):
-        return True
-    verb = "receives" if port.direction == "in" else "sends"
-    where = "only" if end.part is not None else "only, seen from outside the member,"
-    context.report.report(
-        "port-direction",
-        end.span,
-        fault=f"`{end.span.text}` is an `{port.direction}` port: it {where} {verb}",
-        related=(Label(port.name.span, "declared here"),),
-        help="a connector leads from the sender to the receiver: `connect sender -> receiver`",
-    )
-    return False
+
+def _places(end: PortRef, port: Port) -> tuple[str, ...]:
+    """Where in a connector a port may stand; the member's own ports are seen from inside."""
+    if port.direction == "inout":
+        return ("start", "end")
+    return ("start",) if (port.direction == "out") == (end.part is not None) else ("end",)
+
+
+def _as_declared(end: PortRef, port: Port) -> str:
+    if end.part is not None:
+        return f"`{end.span.text}` is an `{port.direction}` port"
+    way = "enters" if port.direction == "in" else "leaves"
+    return f"by `{port.direction}` port `{end.span.text}` data {way} the member"

@@ -67,7 +67,7 @@ class Context:
                 "interface-kind",
                 ref.span,
                 name=ref.span.text,
-                actual=kind_of(known) if known is not None else "a type of values",
+                actual=_kind_of_type(ref, known),
                 expected=kind_of(wanted),
                 related=(Label(known.name.span, "declared here"),) if known else (),
             )
@@ -97,6 +97,12 @@ class Context:
         types = [t.event.target.type.type if t.event.target else None for t in triggers]
         alike = all(known == types[0] for known in types)
         return replace(self.typing, has_event=alike, event=types[0])
+
+
+def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
+    if isinstance(ref.type, Array):
+        return "an array"
+    return kind_of(known) if known is not None else "a primitive type"
 
 
 def make_context(project: Project, report: Diagnostics) -> Context:

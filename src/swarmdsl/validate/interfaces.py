@@ -2,17 +2,60 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from swarmdsl.diagnostics import Label
+from swarmdsl.graph import cycles
+from swarmdsl.ir.types import Array, Named
 from swarmdsl.syntax import (
     ActionType,
     Communication,
+    Declaration,
     Event,
+    Field,
     Function,
     FunctionPort,
     MessageType,
     Param,
+    Port,
     ServiceType,
+    Variable,
+    walk,
 )
 from swarmdsl.validate.context import Context
+
+
+def check_message_cycles(context: Context) -> None:
+    """No message contains itself, in an array or through others: ROS cannot send it."""
+    messages = context.typing.interfaces
+
+    def inside(type_: Named) -> Iterator[tuple[Field, Named]]:
+        for field in messages[type_]:
+            element = field.type.type
+            if isinstance(element, Array):
+                element = element.element
+            if isinstance(element, Named) and element in messages:
+                yield field, element
+
+    for type_, fields in cycles(messages, inside):
+        *way, last = fields
+        context.report.report(
+            "type-cycle",
+            last.type.span,
+            name=type_.name,
+            related=tuple(Label(field.type.span, "by way of this field") for field in way),
+        )
+
+
+def check_values(declaration: Declaration, context: Context) -> None:
+    """A value is no service and no action."""
+    for node in walk(declaration):
+        if isinstance(node, (Field, Param, Port, Variable)):
+            type_ = node.type.type
+            element = type_.element if isinstance(type_, Array) else type_
+            known = context.interfaces.get(element) if isinstance(element, Named) else None
+            if isinstance(known, (ServiceType, ActionType)):
+                context.check_kind(node.type, MessageType)
 
 
 def check_event(event: Event, context: Context) -> None:

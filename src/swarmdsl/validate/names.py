@@ -98,19 +98,12 @@ def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagn
     first = seen.setdefault(key, named)
     if first is not named:
         name: Word = named.name
+        kind, earlier = kind_of(named), kind_of(first)
+        also = "" if kind == earlier else f", as {earlier}"
         report.report(
             "duplicate-name",
             name.span,
-            kind=_kind(named),
+            kind=bare(kind),
             name=name,
-            related=(Label(first.name.span, "first declared here"),),
+            related=(Label(first.name.span, f"first declared here{also}"),),
         )
-
-
-def _kind(named: Named) -> str:
-    match named:
-        case Field():
-            return "field"
-        case Role():
-            return "role"
-    return bare(kind_of(named))

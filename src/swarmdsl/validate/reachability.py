@@ -24,8 +24,9 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     """Report states that no way from the initial state leads to.
 
     Guards and triggers are taken to be possible. Of states inside each other that are not
-    reached only the outermost is reported, none in a container without initial state, and
-    none at all where a name was not resolved: it may have meant the state.
+    reached only the outermost is reported. What is wrong already is not reported again: in a
+    container without initial state any may be the first, of two states with one name only one
+    can be meant, and where a name was not resolved it may have meant any state.
     """
     arrows = (Initial, Transition, Branch)
     if any(isinstance(node, arrows) and node.target.target is None for node in walk(machine)):
@@ -54,11 +55,10 @@ def _collect(container: Container, around: dict[Vertex | Region, Container]) -> 
 
 
 def _initials(container: Container) -> list[Vertex | Region]:
-    return [
-        item.target.target
-        for item in container.items
-        if isinstance(item, Initial) and item.target.target is not None
-    ]
+    initials = [item for item in container.items if isinstance(item, Initial)]
+    if not initials:
+        return list(vertices(container))
+    return [item.target.target for item in initials if item.target.target is not None]
 
 
 def _successors(state: Vertex | Region) -> list[Vertex | Region]:
@@ -80,12 +80,13 @@ def _successors(state: Vertex | Region) -> list[Vertex | Region]:
 def _report(container: Container, reached: set[Vertex | Region], context: Context) -> None:
     for region in regions(container):
         _report(region, reached, context)
-    if not isinstance(container, Parallel) and not _initials(container):
-        return
+    names = set()
     for state in vertices(container):
-        if state not in reached:
+        if state in reached:
+            if isinstance(state, (State, Parallel)):
+                _report(state, reached, context)
+        elif state.name not in names:
             context.report.report(
                 "unreachable-state", state.name.span, kind=bare(kind_of(state)), name=state.name
             )
-        elif isinstance(state, (State, Parallel)):
-            _report(state, reached, context)
+        names.add(state.name)

@@ -42,7 +42,12 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 _check_initial(node, f"region `{node.name}`", context)
             case Parallel():
                 if not regions(node):
-                    context.report.report("too-few-regions", node.name.span, name=node.name)
+                    context.report.report(
+                        "too-few-regions",
+                        node.name.span,
+                        name=node.name,
+                        help="add `region Name { ... }`; one without is a plain `state`",
+                    )
             case State():
                 _check_state(node, context)
             case Choice():
@@ -78,7 +83,7 @@ def _check_state(state: State, context: Context) -> None:
         contents.append("states of its own")
         if state.machine is None:
             _check_initial(state, f"composite state `{state.name}`", context)
-    elif state.machine is None:
+    else:
         for item in state.items:
             if isinstance(item, Initial):
                 context.report.report(
@@ -86,6 +91,7 @@ def _check_state(state: State, context: Context) -> None:
                     item.span,
                     state=state.name,
                     content="an initial state and no states",
+                    help="add the states, or remove this line",
                 )
     if activities:
         contents.append("an activity")
@@ -112,6 +118,7 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
                 name=param.name,
                 machine=machine.name,
                 related=(Label(param.name.span, "declared here, without a default"),),
+                help=f"give it a default: `param {param.name} : {param.type.span.text} = ...`",
             )
 
 
@@ -123,7 +130,9 @@ def _check_initial(container: Container, owner: str, context: Context) -> None:
             "missing-initial",
             container.name.span,
             owner=owner,
-            help=f"add `initial {inside[0]}`, for instance" if inside else "add a state",
+            help=f"add `initial {inside[0]}`, for instance"
+            if inside
+            else "add a state, and `initial` with its name",
         )
     context.check_single([item.span for item in found], "the initial state")
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from swarmdsl.diagnostics import Label
+from swarmdsl.diagnostics import Label, listed
 from swarmdsl.inference import UNITS
 from swarmdsl.link_machines import regions
+from swarmdsl.scopes import bare, kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Activity,
@@ -60,40 +61,61 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
                 )
         case DoneTrigger(region=region):
             of = region.target if region is not None else owner
-            simple = isinstance(of, State) and of.machine is None and not _has_states(of)
-            if of is not None and (simple or not completes(of)):
-                kind = "region" if isinstance(of, Region) else "state"
-                context.report.report(
-                    "done-without-content",
-                    trigger.span,
-                    owner=f"{kind} `{of.name}`",
-                    related=(Label(of.name.span, "declared here"),),
-                    help="a composite state is done when a final state in it is reached",
-                )
+            if of is not None:
+                _check_completes(trigger, of, context)
+
+
+def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
+    """A state without content is never done, nor is content without a final state."""
+    simple = isinstance(of, State) and of.machine is None and not _has_states(of)
+    if not simple and completes(of):
+        return
+    help_ = "add a final state to it"
+    if isinstance(of, Parallel):
+        help_ = "a parallel state is done when each of its regions has reached a final state"
+    elif isinstance(of, State) and of.machine is not None:
+        help_ = f"state machine `{of.machine.name}` has no final state"
+    elif simple:
+        help_ = "`done` is for states with states in them"
+        if _activities(of):
+            help_ += ", `succeeded` and `aborted` are the ends of an activity"
+    context.report.report(
+        "done-without-content",
+        trigger.span,
+        owner=f"{bare(kind_of(of))} `{of.name}`",
+        related=(Label(of.name.span, "declared here"),),
+        help=help_,
+    )
 
 
 def _check_outcomes(state: State, transitions: list[Transition], context: Context) -> None:
     """Each end of the activity needs a transition that is taken without condition."""
-    for activity in _activities(state):
-        for outcome in ("succeeded", "aborted"):
-            handled = [
-                transition
-                for transition in transitions
-                for trigger in transition.triggers
-                if isinstance(trigger, OutcomeTrigger) and trigger.outcome == outcome
-            ]
-            if any(transition.guard is None for transition in handled):
-                continue
-            context.report.report(
-                "unhandled-outcome",
-                activity.function.span,
-                outcome=outcome,
-                function=activity.function.name,
-                related=tuple(
-                    Label(transition.span, "only while its guard holds") for transition in handled
-                ),
-                help=f"add `on {outcome} -> ...` to state `{state.name}`",
-            )
+    unhandled: list[str] = []
+    guarded: list[Transition] = []
+    for outcome in ("succeeded", "aborted"):
+        handled = [
+            transition
+            for transition in transitions
+            for trigger in transition.triggers
+            if isinstance(trigger, OutcomeTrigger) and trigger.outcome == outcome
+        ]
+        if all(transition.guard is not None for transition in handled):
+            unhandled.append(outcome)
+            guarded += handled
+    if not unhandled:
+        return
+    for activity in _activities(state)[:1]:
+        context.report.report(
+            "unhandled-outcome",
+            activity.function.span,
+            outcomes=f"outcome{'s' * (len(unhandled) - 1)} {listed(unhandled, 'and')}",
+            function=activity.function.name,
+            related=tuple(
+                Label(transition.span, "only while its guard holds") for transition in guarded
+            ),
+            help=f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
+            f"to state `{state.name}`",
+        )
 
 
 def _check_shadowed(transitions: list[Transition], context: Context) -> None:
@@ -109,7 +131,8 @@ def _check_shadowed(transitions: list[Transition], context: Context) -> None:
             else:
                 blockers += [taken[key] for key in _keys(trigger) if key in taken][:1]
         if len(blockers) == len(transition.triggers):
-            _report_shadowed(transition.span, blockers[0].span, context)
+            advice = "give the first one a guard, or remove one of the two"
+            _report_shadowed(transition.span, blockers[0].span, advice, context)
         elif transition.guard is None:
             for trigger in transition.triggers:
                 taken.setdefault(_keys(trigger)[0], transition)
@@ -122,17 +145,17 @@ def _check_branches(choice: Choice, context: Context) -> None:
     last = None
     for branch in choice.branches:
         if last is not None:
-            _report_shadowed(branch.span, last.span, context)
+            _report_shadowed(branch.span, last.span, "`else` comes last", context)
         elif branch.otherwise:
             last = branch
 
 
-def _report_shadowed(span: Span, blocker: Span, context: Context) -> None:
+def _report_shadowed(span: Span, blocker: Span, advice: str, context: Context) -> None:
     context.report.report(
         "transition-never-fires",
         span,
         related=(Label(blocker, "this one is always taken first"),),
-        help="give the first one a guard, or remove one of the two",
+        help=advice,
     )
 
 
@@ -140,7 +163,7 @@ def _keys(trigger: Trigger) -> list[Hashable]:
     """What a trigger reacts to, first itself, then the more general triggers that cover it."""
     match trigger:
         case EventTrigger(event=event):
-            return [("event", event.name)]
+            return [("event", event.target or event.name)]
         case OutcomeTrigger(outcome=outcome):
             return [("outcome", outcome)]
         case DoneTrigger(region=region, final=final):
@@ -198,7 +221,7 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
                 )
 
 
-def _activities(state: State | Parallel) -> list[Activity]:
+def _activities(state: State | Parallel | Region) -> list[Activity]:
     return [item for item in state.items if isinstance(item, Activity)]
 
 
