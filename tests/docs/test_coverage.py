@@ -1,0 +1,107 @@
+"""Nothing is left out of the documentation, and nothing in it is made up."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from swarmdsl import plugins
+from swarmdsl.cli import cli
+from swarmdsl.codes import CODES
+from swarmdsl.syntax_errors import keywords
+
+from .pages import LANGUAGE, PAGES, ROOT, Page
+
+CONTRIBUTING = Page(ROOT / "CONTRIBUTING.md")
+README = Page(ROOT / "README.md")
+ALL_CODES = {entry.code for entry in CODES.values()}
+SOURCES = ROOT / "src" / "swarmdsl"
+
+
+def words(texts: list[str]) -> set[str]:
+    return {word for text in texts for word in re.findall(r"[A-Za-z_]\w*", text)}
+
+
+def grammar_words() -> set[str]:
+    """The words that stand for themselves in the grammar."""
+    found = set()
+    for file in sorted((ROOT / "grammar").glob("*.tx")):
+        rules = re.sub(r"//[^\n]*", "", file.read_text(encoding="utf-8"))
+        found |= set(re.findall(r"'([a-z]+)'", rules))
+    return found
+
+
+def test_the_reference_has_every_word_of_the_language() -> None:
+    in_grammar = grammar_words()
+
+    assert {"statemachine", "gives", "world"} <= in_grammar
+    assert in_grammar - words(LANGUAGE.code) == set()
+
+
+def test_the_reference_lists_the_reserved_words() -> None:
+    lists = [set(block.text.split()) for block in LANGUAGE.blocks if block.language == "text"]
+
+    assert keywords() in lists
+
+
+def test_the_reference_has_every_check_of_models() -> None:
+    of_models = {code for code in ALL_CODES if code < "SW09"}
+
+    assert of_models - set(re.findall(r"SW\d{4}", LANGUAGE.text)) == set()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_codes_exist(page: Page) -> None:
+    assert set(re.findall(r"SW\d{4}", page.text)) - ALL_CODES == set()
+
+
+@pytest.mark.parametrize("page", PAGES, ids=str)
+def test_make_targets_exist(page: Page) -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z-]+):", makefile, re.MULTILINE))
+    named = {word for code in page.code for word in re.findall(r"\bmake ([a-z-]+)", code)}
+
+    assert named - targets == set()
+
+
+def test_contributing_has_every_make_target() -> None:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    targets = set(re.findall(r"^([a-z-]+):.*##", makefile, re.MULTILINE))
+
+    assert targets
+    assert targets - {code.removeprefix("make ") for code in CONTRIBUTING.code} == set()
+
+
+def test_the_map_has_every_module_and_only_those() -> None:
+    chapter = CONTRIBUTING.text.partition("## Map of the code")[2].partition("\n## ")[0]
+    table = "\n".join(line for line in chapter.splitlines() if line.startswith("| `"))
+    named = set(re.findall(r"`([a-z_/]+(?:\.py|/))`", table))
+    packages = {file.parent for file in SOURCES.rglob("__init__.py")} - {SOURCES}
+    modules = [file for file in SOURCES.rglob("*.py") if file.name != "__init__.py"]
+    expected = {file.relative_to(SOURCES).as_posix() for file in modules}
+    expected |= {f"{folder.relative_to(SOURCES).as_posix()}/" for folder in packages}
+
+    assert named == expected
+
+
+def test_paths_in_contributing_exist() -> None:
+    roots = "docs|editors|examples|generators|grammar|src|tests"
+    paths = {code for code in CONTRIBUTING.code if re.fullmatch(rf"(?:{roots})/[\w./-]*", code)}
+    paths.discard("src/swarmdsl/explain/SWxxxx.md")  # stands for any page
+
+    assert paths
+    assert {path for path in paths if not (ROOT / path).exists()} == set()
+
+
+def test_the_readme_has_every_command_and_target() -> None:
+    assert set(cli.commands) - words(README.code) == set()
+    assert set(plugins.BUILT_IN) - words(README.code) == set()
+
+
+def test_every_example_has_a_page_and_is_listed() -> None:
+    listed = set(Page(ROOT / "examples" / "README.md").links)
+    folders = [folder for folder in (ROOT / "examples").iterdir() if folder.is_dir()]
+
+    assert folders
+    assert {f"{folder.name}/README.md" for folder in folders} <= listed

@@ -1,0 +1,66 @@
+"""Every model in the documentation compiles, or shows the mistake it is there to show."""
+
+from __future__ import annotations
+
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.parse import parse
+from swarmdsl.render import render
+from swarmdsl.source import Source
+from swarmdsl.syntax import NODES, Documented, Node, walk
+
+from .pages import LANGUAGE, Block, blocks
+
+MODELS = blocks("swarm")
+
+# Classes of the tree that no rule of the grammar makes by itself.
+_ABSTRACT = {Node, Documented}
+
+
+def write(block: Block, folder: Path) -> Path:
+    """Write a block, and those before it that are kept as files; return its path."""
+    for earlier in block.page.blocks:
+        if earlier is block:
+            break
+        if "file" in earlier.attributes:
+            (folder / earlier.attributes["file"]).write_text(earlier.text, encoding="utf-8")
+    path = folder / block.attributes.get("file", "model.swarm")
+    start = f'import "{block.attributes["with"]}"\n' if "with" in block.attributes else ""
+    path.write_text(start + block.text, encoding="utf-8")
+    return path
+
+
+@pytest.mark.parametrize("block", MODELS, ids=str)
+def test_model(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    path = write(block, tmp_path)
+
+    report = compiler.check([path.relative_to(tmp_path)]).report
+
+    expected = {code for code in block.attributes.get("reports", "").split(",") if code}
+    shown = StringIO()
+    render(report, "text", shown)
+    assert {found.code for found in report} == expected, shown.getvalue()
+
+
+@pytest.mark.parametrize("block", MODELS, ids=str)
+def test_attributes_are_known(block: Block) -> None:
+    assert block.attributes.keys() <= {"file", "with", "reports"}
+
+
+def test_the_reference_shows_every_element() -> None:
+    shown: set[type[Node]] = set()
+    for block in LANGUAGE.blocks:
+        if block.language == "swarm":
+            tree = parse(Source(str(block), block.text), Diagnostics()).model
+            shown |= {type(node) for node in walk(tree)}
+            shown |= {type(getattr(node, "tree", None)) for node in walk(tree)}
+
+    missing = set(NODES.values()) - _ABSTRACT - shown
+
+    assert missing == set()
