@@ -134,7 +134,7 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     if "\0" in text:
         report.report("not-text", at, path=path, help="this looks like a binary file")
         return None
-    source = Source(str(path), text.replace("\r\n", "\n").replace("\r", "\n"), path)
+    source = Source(str(path), _unified(text), path)
     before = len(report)
     parsed = parse(source, report)
     if not parsed.model.declarations and not parsed.model.imports and len(report) == before:
@@ -150,13 +150,25 @@ def _report_encoding(
     path: Path, at: Span | None, data: bytes, error: UnicodeDecodeError, report: Diagnostics
 ) -> None:
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        advice = "it looks like UTF-16: save it as UTF-8"
+        report.report("not-text", at, path=path, help="it looks like UTF-16: save it as UTF-8")
     elif b"\0" in data:
-        advice = "this looks like a binary file"
+        report.report("not-text", at, path=path, help="this looks like a binary file")
     else:
-        line = data.count(b"\n", 0, error.start) + 1
-        advice = f"save it as UTF-8; the first byte that is not is in line {line}"
-    report.report("not-text", at, path=path, help=advice)
+        readable = _unified(data[: error.start].decode("utf-8-sig"))
+        rest = _unified(data[error.start :].decode("utf-8", "replace"))
+        source = Source(str(path), readable + rest, path)
+        report.report(
+            "not-text",
+            Span(source, len(readable), len(readable) + 1),
+            path=path,
+            related=(Label(at, "imported here"),) if at else (),
+            help="save it as UTF-8",
+        )
+
+
+def _unified(text: str) -> str:
+    """The text with all ends of lines alike."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
 def _similar_file(path: Path) -> str | None:

@@ -1,0 +1,46 @@
+"""What the compiler says about wrong models, as a person reads it.
+
+A case is a file `SWnnnn_what.swarm`, or a folder of that name with several files; the text
+beside it is what is said. `pytest --bless` writes the texts anew: read them before you commit.
+"""
+
+from __future__ import annotations
+
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.render import render
+
+FOLDER = Path(__file__).parent / "diagnostics"
+CASES = sorted(path.name for path in FOLDER.glob("SW*") if path.is_dir() or path.suffix != ".txt")
+
+
+def expected(case: str) -> Path:
+    return FOLDER / f"{Path(case).stem}.txt"
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_diagnostics(case: str, bless: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(FOLDER)
+    report = compiler.check([Path(case)]).report
+    stream = StringIO()
+    render(report, "text", stream)
+    if bless:
+        expected(case).write_text(stream.getvalue(), encoding="utf-8")
+
+    assert stream.getvalue() == expected(case).read_text(encoding="utf-8")
+    # One cause, one report: a case shows its own code and nothing that follows from it.
+    assert {found.code for found in report} == {case[:6]}
+
+
+def test_every_expected_text_has_its_case() -> None:
+    assert sorted(map(expected, CASES)) == sorted(FOLDER.glob("*.txt"))
+
+
+def test_the_folder_holds_cases_only() -> None:
+    others = {path.name for path in FOLDER.iterdir() if path.suffix != ".txt"} - set(CASES)
+
+    assert others == set()
