@@ -15,7 +15,7 @@ from swarmdsl.emit import Request
 from swarmdsl.parse import metamodel, parse
 from swarmdsl.source import Source
 
-SIZES = (10, 50, 200)
+SIZES = (10, 30, 100)
 """Numbers of state machines, each with 10 states."""
 
 STATES = 10

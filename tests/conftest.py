@@ -1,6 +1,5 @@
-"""What all tests share: `--bless`, models from text, real files of the field."""
+"""What all tests share: `--bless`, the examples, models from text."""
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -29,16 +28,6 @@ def bless(request: pytest.FixtureRequest) -> bool:
 @pytest.fixture(scope="session")
 def examples() -> Path:
     return ROOT / "examples"
-
-
-@pytest.fixture(scope="session")
-def corpus() -> Path:
-    """Files that projects of the field published; they are not part of this one."""
-    named = os.environ.get("SWARMDSL_CORPUS")
-    folder = Path(named) if named else ROOT.parent / "shared" / "corpus"
-    if not folder.is_dir():
-        pytest.skip("no corpus here; SWARMDSL_CORPUS names its folder")
-    return folder
 
 
 @pytest.fixture
