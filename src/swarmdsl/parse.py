@@ -36,7 +36,7 @@ from swarmdsl.syntax import (
 from swarmdsl.syntax_errors import report_syntax_error
 
 # textX recurses some thirty frames a level; scan.NESTING_LIMIT bounds the levels.
-_RECURSION_LIMIT = 20_000
+RECURSION_LIMIT = 20_000
 _ERRORS_PER_DECLARATION = 10
 # Where a top-level declaration starts: a word in the first column.
 _DECLARATION_START = re.compile(
@@ -234,7 +234,7 @@ def _attach_docs(parsed: Parsed, docs: tuple[DocComment, ...], report: Diagnosti
 @contextmanager
 def _deep_recursion() -> Iterator[None]:
     limit = sys.getrecursionlimit()
-    sys.setrecursionlimit(max(limit, _RECURSION_LIMIT))
+    sys.setrecursionlimit(max(limit, RECURSION_LIMIT))
     try:
         yield
     finally:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +12,10 @@ from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 
 
 def _metamodel(**_params: Any) -> Any:
-    from swarmdsl.parse import metamodel
+    from swarmdsl.parse import RECURSION_LIMIT, metamodel
 
+    # The parse is textX's here, out of reach: a deep model needs the room all the same.
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
     # One of textX's own: with the check in it, ours could not parse without checking.
     made = metamodel.__wrapped__()
     made.register_model_processor(_check)

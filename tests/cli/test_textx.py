@@ -48,6 +48,22 @@ def test_check_of_a_file_with_a_syntax_error(tmp_path):
     assert "Traceback" not in ran.stderr
 
 
+def test_check_of_a_deep_model(tmp_path):
+    path = tmp_path / "deep.swarm"
+    depth = 100
+    inner = "state A { initial A\n" * depth + "}" * depth
+    path.write_text(f"statemachine M {{ initial A\n{inner}\nfinal F }}\n")
+    ran = textx("check", path)
+    assert ran.returncode == 1
+    assert "nested deeper than" in ran.stderr
+
+
+def test_generate_without_a_model():
+    ran = textx("generate", "--language", "swarm", "--target", "scxml", "--profile", "portable")
+    assert ran.returncode == 1
+    assert "give a .swarm file to generate from" in ran.stderr
+
+
 def test_generate(good, tmp_path):
     for target in ("scxml", "adf"):
         ran = textx("generate", good, "--target", target, "-o", tmp_path / "made")
