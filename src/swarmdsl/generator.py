@@ -38,6 +38,12 @@ class Feature(Enum):
     CALLBACK = "a callback"
     EVENT_DATA = "the data of an event"
     CROSS_LEVEL = "a transition to another level"
+    HISTORY = "a history"
+    ENTRY = "an effect on entry"
+    EXIT = "an effect on exit"
+    INTERNAL = "an internal transition"
+    TARGETLESS = "a transition without a target"
+    EVENTLESS = "a transition without a trigger"
 
 
 ALL_FEATURES = frozenset(Feature)

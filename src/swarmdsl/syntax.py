@@ -59,10 +59,11 @@ class Ref(Generic[N]):
 class TypeRef(Node):
     """A type by name; `type` is None until it is linked, and after, if there is none.
 
-    `array` is the brackets as written (`[]`, `[16]`), empty for a single value.
+    `bound` (`<=10`) and `array` (`[]`, `[16]`, `[<=5]`) are as written, or empty.
     """
 
     name: str
+    bound: str
     array: str
     type: Type | None = field(default=None, init=False)
 
@@ -87,10 +88,12 @@ class Value(Node):
 
 @dataclass(slots=True, eq=False)
 class NameUse(Node):
-    """The name of a variable or param; `event` is a name of its own."""
+    """The name of a value, or of an enum before one of its; `event` is a name of its own."""
 
     name: str
-    target: Variable | Param | None = field(default=None, init=False)
+    target: Variable | Param | Constant | EnumType | FitnessInput | None = field(
+        default=None, init=False
+    )
 
 
 @dataclass(slots=True, eq=False)
@@ -140,6 +143,32 @@ class StructType(Documented):
 
 
 @dataclass(slots=True, eq=False)
+class EnumValue(Documented):
+    """`NAME` or `NAME = 4`; `value` is as written, or empty."""
+
+    name: Word
+    value: str
+
+
+@dataclass(slots=True, eq=False)
+class EnumType(Documented):
+    """`enum Mode : uint8 { ... }`."""
+
+    name: Word
+    type: TypeRef | None
+    values: list[EnumValue]
+
+
+@dataclass(slots=True, eq=False)
+class Constant(Documented):
+    """`const NAME : type = value`."""
+
+    name: Word
+    type: TypeRef
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
 class AliasType(Documented):
     """`type Distance = float64`."""
 
@@ -152,6 +181,7 @@ class MessageType(Documented):
     """`message Name { ... }`; a name with `/` describes a message of another package."""
 
     name: Word
+    constants: list[Constant]
     fields: list[Field]
 
 
@@ -239,7 +269,25 @@ class Component(Documented):
 
     kind: Literal["sensor", "actuator", "controller", "virtual"]
     name: Word
-    items: list[Port | Param]
+    base: Ref[Component] | None
+    items: list[Port | Param | Operation | BehaviorUse]
+
+
+@dataclass(slots=True, eq=False)
+class Parameter(Documented):
+    """`in name : Type` of an operation; `direction` is empty where none is written."""
+
+    direction: Literal["in", "out", ""]
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Operation(Documented):
+    """`operation name(in x : Type, out y : Type)` of a component."""
+
+    name: Word
+    parameters: list[Parameter]
 
 
 @dataclass(slots=True, eq=False)
@@ -255,6 +303,14 @@ class PartValue(Node):
 
     name: Word
     value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class CommunicationSettings(Node):
+    """`communication zyre { ifname = "eth0" }`."""
+
+    technology: Word
+    values: list[PartValue]
 
 
 @dataclass(slots=True, eq=False)
@@ -287,7 +343,8 @@ class Member(Documented):
     """`member Name { ... }`."""
 
     name: Word
-    items: list[BehaviorUse | Port | Param | Connector | Part]
+    base: Ref[Member] | None
+    items: list[BehaviorUse | CommunicationSettings | Port | Param | Connector | Part]
 
 
 # ---- behaviour
@@ -322,7 +379,7 @@ class ResultMapping(Node):
 class Activity(Node):
     """`do function(...) gives (...)`."""
 
-    function: Ref[Function]
+    function: Ref[Function | Operation]
     goal_callback: Word | None
     arguments: list[Argument]
     result_callback: Word | None
@@ -358,7 +415,15 @@ class TimeTrigger(Node):
     delay: Expression
 
 
-Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger
+@dataclass(slots=True, eq=False)
+class MonitorTrigger(Node):
+    """`monitor "topic" : Type`."""
+
+    topic: Word
+    type: TypeRef
+
+
+Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger | MonitorTrigger
 
 
 @dataclass(slots=True, eq=False)
@@ -382,12 +447,27 @@ Effect = Send | Assignment
 
 @dataclass(slots=True, eq=False)
 class Transition(Node):
-    """`on trigger [guard] / effects -> target`."""
+    """`on trigger [guard] / effects -> target`; what is not written is None or empty."""
 
+    internal: bool
     triggers: list[Trigger]
     guard: Expression | None
     effects: list[Effect]
-    target: Ref[Vertex]
+    target: Ref[Vertex] | None
+
+
+@dataclass(slots=True, eq=False)
+class Entry(Node):
+    """`entry / effects`."""
+
+    effects: list[Effect]
+
+
+@dataclass(slots=True, eq=False)
+class Exit(Node):
+    """`exit / effects`."""
+
+    effects: list[Effect]
 
 
 @dataclass(slots=True, eq=False)
@@ -427,11 +507,12 @@ class Choice(Documented):
 
 @dataclass(slots=True, eq=False)
 class State(Documented):
-    """`state Name { ... }` or `state Name = Machine { ... }`."""
+    """`state Name { ... }` or `state Name = Machine(param = value) { ... }`."""
 
     name: Word
     machine: Ref[StateMachine] | None
-    items: list[Activity | Transition | Initial | Vertex]
+    bindings: list[Argument]
+    items: list[Activity | Entry | Exit | Transition | Initial | Vertex]
 
 
 @dataclass(slots=True, eq=False)
@@ -447,7 +528,7 @@ class Parallel(Documented):
     """`parallel state Name { ... }`."""
 
     name: Word
-    items: list[Region | Transition]
+    items: list[Region | Entry | Exit | Transition]
 
 
 @dataclass(slots=True, eq=False)
@@ -459,7 +540,16 @@ class StateMachine(Documented):
     items: list[Param | Variable | Initial | Vertex]
 
 
-Vertex = State | Parallel | Choice | FinalState
+@dataclass(slots=True, eq=False)
+class History(Documented):
+    """`history Name -> target` or `deep history Name -> target`."""
+
+    deep: bool
+    name: Word
+    target: Ref[Vertex]
+
+
+Vertex = State | Parallel | Choice | History | FinalState
 Container = StateMachine | State | Parallel | Region
 
 
@@ -495,7 +585,74 @@ class Swarm(Documented):
     """`swarm Name { ... }`."""
 
     name: Word
-    items: list[EnvironmentUse | Role]
+    items: list[EnvironmentUse | FitnessUse | Role]
+
+
+@dataclass(slots=True, eq=False)
+class FitnessUse(Node):
+    """`fitness Name` in a swarm."""
+
+    fitness: Ref[Fitness]
+
+
+@dataclass(slots=True, eq=False)
+class FitnessInput(Documented):
+    """`in name : Type`, measured in a run."""
+
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Objective(Node):
+    """`maximize expression` or `minimize expression`."""
+
+    goal: Literal["maximize", "minimize"]
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Fitness(Documented):
+    """`fitness Name { ... }`."""
+
+    name: Word
+    items: list[FitnessInput | Param | Objective]
+
+
+@dataclass(slots=True, eq=False)
+class Setting(Node):
+    """`steps 1000`, `evaluations 50` or `seed 42`."""
+
+    name: Literal["steps", "evaluations", "seed"]
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class CountRange(Node):
+    """`count of role in lower .. upper`."""
+
+    role: Ref[Role]
+    lower: Expression
+    upper: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ParamRange(Node):
+    """`role.param in lower .. upper step step`."""
+
+    role: Ref[Role]
+    param: Ref[Param]
+    lower: Expression
+    upper: Expression
+    step: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Optimization(Documented):
+    """`optimize Swarm { ... }`."""
+
+    swarm: Ref[Swarm]
+    items: list[Setting | CountRange | ParamRange]
 
 
 @dataclass(slots=True, eq=False)
@@ -533,14 +690,40 @@ class Package(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Import(Node):
+class ImportFile(Node):
     """`import "file"`."""
 
     path: Word
 
 
-Interface = StructType | AliasType | MessageType | ServiceType | ActionType
-Declaration = Interface | Event | Function | Component | Member | StateMachine | Swarm | Environment
+@dataclass(slots=True, eq=False)
+class ImportRos(Node):
+    """`import ros "folder"`."""
+
+    path: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportLibrary(Node):
+    """`import package.Name` or `import package.*`."""
+
+    name: str
+
+
+Import = ImportFile | ImportRos | ImportLibrary
+Interface = StructType | EnumType | AliasType | MessageType | ServiceType | ActionType
+Declaration = (
+    Interface
+    | Constant
+    | Event
+    | Function
+    | Component
+    | Member
+    | StateMachine
+    | Swarm
+    | Environment
+    | Fitness
+)
 
 
 @dataclass(slots=True, eq=False)
@@ -550,6 +733,7 @@ class Model(Node):
     package: Package | None
     imports: list[Import]
     declarations: list[Declaration]
+    optimizations: list[Optimization]
 
 
 NODES: dict[str, type[Node]] = {

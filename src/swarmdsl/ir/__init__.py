@@ -4,6 +4,7 @@ Nodes are equal when they mean the same; `origin`, the place in the model, does 
 """
 
 from swarmdsl.ir.architecture import (
+    CommunicationSettings,
     Component,
     Connector,
     Direction,
@@ -31,6 +32,7 @@ from swarmdsl.ir.expressions import (
 from swarmdsl.ir.interfaces import (
     Action,
     Communication,
+    Constant,
     Event,
     Field,
     Function,
@@ -40,6 +42,7 @@ from swarmdsl.ir.interfaces import (
     Param,
     Service,
 )
+from swarmdsl.ir.optimization import CountRange, Fitness, Optimization, ParamRange
 from swarmdsl.ir.statemachine import (
     Activity,
     Assignment,
@@ -69,8 +72,11 @@ __all__ = [
     "Binary",
     "Call",
     "Communication",
+    "CommunicationSettings",
     "Component",
     "Connector",
+    "Constant",
+    "CountRange",
     "Direction",
     "DoneTrigger",
     "Effect",
@@ -81,6 +87,7 @@ __all__ = [
     "Expression",
     "Field",
     "FieldAccess",
+    "Fitness",
     "Function",
     "FunctionPort",
     "Interface",
@@ -89,8 +96,10 @@ __all__ = [
     "Message",
     "Multiplicity",
     "Named",
+    "Optimization",
     "OutcomeTrigger",
     "Param",
+    "ParamRange",
     "ParamRef",
     "Part",
     "Policy",

@@ -27,13 +27,28 @@ class Port:
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """A sensor, actuator, controller or virtual component."""
+    """A sensor, actuator, controller or virtual component, with all that it inherits.
+
+    `operations` are names of functions; `behavior` names a state machine.
+    """
 
     name: str
     kind: Literal["sensor", "actuator", "controller", "virtual"]
     ports: tuple[Port, ...]
     params: tuple[Param, ...]
+    operations: tuple[str, ...] = ()
+    behavior: str | None = None
+    base: str | None = None
     doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class CommunicationSettings:
+    """How a member reaches the others: the technology and its settings."""
+
+    technology: str
+    values: tuple[tuple[str, Expression], ...]
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -70,7 +85,7 @@ class Connector:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A type of robot; `behavior` names its state machine."""
+    """A type of robot, with all that it inherits; `behavior` names its state machine."""
 
     name: str
     behavior: str | None
@@ -78,6 +93,8 @@ class Member:
     params: tuple[Param, ...]
     parts: tuple[Part, ...]
     connectors: tuple[Connector, ...]
+    communication: CommunicationSettings | None = None
+    base: str | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
@@ -126,5 +143,6 @@ class Swarm:
     name: str
     roles: tuple[Role, ...]
     environment: str | None
+    fitness: str | None = None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)

@@ -21,6 +21,17 @@ class Field:
 
 
 @dataclass(frozen=True, slots=True)
+class Constant:
+    """A named value: of a message, or of an enum (a message of nothing but constants)."""
+
+    name: str
+    type: Type
+    value: Expression
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Message:
     """Fields of a ROS message, or of a struct of the model.
 
@@ -30,6 +41,7 @@ class Message:
     type: Named
     fields: tuple[Field, ...]
     external: bool
+    constants: tuple[Constant, ...] = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 

@@ -26,6 +26,7 @@ class StateKind(Enum):
     REGION = "region"
     FINAL = "final"
     CHOICE = "choice"
+    HISTORY = "history"
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,15 +93,18 @@ Effect = Assignment | Send
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """From the state that holds it to `target`, an id.
+    """From the state that holds it to `target`, an id; None to stay where it is.
 
-    `triggers` is empty for a branch of a choice, whose `guard` None means "else".
+    Without triggers it is taken as soon as its guard holds: a branch of a choice, the
+    default of a history (both without a guard as well), or an eventless transition.
+    An internal one does not leave the state that holds it.
     """
 
     triggers: tuple[Trigger, ...]
     guard: Expression | None
     effects: tuple[Effect, ...]
-    target: str
+    target: str | None
+    internal: bool = False
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
@@ -144,7 +148,7 @@ class State:
     """A vertex of the machine and what is inside it.
 
     `initial` is the id of the child entered first (composite state, region).
-    `submachine` names the machine whose states stand here.
+    `submachine` names the machine whose states stand here. `deep` is for a history.
     """
 
     id: str
@@ -154,7 +158,10 @@ class State:
     states: tuple[State, ...] = ()
     transitions: tuple[Transition, ...] = ()
     activity: Activity | None = None
+    entry: tuple[Effect, ...] = ()
+    exit: tuple[Effect, ...] = ()
     submachine: str | None = None
+    deep: bool = False
     doc: str = ""
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 

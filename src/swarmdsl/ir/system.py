@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
 from swarmdsl.ir.interfaces import Event, Function, Interface
+from swarmdsl.ir.optimization import Fitness, Optimization
 from swarmdsl.ir.statemachine import StateMachine
 from swarmdsl.source import Span
 
@@ -26,6 +27,8 @@ class System:
     machines: tuple[StateMachine, ...] = ()
     environments: tuple[Environment, ...] = ()
     swarms: tuple[Swarm, ...] = ()
+    fitness: tuple[Fitness, ...] = ()
+    optimizations: tuple[Optimization, ...] = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 

@@ -7,12 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Primitive:
-    """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ..."""
+    """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ...
+
+    `bound` is the greatest length of a string, None where there is no limit.
+    """
 
     name: str
+    bound: int | None = None
 
     def __str__(self) -> str:
-        return self.name
+        return self.name if self.bound is None else f"{self.name}<={self.bound}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,13 +32,15 @@ class Named:
 
 @dataclass(frozen=True, slots=True)
 class Array:
-    """Many of one type; `size` is None where it may vary."""
+    """Many of one type: `size` of them, or up to that many if `bounded`; None for any number."""
 
     element: Type
     size: int | None = None
+    bounded: bool = False
 
     def __str__(self) -> str:
-        return f"{self.element}[{'' if self.size is None else self.size}]"
+        size = "" if self.size is None else str(self.size)
+        return f"{self.element}[{'<=' if self.bounded else ''}{size}]"
 
 
 Type = Primitive | Named | Array

@@ -1,0 +1,64 @@
+"""What makes a swarm good, and what may be changed to make it better."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from swarmdsl.ir.expressions import Expression
+from swarmdsl.ir.interfaces import Field, Param
+from swarmdsl.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Fitness:
+    """A value to make as great or as small as possible, from what a run measured.
+
+    The expression reads inputs as variables.
+    """
+
+    name: str
+    inputs: tuple[Field, ...]
+    params: tuple[Param, ...]
+    goal: Literal["maximize", "minimize"]
+    value: Expression
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class ParamRange:
+    """The values a param of the members in a role may take."""
+
+    role: str
+    param: str
+    lower: Expression
+    upper: Expression
+    step: Expression | None
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class CountRange:
+    """How many members there may be in a role."""
+
+    role: str
+    lower: Expression
+    upper: Expression
+    origin: Span | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Optimization:
+    """A search for the best swarm.
+
+    `settings` are the number of steps of a run, the number of runs (`evaluations`) and the
+    seed of all chance, as far as they are given.
+    """
+
+    swarm: str
+    params: tuple[ParamRange, ...]
+    counts: tuple[CountRange, ...]
+    settings: tuple[tuple[str, Expression], ...] = ()
+    doc: str = ""
+    origin: Span | None = field(default=None, compare=False, repr=False)
