@@ -1,6 +1,7 @@
 """What generated machines do: one construct of the model a test."""
 
 import random
+import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -608,6 +609,38 @@ def test_callbacks(robot: Run) -> None:
     world.finish("ask")
     work.wait_in("C")
     world.publish("go")
+    assert work.ended() == "End"
+
+
+def test_result_callback_that_fails(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            do work gives by take_result
+            on succeeded -> Bad
+            on aborted -> A
+            on preempted -> Bad
+            on Stop -> End
+          }
+          final End
+          final Bad
+        }"""
+    )
+
+    def fail(*arguments: Any) -> None:
+        raise ValueError
+
+    sys.modules["lab_behavior.callbacks"].take_result = fail
+    world = work.world
+    work.start()
+    for _ in range(3):
+        world.finish("work")
+    world.wait_for("work")
+    work.wait_in("A/A", "A/Stop")
+    world.publish("stop")
     assert work.ended() == "End"
 
 
