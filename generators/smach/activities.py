@@ -132,7 +132,7 @@ def _store_result(
     if activity.result_callback is not None:
         callback = _callback(activity, activity.result_callback, parameters, interface, module)
         if not cancelled:
-            interface.keywords.append(("result_cb", Source(callback)))
+            interface.keywords.append(("result_cb", _aborting(callback, module)))
             return
         body.append(f"{STEP}{callback}({parameters})")
     elif activity.results:
@@ -143,9 +143,15 @@ def _store_result(
         body += [f"{STEP * 2}return {CANCELLED!r}", f"{STEP}return None"]
     if not body:
         return
-    module.imports.name("actionlib_msgs.msg", "GoalStatus")
+    if cancelled or activity.results:
+        module.imports.name("actionlib_msgs.msg", "GoalStatus")
     name = module.add_function((state.id, "result"), parameters, body, place(activity.origin))
-    interface.keywords.append(("result_cb", Source(name)))
+    by_user = activity.result_callback is not None
+    interface.keywords.append(("result_cb", _aborting(name, module) if by_user else Source(name)))
+
+
+def _aborting(callback: str, module: Module) -> Call:
+    return Call(module.own("states", "aborting"), (Source(callback),))
 
 
 def _store(

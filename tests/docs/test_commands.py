@@ -24,14 +24,9 @@ SESSIONS = list(dict.fromkeys(block.page for block in blocks("console", "sh")))
 # What is run, and what only a person should run: it installs, or takes long.
 _RUN = ("swarmc", "textx", "echo", "ls", "find", "cat", "sed")
 _NOT_RUN = (
-    "git clone",
-    "cd ",
-    "python3 -m venv",
     ". .venv",
     "pip install",
     "make ",
-    "npm ",
-    "code ",
 )
 
 

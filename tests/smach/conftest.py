@@ -1,0 +1,241 @@
+"""Generated packages, built and run in this process against a ROS of one process.
+
+The machines run twice: on the stand-in for smach beside this file, and on the real smach and
+smach_ros where SWARMDSL_SMACH_PATH names the folders they are in, or Python's or the system's
+modules have them.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import importlib.util
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.plugins import load
+
+HERE = Path(__file__).parent
+STAND_IN = HERE / "stand_in"
+
+
+def _load(name: str) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, HERE / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+fake_ros = _load("fake_ros")
+
+
+def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+    """What the generator makes of a system, and what it reports."""
+    generator = load("smach")
+    report = Diagnostics()
+    files = list(generator.emit(system, generator.options_type(**options), report))
+    return files, report
+
+
+@pytest.fixture
+def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, OutputFile]]:
+    """Generate from the text of a model; the files by path below the package's folder."""
+
+    def generate(text: str, **options: str) -> dict[str, OutputFile]:
+        files, report = emit(compiled(text), **options)
+        assert not list(report)
+        return {file.path.partition("/")[2]: file for file in files}
+
+    return generate
+
+
+@pytest.fixture
+def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
+    """What is reported about a model: name, message, the text it points at."""
+
+    def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
+        _, report = emit(compiled(text), **options)
+        return [
+            (found.name, found.message, found.primary.span.text if found.primary else "")
+            for found in report
+        ]
+
+    return reported
+
+
+@functools.cache
+def _real_smach() -> tuple[str, ...]:
+    """The folders that the real smach and smach_ros are imported from."""
+    if "SWARMDSL_SMACH_PATH" in os.environ:
+        return tuple(os.environ["SWARMDSL_SMACH_PATH"].split(os.pathsep))
+    code = (
+        "import importlib.util, pathlib\n"
+        "for name in ('smach', 'smach_ros'):\n"
+        "    print(pathlib.Path(importlib.util.find_spec(name).origin).parents[1])"
+    )
+    python = Path("/usr/bin/python3")
+    if not python.exists():
+        return ()
+    found = subprocess.run([python, "-c", code], capture_output=True, text=True, check=False)
+    return tuple(found.stdout.split()) if found.returncode == 0 else ()
+
+
+@pytest.fixture(params=["stand-in", "real"])
+def smach_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
+    """The folders of the smach to run on: the stand-in, then the real one where there is one."""
+    if request.param == "stand-in":
+        return (str(STAND_IN),)
+    if not _real_smach():
+        pytest.skip("no real smach here; SWARMDSL_SMACH_PATH names the folders of it")
+    return _real_smach()
+
+
+class Robot:
+    """A generated machine and the ROS it lives in."""
+
+    def __init__(self, world: Any, machine: Any) -> None:
+        self.world = world
+        self.machine = machine
+        self.outcome: str | None = None
+        self.error: BaseException | None = None
+        self._thread = threading.Thread(target=self._run, daemon=True)
+
+    def _run(self) -> None:
+        try:
+            self.outcome = self.machine.execute()
+        except BaseException as error:
+            self.error = error
+
+    def start(self) -> None:
+        """Run the machine in a thread of its own."""
+        self._thread.start()
+
+    def ended(self) -> str | None:
+        """The outcome, when the machine has ended."""
+        self._thread.join(fake_ros.WAIT)
+        if self.error is not None:
+            raise self.error
+        assert not self._thread.is_alive(), f"the machine still runs: {self.world.log}"
+        return self.outcome
+
+    def preempt(self) -> str | None:
+        """What a shutdown does."""
+        self.machine.request_preempt()
+        return self.ended()
+
+    def active(self) -> list[str]:
+        """The labels of the active states without children, by their path."""
+        return sorted(_active(self.machine, ""))
+
+    def wait_in(self, *paths: str) -> None:
+        """Wait until exactly these states are active, and those that wait do so."""
+        self.world.wait_until(
+            lambda: self.active() == sorted(paths) and _settled(self.machine),
+            f"{list(paths)} expected, {self.active()} active",
+        )
+
+
+def _active(container: Any, path: str) -> Iterator[str]:
+    for label in _running(container):
+        child = container.get_children()[label]
+        if hasattr(child, "get_children"):
+            yield from _active(child, f"{path}{label}/")
+        else:
+            yield f"{path}{label}"
+
+
+def _running(container: Any) -> list[str]:
+    """The labels of the running children; the real and the stand-in container keep them alike."""
+    children = container.get_children()
+    if hasattr(container, "_child_outcomes"):
+        return [label for label, outcome in container._child_outcomes.items() if outcome is None]
+    current = getattr(container, "_current_label", getattr(container, "_current", None))
+    return [current] if current in children else []
+
+
+def _settled(container: Any) -> bool:
+    """Whether every active monitor listens."""
+    for label in _running(container):
+        child = container.get_children()[label]
+        if hasattr(child, "get_children"):
+            if not _settled(child):
+                return False
+        elif hasattr(child, "offer") and child not in child._event._monitors:
+            return False
+    return True
+
+
+@pytest.fixture
+def build(
+    smach_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Callable[..., Robot]]:
+    """Generate a system, import what was generated and build a machine."""
+    made: list[Robot] = []
+    imported = {"smach", "smach_ros"}
+
+    def build(system: System, module: str, **params: Any) -> Robot:
+        files, report = emit(system)
+        assert not list(report)
+        package = files[0].path.partition("/")[0]
+        for file in files:
+            path = tmp_path / "out" / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+        world = fake_ros.World(system)
+        world.params.update(params)
+        monkeypatch.syspath_prepend(str(tmp_path / "out" / package / "src"))
+        for folder in smach_path:
+            monkeypatch.syspath_prepend(folder)
+        for name, fake in world.modules.items():
+            monkeypatch.setitem(sys.modules, name, fake)
+        world.alias(system.name, package)
+        imported.add(package)
+        generated = importlib.import_module(f"{package}.{module}")
+        robot = Robot(world, getattr(generated, module)())
+        made.append(robot)
+        return robot
+
+    yield build
+    for robot in made:
+        robot.machine.request_preempt()
+    for name in list(sys.modules):
+        if name.partition(".")[0] in imported:
+            del sys.modules[name]
+
+
+@pytest.fixture
+def robot(build: Callable[..., Robot], compiled: Callable[[str], System]) -> Callable[..., Robot]:
+    """Build the machine of the text of a model."""
+
+    def robot(text: str, module: str = "work", **params: Any) -> Robot:
+        return build(compiled(text), module, **params)
+
+    return robot
+
+
+@pytest.fixture
+def example(build: Callable[..., Robot], examples: Path) -> Callable[..., Robot]:
+    """Build a machine of an example."""
+
+    def example(folder: str, module: str) -> Robot:
+        paths = sorted((examples / folder).glob("*.swarm"))
+        result = compiler.check(paths)
+        assert result.system is not None
+        return build(result.system, module)
+
+    return example

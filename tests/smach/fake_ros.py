@@ -1,0 +1,373 @@
+"""A ROS in one process: rospy, actionlib and the classes of messages, driven by a test."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections import defaultdict
+from collections.abc import Iterable
+from types import ModuleType
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.ir import Array, Field, Named, Primitive, System
+
+WAIT = 5.0
+
+
+class GoalStatus:
+    PENDING, ACTIVE, PREEMPTED, SUCCEEDED, ABORTED, REJECTED = range(6)
+    PREEMPTING, RECALLING, RECALLED, LOST = range(6, 10)
+
+
+class Duration:
+    __slots__ = ("secs",)
+
+    def __init__(self, secs: float = 0.0) -> None:
+        self.secs = secs
+
+    def to_sec(self) -> float:
+        return self.secs
+
+    def __add__(self, other: Any) -> Any:
+        return type(other)(self.secs + other.secs)
+
+    def __sub__(self, other: Duration) -> Duration:
+        return Duration(self.secs - other.secs)
+
+    def __mul__(self, factor: float) -> Duration:
+        return Duration(self.secs * factor)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Duration) and self.secs == other.secs
+
+    def __hash__(self) -> int:
+        return hash(self.secs)
+
+    def __lt__(self, other: Duration) -> bool:
+        return self.secs < other.secs
+
+    def __le__(self, other: Duration) -> bool:
+        return self.secs <= other.secs
+
+    def __gt__(self, other: Duration) -> bool:
+        return self.secs > other.secs
+
+    def __ge__(self, other: Duration) -> bool:
+        return self.secs >= other.secs
+
+
+class Time(Duration):
+    __slots__ = ()
+
+    def __bool__(self) -> bool:
+        return self.secs != 0.0
+
+    @staticmethod
+    def now() -> Time:
+        return Time(time.monotonic())
+
+    def __add__(self, other: Duration) -> Time:
+        return Time(self.secs + other.secs)
+
+
+class ServiceException(Exception):  # noqa: N818 - rospy's name
+    pass
+
+
+class ROSException(Exception):  # noqa: N818 - rospy's name
+    pass
+
+
+class Call:
+    """A goal or a request that a server works on; the test ends it."""
+
+    def __init__(self, name: str, content: Any, deaf: bool) -> None:
+        self.name = name
+        self.content = content
+        self.deaf = deaf
+        self.cancelled = False
+        self.status: int | None = None
+        self.result: Any = None
+        self.ended = threading.Event()
+        self.on_done: Any = None
+
+    def end(self, status: int, result: Any) -> None:
+        self.status, self.result = status, result
+        self.ended.set()
+        if self.on_done is not None:
+            threading.Thread(target=self.on_done, args=(status, result), daemon=True).start()
+
+
+class World:
+    """What the machine under test lives in.
+
+    A call waits until the test ends it, unless `answers` has an outcome for it. A server in
+    `deaf` goes on when it is cancelled.
+    """
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        self.params: dict[str, Any] = {}
+        self.answers: dict[str, list[str]] = defaultdict(list)
+        self.deaf: set[str] = set()
+        self.log: list[tuple[str, str]] = []
+        self.sent: list[tuple[str, Any]] = []
+        self.modules: dict[str, ModuleType] = {}
+        self._active: dict[str, Call] = {}
+        self._subscribers: dict[str, list[Any]] = defaultdict(list)
+        self._changed = threading.Condition()
+        self._define_rospy()
+        self._define_messages()
+
+    # ---- what a test does
+
+    def publish(self, topic: str, **fields: Any) -> None:
+        """Send a message to those who listen now."""
+        subscribers = list(self._subscribers[topic])
+        assert subscribers, f"nobody listens to {topic}"
+        for type_, callback in subscribers:
+            callback(type_(**fields))
+
+    def wait_for(self, name: str) -> Call:
+        """The call of this action or service, when it comes."""
+        with self._changed:
+            assert self._changed.wait_for(lambda: name in self._active, WAIT), (
+                f"{name} is not called; so far: {self.log}"
+            )
+            return self._active[name]
+
+    def finish(self, name: str, outcome: str = "succeeded", **fields: Any) -> None:
+        """End the running call of this name when it has come."""
+        call = self.wait_for(name)
+        self._end(call, outcome, fields)
+
+    def wait_until(self, test: Any, what: str) -> None:
+        """Wait for something to become true."""
+        end = time.monotonic() + WAIT
+        while not test():
+            assert time.monotonic() < end, f"{what}; so far: {self.log}"
+            time.sleep(0.002)
+
+    def called(self) -> list[str]:
+        """The names of all calls so far."""
+        return [name for what, name in self.log if what == "call"]
+
+    # ---- what the machine does
+
+    def start(self, call: Call) -> None:
+        with self._changed:
+            self.log.append(("call", call.name))
+            self._active[call.name] = call
+            self._changed.notify_all()
+        if self.answers[call.name]:
+            self._end(call, self.answers[call.name].pop(0), {})
+
+    def cancel(self, call: Call) -> None:
+        with self._changed:
+            call.cancelled = True
+            self.log.append(("cancel", call.name))
+        if not call.deaf:
+            self._end(call, "preempted", {})
+
+    def _end(self, call: Call, outcome: str, fields: dict[str, Any]) -> None:
+        status = {
+            "succeeded": GoalStatus.SUCCEEDED,
+            "aborted": GoalStatus.ABORTED,
+            "preempted": GoalStatus.PREEMPTED,
+        }[outcome]
+        with self._changed:
+            if self._active.get(call.name) is not call:
+                return
+            del self._active[call.name]
+            self.log.append((outcome, call.name))
+            self._changed.notify_all()
+        call.end(status, call.content.result_class(**fields))
+
+    # ---- modules
+
+    def _module(self, name: str, **members: Any) -> ModuleType:
+        parent, _, child = name.rpartition(".")
+        if name not in self.modules:
+            self.modules[name] = module = ModuleType(name)
+            module.__path__ = []
+            if parent:
+                setattr(self._module(parent), child, module)
+        vars(self.modules[name]).update(members)
+        return self.modules[name]
+
+    def _define_rospy(self) -> None:
+        world = self
+        hooks: list[Any] = []
+
+        class Subscriber:
+            def __init__(self, topic, type_, callback=None, callback_args=None):
+                world._subscribers[topic].append((type_, callback))
+
+        class Publisher:
+            def __init__(self, topic, type_, queue_size=None):
+                assert queue_size
+                self.topic = topic
+
+            def publish(self, message):
+                with world._changed:
+                    world.sent.append((self.topic, message))
+                    world.log.append(("send", self.topic))
+
+        class ServiceProxy:
+            def __init__(self, name, spec):
+                self.name = name
+
+            def __call__(self, request):
+                call = Call(self.name, request, deaf=True)
+                world.start(call)
+                call.ended.wait()
+                if call.status != GoalStatus.SUCCEEDED:
+                    raise ServiceException(self.name)
+                return call.result
+
+        class SimpleActionClient:
+            def __init__(self, name, spec):
+                self.name = name
+                self.call: Call | None = None
+
+            def wait_for_server(self, timeout):
+                return True
+
+            def send_goal(self, goal, done_cb, active_cb, feedback_cb):
+                self.call = Call(self.name, goal, self.name in world.deaf)
+                self.call.on_done = done_cb
+                world.start(self.call)
+
+            def cancel_goal(self):
+                world.cancel(self.call)
+
+            def get_state(self):
+                return self.call.status
+
+        def get_param(name, *default):
+            return world.params.get(name, *default) if default else world.params[name]
+
+        def nothing(*arguments):
+            pass
+
+        def logerr(text, *arguments):
+            world.log.append(("error", text % arguments if arguments else text))
+
+        core = self._module("rospy.core", add_client_shutdown_hook=hooks.append, _in_shutdown=False)
+        self._module(
+            "rospy",
+            Time=Time,
+            Duration=Duration,
+            Subscriber=Subscriber,
+            Publisher=Publisher,
+            ServiceProxy=ServiceProxy,
+            ServiceException=ServiceException,
+            ROSException=ROSException,
+            wait_for_service=nothing,
+            get_param=get_param,
+            has_param=world.params.__contains__,
+            get_rostime=Time.now,
+            is_shutdown=lambda: False,
+            loginfo=nothing,
+            logwarn=nothing,
+            logdebug=nothing,
+            logerr=logerr,
+            logfatal=logerr,
+            core=core,
+        )
+        self._module("roslib", load_manifest=nothing)
+        actionlib = {"SimpleActionClient": SimpleActionClient, "GoalStatus": GoalStatus}
+        self._module("actionlib", **actionlib)
+        self._module("actionlib.simple_action_client", **actionlib)
+        self._module("actionlib_msgs.msg", GoalStatus=GoalStatus)
+        # What the real smach_ros imports for parts of it that are not used here.
+        self._module("actionlib.simple_action_server", SimpleActionServer=None)
+        self._module("rostopic")
+        self._module("std_msgs.msg", Header=None)
+        parts = ("ContainerStatus", "ContainerInitialStatusCmd", "ContainerStructure")
+        self._module("smach_msgs.msg", **{f"Smach{part}": None for part in parts})
+
+    def _define_messages(self) -> None:
+        """A class for every type that the model describes or names."""
+        for interface in self.system.interfaces:
+            package = interface.type.package
+            match interface:
+                case ir.Message(fields=fields):
+                    self.message(package, interface.type.name, fields)
+                case ir.Service(request=request, response=response):
+                    self._service(package, interface.type.name, request, response)
+                case ir.Action(goal=goal, result=result):
+                    self._action(package, interface.type.name, goal, result)
+        for function in self.system.functions:
+            call = function.communication
+            if self.system.interface(call.type) is None:
+                define = self._service if call.paradigm == "service" else self._action
+                define(call.type.package, call.type.name, (), ())
+        for event in self.system.events:
+            if isinstance(event.type, Named) and self.system.interface(event.type) is None:
+                self.message(event.type.package, event.type.name, ())
+
+    def alias(self, package: str, target: str) -> None:
+        """The types of the model's own package under the name of the generated one."""
+        for kind in ("msg", "srv"):
+            if f"{package}.{kind}" in self.modules:
+                self._module(f"{target}.{kind}", **vars(self.modules[f"{package}.{kind}"]))
+
+    def message(self, package: str, name: str, fields: Iterable[Field], kind: str = "msg") -> type:
+        """Make a message class that takes its fields by name and nothing else."""
+        world, types = self, {field.name: field.type for field in fields}
+
+        def __init__(message: Any, **values: Any) -> None:  # noqa: N807
+            unknown = values.keys() - types.keys()
+            assert not unknown, f"{name} has no field {unknown}"
+            for field, type_ in types.items():
+                value = values[field] if field in values else world.default(type_)
+                setattr(message, field, value)
+
+        # Slots as genpy makes them: smach wraps what has a `__dict__` to keep it constant.
+        members = {"__init__": __init__, "__slots__": tuple(types), "result_class": None}
+        class_ = type(name, (), members)
+        self._module(f"{package}.{kind}", **{name: class_})
+        return class_
+
+    def default(self, type_: Any) -> Any:
+        """The default value of a field."""
+        match type_:
+            case Named(package=package, name=name):
+                module = self.modules.get(f"{package}.msg")
+                class_ = getattr(module, name, None) or self.message(package, name, ())
+                return class_()
+            case Array():
+                return []
+            case Primitive(name="string"):
+                return ""
+            case Primitive(name="bool"):
+                return False
+            case Primitive(name="duration"):
+                return Duration()
+            case Primitive(name="float32" | "float64"):
+                return 0.0
+        return 0
+
+    def _service(self, package: str, name: str, request: Any, response: Any) -> None:
+        request_class = self.message(package, f"{name}Request", request, "srv")
+        request_class.result_class = self.message(package, f"{name}Response", response, "srv")
+        spec = type(name, (), {"_request_class": request_class})
+        self._module(f"{package}.srv", **{name: spec})
+
+    def _action(self, package: str, name: str, goal: Any, result: Any) -> None:
+        goal_class = self.message(package, f"{name}Goal", goal)
+        goal_class.result_class = self.message(package, f"{name}Result", result)
+
+        class Wrapped:
+            def __init__(self, **inner: Any) -> None:
+                vars(self).update(inner)
+
+        def spec() -> Wrapped:
+            return Wrapped(
+                action_goal=Wrapped(goal=goal_class()),
+                action_result=Wrapped(result=goal_class.result_class()),
+            )
+
+        self._module(f"{package}.msg", **{f"{name}Action": spec})

@@ -1,0 +1,261 @@
+"""The text of generated packages: valid, neat, complete."""
+
+import ast
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from lxml import etree
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.plugins import load
+
+Files = dict[str, OutputFile]
+Generate = Callable[..., Files]
+
+MODEL = '''
+/// A lab with a "difficult" text \\\\ in it: """
+package lab
+
+struct Spot { x : float64  class : int32 }
+/// What was seen.
+message Seen {
+  /// where
+  spot  : Spot
+  poses : geometry_msgs/Pose[]
+  near  : Spot[4]
+}
+service Ask { request { times : int32 } response { answer : string } }
+action Look { goal { at : Spot  self : string } result { found : bool } feedback { spot : Spot } }
+function ask   : abstraction { service "ask" : Ask }
+function look  : abstraction { action "look" : Look }
+function other : abstraction { action "other" : other_msgs/Look }
+event Saw : Seen on "seen"
+
+/// Looks "around" \\\\
+/// and says so
+statemachine Watch {
+  param name  : string = "it's"
+  param limit : duration
+  var spot  : Spot
+  var spots : Spot[]
+  initial Looking
+
+  /// Look here \\\\ """
+  state Looking {
+    do look(at = spot, self = name) gives (found => done_)
+    on succeeded -> Asking
+    on aborted [spot.class == 1] / send Saw(spot = spot) -> Other
+    on aborted -> Asking
+    after limit -> Other
+  }
+  var done_ : bool
+  state Asking {
+    do ask(by make_request) gives by take_answer
+    on succeeded -> End
+    on aborted -> Looking
+  }
+  state Other { do other(by make_goal)  on succeeded -> End  on aborted -> End }
+  final End
+}
+statemachine Unused { initial A  state A { on Saw -> B }  final B }
+member Robot { behavior Watch  param limit : duration = 1 s }
+member Other { behavior Watch  param limit : duration = 2 s }
+'''
+
+
+@pytest.fixture
+def files(generate: Generate) -> Files:
+    return generate(MODEL)
+
+
+def test_files(files: Files) -> None:
+    assert set(files) == {
+        "msg/Spot.msg",
+        "msg/Seen.msg",
+        "srv/Ask.srv",
+        "action/Look.action",
+        "package.xml",
+        "CMakeLists.txt",
+        "setup.py",
+        "src/lab_behavior/__init__.py",
+        "src/lab_behavior/containers.py",
+        "src/lab_behavior/states.py",
+        "src/lab_behavior/events.py",
+        "src/lab_behavior/callbacks.py",
+        "src/lab_behavior/watch.py",
+        "scripts/watch",
+    }
+    assert [path for path, file in files.items() if file.executable] == ["scripts/watch"]
+    assert [path for path, file in files.items() if file.keep] == ["src/lab_behavior/callbacks.py"]
+
+
+def test_interfaces(files: Files) -> None:
+    assert files["msg/Seen.msg"].text == (
+        "# What was seen.\n# where\nSpot spot\ngeometry_msgs/Pose[] poses\nSpot[4] near\n"
+    )
+    assert files["srv/Ask.srv"].text == "int32 times\n---\nstring answer\n"
+    assert files["action/Look.action"].text == (
+        "Spot at\nstring self\n---\nbool found\n---\nSpot spot\n"
+    )
+
+
+def test_dependencies(files: Files) -> None:
+    root = etree.fromstring(files["package.xml"].text.encode())
+    assert root.get("format") == "2"
+    depends = [(child.tag, child.text) for child in root if child.tag.endswith("depend")]
+    assert depends == [
+        ("buildtool_depend", "catkin"),
+        ("buildtool_depend", "python3-setuptools"),
+        ("build_depend", "message_generation"),
+        ("depend", "actionlib_msgs"),
+        ("depend", "geometry_msgs"),
+        *(
+            ("exec_depend", name)
+            for name in ("actionlib", "other_msgs", "rospy", "smach", "smach_ros")
+        ),
+        ("exec_depend", "message_runtime"),
+    ]
+    cmake = files["CMakeLists.txt"].text
+    assert "add_message_files(\n  FILES\n  Spot.msg\n  Seen.msg\n)" in cmake
+    assert "add_service_files(\n  FILES\n  Ask.srv\n)" in cmake
+    assert "add_action_files(\n  FILES\n  Look.action\n)" in cmake
+    assert cmake.index("catkin_python_setup()") < cmake.index("generate_messages(")
+    assert "DEPENDENCIES\n  actionlib_msgs\n  geometry_msgs\n)" in cmake
+    assert "  scripts/watch\n" in cmake
+
+
+def test_a_package_without_interfaces_generates_none(generate: Generate) -> None:
+    files = generate(
+        'package p\nfunction f : swarm { action "f" : m/F }\n'
+        "statemachine M { initial A state A { do f on succeeded -> B on aborted -> B } final B }"
+    )
+    assert "message" not in files["CMakeLists.txt"].text
+    assert "message" not in files["package.xml"].text
+
+
+def test_two_types_of_one_name_are_called_by_their_modules(files: Files) -> None:
+    text = files["src/lab_behavior/watch.py"].text
+    assert "import lab_behavior.msg\n" in text
+    assert "import other_msgs.msg\n" in text
+    assert "'other', other_msgs.msg.LookAction" in " ".join(text.split())
+    assert "lab_behavior.msg.LookGoal(at=userdata.spot, self_=userdata.name)" in text
+
+
+def test_a_type_called_like_something_else_in_the_module(generate: Generate) -> None:
+    files = generate(
+        "package p\nevent E : m/Timer\n"
+        "statemachine M { var t : m/Timer initial A state A { on E -> B after 1 s -> B } final B }"
+    )
+    assert "userdata.t = m.msg.Timer()" in files["src/p_behavior/m.py"].text
+
+
+def test_places_and_texts_of_the_model(files: Files) -> None:
+    text = files["src/lab_behavior/watch.py"].text
+    line = 1 + MODEL[: MODEL.index("state Looking")].count("\n")
+    assert f'# model.swarm:{line}\n        # Look here \\\\ """\n' in text
+    module = ast.parse(text)
+    assert ast.get_docstring(module) == 'Looks "around" \\\\\nand says so'
+
+
+def test_required_params(files: Files) -> None:
+    assert "for name in ('~limit',):" in files["scripts/watch"].text
+    text = files["src/lab_behavior/watch.py"].text
+    assert "userdata.limit = rospy.Duration(rospy.get_param('~limit'))" in text
+    assert "userdata.name = rospy.get_param('~name', \"it's\")" in text
+
+
+def test_callbacks_are_functions_of_the_user(files: Files) -> None:
+    module = ast.parse(files["src/lab_behavior/callbacks.py"].text)
+    functions = {
+        node.name: [argument.arg for argument in node.args.args]
+        for node in module.body
+        if isinstance(node, ast.FunctionDef)
+    }
+    assert functions == {
+        "make_request": ["userdata", "request"],
+        "take_answer": ["userdata", "response"],
+        "make_goal": ["userdata", "goal"],
+    }
+
+
+def test_options(generate: Generate) -> None:
+    files = generate(MODEL, package="watcher", maintainer="A & B", email="a@example.org")
+    root = etree.fromstring(files["package.xml"].text.encode())
+    assert root.findtext("name") == "watcher"
+    assert (root.findtext("maintainer"), root.find("maintainer").get("email")) == (
+        "A & B",
+        "a@example.org",
+    )
+    assert "src/watcher/watch.py" in files
+
+
+def test_a_machine_that_no_member_uses_when_some_member_uses_one(generate: Generate) -> None:
+    files = generate(MODEL[: MODEL.index("member")].replace("duration", "duration = 1 s"))
+    assert {"scripts/watch", "scripts/unused"} <= set(files)
+
+
+def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
+    systems = [compiled(MODEL)]
+    for folder in sorted(path for path in examples.iterdir() if path.is_dir()):
+        system = compiler.check(sorted(folder.glob("*.swarm"))).system
+        assert system is not None
+        systems.append(system)
+    return systems
+
+
+@pytest.fixture
+def folder(examples: Path, compiled: Callable[[str], System], tmp_path: Path) -> Path:
+    """What is generated from the examples and from the model above."""
+    generator = load("smach")
+    for number, system in enumerate(_systems(examples, compiled)):
+        report = Diagnostics()
+        for file in generator.emit(system, generator.options_type(), report):
+            path = tmp_path / "out" / str(number) / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+        assert not list(report)
+    return tmp_path / "out"
+
+
+def _python(folder: Path) -> list[Path]:
+    return sorted([*folder.rglob("*.py"), *folder.rglob("scripts/*")])
+
+
+def test_python_is_that_of_noetic(folder: Path) -> None:
+    assert _python(folder)
+    for path in _python(folder):
+        text = path.read_text(encoding="utf-8")
+        compile(text, str(path), "exec")
+        ast.parse(text, feature_version=(3, 8))
+
+
+def test_python_is_neat(folder: Path) -> None:
+    """Nothing unused or undefined, and laid out as a formatter would."""
+    paths = _python(folder)
+    flakes = [sys.executable, "-m", "pyflakes", *paths]
+    assert subprocess.run(flakes, capture_output=True, text=True, check=False).stdout == ""
+    style = ["--isolated", "--line-length=100", "--target-version=py38"]
+    quotes = ["--config", 'format.quote-style="single"']
+    ruff = [sys.executable, "-m", "ruff"]
+    layout = [*ruff, "format", "--diff", *style, *quotes, *paths]
+    assert subprocess.run(layout, capture_output=True, text=True, check=False).stdout == ""
+    rules = "--select=A,B,C4,E,F,I,N,PIE,RET,SIM,W"
+    own = sorted(path.parent.name for path in folder.glob("*/*/package.xml"))
+    first_party = ["--config", f"lint.isort.known-first-party={own}"]
+    lint = [*ruff, "check", "--quiet", *style, rules, *first_party, *paths]
+    assert subprocess.run(lint, capture_output=True, text=True, check=False).stdout == ""
+
+
+def test_same_model_same_text(compiled: Callable[[str], System]) -> None:
+    generator = load("smach")
+    first, second = (
+        list(generator.emit(compiled(MODEL), generator.options_type(), Diagnostics()))
+        for _ in range(2)
+    )
+    assert first == second

@@ -1,0 +1,730 @@
+"""What generated machines do: one construct of the model a test."""
+
+import random
+import sys
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+HEADER = """
+package lab
+
+message m/Pose { x : float64  y : float64 }
+message m/Note { header : std_msgs/Header  id : string  level : int32  pose : m/Pose }
+message std_msgs/Header { stamp : time }
+action m/Move {
+  goal { to : m/Pose  speed : float64 }
+  result { id : string  at : m/Pose }
+}
+service m/Ask { request { times : int32 } response { answer : string } }
+
+function move : abstraction { action "move" : m/Move }
+function work : abstraction { action "work" : m/Work }
+function rest : abstraction { action "rest" : m/Rest }
+function ask  : abstraction { service "ask" : m/Ask }
+function land : abstraction { service "land" : m/Land }
+event Go   : m/Note
+event Stop : m/Note
+swarm event Found : m/Note
+"""
+
+Run = Callable[..., Any]
+
+
+def test_activity_outcomes(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A { do work  on succeeded -> B  on aborted -> Bad }
+          state B { do land  on succeeded -> A  on aborted -> Good }
+          final Good
+          final Bad
+        }"""
+    )
+    work.world.answers.update(work=["succeeded", "succeeded", "aborted"], land=["succeeded"])
+    work.start()
+    work.world.finish("land", "aborted")
+    assert work.ended() == "Good"
+    assert work.world.called() == ["work", "land", "work", "land"]
+
+
+def test_initial_state_that_is_not_the_first(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial B
+          state A { do work  on succeeded -> End  on aborted -> End }
+          state B { do land  on succeeded -> A  on aborted -> A }
+          final End
+        }"""
+    )
+    work.world.answers.update(work=["succeeded"], land=["succeeded"])
+    work.start()
+    assert work.ended() == "End"
+    assert work.world.called() == ["land", "work"]
+
+
+def test_guard_and_effect_on_an_outcome(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          param limit : int32 = 2
+          var tries : int32 = 0
+          initial A
+          state A {
+            do work
+            on succeeded -> End
+            on aborted [tries < limit] / tries = tries + 1 -> A
+            on aborted -> Bad
+          }
+          final End
+          final Bad
+        }""",
+        **{"~limit": 3},
+    )
+    work.world.answers["work"] = ["aborted"] * 4
+    work.start()
+    assert work.ended() == "Bad"
+    assert work.world.called() == ["work"] * 4
+
+
+def test_state_stays_where_no_guard_holds(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var ready : bool
+          initial A
+          state A {
+            initial B
+            state B { do work  on succeeded -> Over  on aborted -> Over }
+            final Over
+            on done [ready] -> End
+            on Go / ready = true -> A
+          }
+          final End
+        }"""
+    )
+    work.start()
+    work.world.finish("work")
+    work.wait_in("A/A/A_waiting", "A/Go")
+    work.world.publish("go")
+    work.world.finish("work")
+    assert work.ended() == "End"
+
+
+def test_data_of_an_event(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var pose : m/Pose
+          var last : m/Note
+          initial Idle
+          state Idle {
+            on Go [event.level > 2 and event.id != "x"]
+              / pose = event.pose, last.id = event.id, last.pose.x = 5.0 -> Drive
+          }
+          state Drive {
+            do move(to = pose, speed = 2 * last.pose.x)
+            on succeeded -> End
+            on aborted -> End
+          }
+          final End
+        }"""
+    )
+    world = work.world
+    pose = world.modules["m.msg"].Pose(x=1.0, y=2.0)
+    work.start()
+    work.wait_in("Idle")
+    world.publish("go", level=2, id="a")
+    world.publish("go", level=3, id="x")
+    world.publish("go", level=3, id="a", pose=pose)
+    goal = world.wait_for("move").content
+    assert (goal.to, goal.speed) == (pose, 10.0)
+    world.publish("go", level=9)
+    world.finish("move")
+    assert work.ended() == "End"
+
+
+def test_a_guard_that_fails_is_false(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A { on Go [10 / event.level > 1] -> End  on Stop -> End }
+          final End
+        }"""
+    )
+    work.start()
+    work.wait_in("A/Go", "A/Stop")
+    work.world.publish("go", level=0)
+    assert any(what == "error" for what, _ in work.world.log)
+    work.wait_in("A/Go", "A/Stop")
+    work.world.publish("stop")
+    assert work.ended() == "End"
+
+
+def test_one_event_with_several_targets(robot: Run) -> None:
+    model = (
+        HEADER
+        + """
+        statemachine Work {
+          var count : int32
+          initial A
+          state A {
+            on Go [event.level == 1] -> One
+            on Go [event.level == 2] / count = 7 -> Two
+            on Go [event.level > 5] -> One
+            on Stop -> Other
+          }
+          state Two { do ask(times = count)  on succeeded -> Other  on aborted -> Other }
+          final One
+          final Other
+        }"""
+    )
+    work = robot(model)
+    work.start()
+    work.wait_in("A/Go", "A/Stop")
+    work.world.publish("go", level=3)
+    work.world.publish("go", level=2)
+    assert work.world.wait_for("ask").content.times == 7
+    work.world.finish("ask")
+    assert work.ended() == "Other"
+
+
+def test_event_cancels_the_activity(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A { do work  on succeeded -> Bad  on aborted -> Bad  on Stop -> B }
+          state B { do rest  on succeeded -> End  on aborted -> Bad }
+          final End
+          final Bad
+        }"""
+    )
+    work.start()
+    work.wait_in("A/A", "A/Stop")
+    work.world.wait_for("work")
+    work.world.publish("stop")
+    work.world.finish("rest")
+    assert work.ended() == "End"
+    assert work.world.log[1:3] == [("cancel", "work"), ("preempted", "work")]
+
+
+def test_inner_transition_hides_the_outer(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial Outer
+          state Outer {
+            initial A
+            state A { on Go [event.level > 0] -> B }
+            state B { on Stop -> A }
+            on Go -> End
+          }
+          final End
+        }"""
+    )
+    work.start()
+    work.wait_in("Outer/Outer/A", "Outer/Go")
+    work.world.publish("go", level=1)
+    work.wait_in("Outer/Outer/B", "Outer/Go")
+    work.world.publish("stop")
+    work.wait_in("Outer/Outer/A", "Outer/Go")
+    work.world.publish("go", level=0)
+    assert work.ended() == "End"
+
+
+def test_only_the_transition_taken_has_its_effects(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var a : int32
+          var b : int32
+          initial A
+          state A {
+            do work
+            on succeeded -> Bad
+            on aborted   -> Bad
+            on Go   / a = 1 -> B
+            on Stop / b = 1 -> B
+          }
+          state B { do ask(times = 10 * a + b)  on succeeded -> End  on aborted -> End }
+          final End
+          final Bad
+        }"""
+    )
+    world = work.world
+    world.deaf.add("work")
+    work.start()
+    work.wait_in("A/A", "A/Go", "A/Stop")
+    call = world.wait_for("work")
+    world.publish("stop")
+    world.wait_until(lambda: call.cancelled, "the goal is cancelled")
+    world.publish("go")
+    world.finish("work", "succeeded")
+    assert world.wait_for("ask").content.times == 1
+    world.finish("ask")
+    assert work.ended() == "End"
+
+
+ABORT = (
+    HEADER
+    + """
+    endless statemachine Work {
+      var landings : int32
+      initial Mission
+      state Mission {
+        initial A
+        state A {
+          do land
+          on succeeded / landings = landings + 1, send Found(level = landings) -> B
+          on aborted -> A
+        }
+        state B { do work  on succeeded -> A  on aborted -> A }
+        on Stop -> Home
+      }
+      state Home {
+        initial Back
+        state Back { do rest  on succeeded -> Done  on aborted -> Back }
+        final Done
+        on done -> Mission
+      }
+    }"""
+)
+
+
+def test_abort_during_a_call_that_cannot_be_interrupted(robot: Run) -> None:
+    work = robot(ABORT)
+    world = work.world
+    work.start()
+    for _ in range(3):
+        work.wait_in("Mission/Mission/A", "Mission/Stop")
+        world.wait_for("land")
+        world.publish("stop")
+        call = work.machine["Mission"]["Mission"]["A"]
+        world.wait_until(call.preempt_requested, "the call is to be interrupted")
+        world.finish("land")
+        world.finish("rest")
+    # Neither the effect of the call's end nor the state after it was reached.
+    assert world.called()[:6] == ["land", "rest"] * 3
+    assert not world.sent
+    # A preempt that nothing was left to take back does not end the next run.
+    world.finish("land")
+    world.finish("work")
+    world.wait_for("land")
+    assert [(topic, message.level) for topic, message in world.sent] == [("found", 1)]
+
+
+def test_goal_that_ends_while_it_is_cancelled(robot: Run) -> None:
+    work = robot(ABORT)
+    world = work.world
+    world.deaf.add("work")
+    work.start()
+    for _ in range(3):
+        world.finish("land")
+        call = world.wait_for("work")
+        work.wait_in("Mission/Mission/B", "Mission/Stop")
+        world.publish("stop")
+        world.wait_until(lambda call=call: call.cancelled, "the goal is cancelled")
+        world.finish("work", "succeeded")
+        world.finish("rest")
+    world.finish("land")
+    world.wait_for("work")
+
+
+def test_abort_at_any_time_is_never_lost(robot: Run) -> None:
+    work = robot(ABORT)
+    world = work.world
+    choice = random.Random(1)
+    work.start()
+    for _ in range(60):
+        world.wait_for("land")
+        world.wait_until(lambda: "Mission/Stop" in work.active(), "the mission is awaited")
+        work.wait_in("Mission/Mission/A", "Mission/Stop")
+        world.answers["land"] = ["succeeded"] * 2
+        world.answers["work"] = ["succeeded"]
+        world.finish("land")
+        time.sleep(choice.random() * 0.004)
+        world.publish("stop")
+        world.answers["land"].clear()
+        world.answers["work"].clear()
+        world.wait_until(
+            lambda: "rest" in world._active or "land" in world._active, "the abort is heard"
+        )
+        if "rest" not in world._active:
+            world.finish("land")
+        world.finish("rest")
+
+
+PARALLEL = (
+    HEADER
+    + """
+    statemachine Work {
+      initial Both
+      parallel state Both {
+        region Left {
+          initial A
+          state A { do work  on succeeded -> Ok  on aborted -> Lost }
+          final Ok
+          final Lost
+        }
+        region Right {
+          initial B
+          state B { do rest  on succeeded -> Ok  on aborted -> Panic }
+          final Ok
+        }
+        on Left.done.Lost -> Bad
+        on done -> Good
+        on Stop -> Stopped
+      }
+      state Panic { do land  on succeeded -> Bad  on aborted -> Bad }
+      final Good
+      final Bad
+      final Stopped
+    }"""
+)
+
+
+def test_parallel_state_joins(robot: Run) -> None:
+    work = robot(PARALLEL)
+    work.start()
+    work.world.finish("work")
+    work.wait_in("Both/Both/Right/B", "Both/Stop")
+    work.world.finish("rest")
+    assert work.ended() == "Good"
+
+
+def test_region_that_is_done_ends_the_parallel_state(robot: Run) -> None:
+    work = robot(PARALLEL)
+    work.start()
+    work.world.wait_for("rest")
+    work.world.finish("work", "aborted")
+    assert work.ended() == "Bad"
+    assert ("cancel", "rest") in work.world.log
+
+
+def test_transition_out_of_a_region(robot: Run) -> None:
+    work = robot(PARALLEL)
+    work.start()
+    work.world.wait_for("work")
+    work.world.finish("rest", "aborted")
+    work.world.finish("land")
+    assert work.ended() == "Bad"
+    assert ("cancel", "work") in work.world.log
+
+
+def test_event_ends_all_regions(robot: Run) -> None:
+    work = robot(PARALLEL)
+    work.start()
+    work.world.wait_for("work")
+    work.world.wait_for("rest")
+    work.wait_in("Both/Both/Left/A", "Both/Both/Right/B", "Both/Stop")
+    work.world.publish("stop")
+    assert work.ended() == "Stopped"
+    assert {("cancel", "work"), ("cancel", "rest")} <= set(work.world.log)
+
+
+def test_variables_are_shared_between_regions(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var level : int32
+          initial Both
+          parallel state Both {
+            region Left {
+              initial A
+              state A { on Go / level = event.level -> D }
+              state D { on Stop -> A }
+            }
+            region Right {
+              initial B
+              state B { on Found -> C }
+              state C { do ask(times = level)  on succeeded -> End  on aborted -> End }
+              final End
+            }
+            on Right.done -> End
+          }
+          final End
+        }"""
+    )
+    world = work.world
+    work.start()
+    work.wait_in("Both/Left/A", "Both/Right/B")
+    world.publish("go", level=4)
+    work.wait_in("Both/Left/D", "Both/Right/B")
+    world.publish("bridge/events/found")
+    assert world.wait_for("ask").content.times == 4
+    world.finish("ask")
+    assert work.ended() == "End"
+
+
+def test_timeout(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          param limit : duration = 30 s
+          var late : bool
+          initial A
+          state A {
+            do work
+            on succeeded -> Good
+            on aborted -> Good
+            after 10 ms [late] -> Good
+            after (2 * limit) / late = true -> B
+          }
+          state B { do rest  on succeeded -> Good  on aborted -> Good
+            after 50 ms [late] -> Late }
+          final Good
+          final Late
+        }""",
+        **{"~limit": 0.03},
+    )
+    before = time.monotonic()
+    work.start()
+    assert work.ended() == "Late"
+    assert 0.11 <= time.monotonic() - before < 1.0
+    assert work.world.called() == ["work", "rest"]
+
+
+def test_choice(robot: Run) -> None:
+    model = (
+        HEADER
+        + """
+        statemachine Work {
+          var n : int32
+          initial Which
+          choice Which {
+            [n == 0] / n = n + 1 -> A
+            [n < 3]  / n = 2 * n + 1 -> Which
+            else -> End
+          }
+          state A { do work  on succeeded -> Which  on aborted -> Which }
+          final End
+        }"""
+    )
+    work = robot(model)
+    work.world.answers["work"] = ["succeeded"]
+    work.start()
+    assert work.ended() == "End"
+    assert work.world.called() == ["work"]
+
+
+def test_send(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var pose : m/Pose
+          initial A
+          state A { on Go / pose.x = 3.0, send Found(id = event.id, pose = pose) -> End }
+          final End
+        }"""
+    )
+    work.start()
+    work.wait_in("A")
+    work.world.publish("go", id="here")
+    assert work.ended() == "End"
+    ((topic, message),) = work.world.sent
+    assert (topic, message.id, message.pose.x) == ("found", "here", 3.0)
+    assert message.header.stamp
+
+
+def test_results(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var id   : string = "none"
+          var note : m/Note
+          initial A
+          state A {
+            do move(to = note.pose, speed = 1.0) gives (id => id, at => note.pose)
+            on succeeded -> B
+            on aborted -> A
+          }
+          state B {
+            do ask(times = 2) gives (answer => note.id)
+            on succeeded -> C
+            on aborted -> B
+          }
+          state C { on Go / send Found(id = id + note.id, pose = note.pose) -> End }
+          final End
+        }"""
+    )
+    world = work.world
+    pose = world.modules["m.msg"].Pose(x=4.0)
+    work.start()
+    world.finish("move", "aborted", id="bad")
+    world.finish("move", id="a", at=pose)
+    world.finish("ask", answer="b")
+    work.wait_in("C")
+    world.publish("go")
+    assert work.ended() == "End"
+    ((_, message),) = world.sent
+    assert (message.id, message.pose.x) == ("ab", 4.0)
+
+
+def test_callbacks(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var note : string
+          initial A
+          state A {
+            do move(by make_goal) gives by take_result
+            on succeeded -> B
+            on aborted -> A
+          }
+          state B {
+            do ask(by make_request) gives by take_response
+            on succeeded -> C
+            on aborted -> B
+          }
+          state C { on Go / send Found(id = note) -> End }
+          final End
+        }"""
+    )
+    # As generated they leave everything as it is.
+    world = work.world
+    work.start()
+    assert world.wait_for("move").content.speed == 0.0
+    world.finish("move")
+    assert world.wait_for("ask").content.times == 0
+    world.finish("ask")
+    work.wait_in("C")
+    world.publish("go")
+    assert work.ended() == "End"
+
+
+def test_result_callback_that_fails(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            do work gives by take_result
+            on succeeded -> Bad
+            on aborted -> A
+            on preempted -> Bad
+            on Stop -> End
+          }
+          final End
+          final Bad
+        }"""
+    )
+
+    def fail(*arguments: Any) -> None:
+        raise ValueError
+
+    sys.modules["lab_behavior.callbacks"].take_result = fail
+    world = work.world
+    work.start()
+    for _ in range(3):
+        world.finish("work")
+    world.wait_for("work")
+    work.wait_in("A/A", "A/Stop")
+    world.publish("stop")
+    assert work.ended() == "End"
+
+
+def test_goal_preempted_by_its_server(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            do work
+            on succeeded -> Bad
+            on aborted   -> Bad
+            on preempted -> B
+            on Stop      -> C
+          }
+          state B { on Go -> A }
+          final C
+          final Bad
+        }"""
+    )
+    world = work.world
+    work.start()
+    world.finish("work", "preempted")
+    work.wait_in("B")
+    world.publish("go")
+    world.wait_for("work")
+    work.wait_in("A/A", "A/Stop")
+    world.publish("stop")
+    assert work.ended() == "C"
+
+
+def test_composite_whose_final_nobody_handles_stays(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            initial B
+            state B { do work  on succeeded -> Over  on aborted -> Over }
+            final Over
+            on Stop -> End
+          }
+          final End
+        }"""
+    )
+    work.start()
+    work.world.finish("work")
+    work.wait_in("A/A/A_waiting", "A/Stop")
+    work.world.publish("stop")
+    assert work.ended() == "End"
+
+
+def test_done_with_guards(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var n : int32
+          initial A
+          state A {
+            initial B
+            state B { do work  on succeeded -> Ok  on aborted -> Failed }
+            final Ok
+            final Failed
+            on done.Failed [n < 2] / n = n + 1 -> A
+            on done.Failed -> Bad
+            on done -> Good
+          }
+          final Good
+          final Bad
+        }"""
+    )
+    work.world.answers["work"] = ["aborted", "aborted", "succeeded"]
+    work.start()
+    assert work.ended() == "Good"
+
+
+@pytest.mark.parametrize("model", [ABORT, PARALLEL])
+def test_shutdown_from_every_depth(model: str, robot: Run) -> None:
+    work = robot(model)
+    work.world.answers["land"] = ["succeeded"]
+    work.start()
+    work.world.wait_for("work")
+    assert work.preempt() == "preempted"
+    assert ("cancel", "work") in work.world.log

@@ -1,0 +1,127 @@
+"""Every diagnostic code is explained, shown by a test, and used.
+
+In a page, the first `swarm` block of a section is a whole file, those marked `file=NAME` stand
+beside it. A block marked `target=NAME` is a valid model that is built for that target.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.codes import CODES
+from swarmdsl.emit import Request
+from swarmdsl.explain import page_path
+
+from .docs.pages import Block, Page
+
+ROOT = Path(__file__).resolve().parents[1]
+SOURCES = ROOT / "src" / "swarmdsl"
+NAMES = {entry.code: name for name, entry in CODES.items()}
+PAGES = {code: Page(page_path(code)) for code in NAMES}
+# No text of a model is behind these: the file system is, the command line or a generator.
+NO_MODEL = {
+    *("unreadable-file", "not-text", "nothing-to-compile"),
+    *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
+    *("cannot-write", "target-left-out", "generator-failed"),
+}
+# Found before there is a model, and not by its text.
+UNTEXTUAL = {"unreadable-file", "nothing-to-compile"}
+
+
+def section(page: Page, heading: str) -> list[Block]:
+    """The `swarm` blocks below a heading."""
+    level = [token for token in page.tokens if token.type in ("inline", "fence") and token.map]
+    starts = [token.map[0] for token in level if token.content == heading and token.map]
+    assert len(starts) == 1, heading
+    lines = page.text.splitlines()
+    end = next(
+        (i for i in range(starts[0] + 1, len(lines)) if lines[i].startswith("## ")), len(lines)
+    )
+    return [b for b in page.blocks if b.language == "swarm" and starts[0] < b.line <= end]
+
+
+def check(blocks: list[Block], folder: Path) -> list[str]:
+    """The codes reported about the blocks of a section."""
+    for block in blocks:
+        path = folder / block.attributes.get("file", "model.swarm")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(block.text, encoding="utf-8")
+    first = blocks[0].attributes
+    model = folder / "model.swarm"
+    if "target" not in first:
+        return [found.code for found in compiler.check([model]).report]
+    name, _, value = first.get("option", "").partition("=")
+    options = {name: value} if name else {}
+    assert not len(compiler.check([model]).report)
+    built = compiler.build([model], [Request(first["target"], options)], folder / "out")
+    return [found.code for found in built.report]
+
+
+@pytest.mark.parametrize("code", sorted(set(NAMES) - {CODES[name].code for name in NO_MODEL}))
+def test_examples_are_wrong_in_this_way_alone(code: str, tmp_path: Path) -> None:
+    assert check(section(PAGES[code], "Example"), tmp_path) == [code]
+
+
+@pytest.mark.parametrize("code", sorted(code for code in NAMES if section(PAGES[code], "Way out")))
+def test_ways_out_are_right(code: str, tmp_path: Path) -> None:
+    assert check(section(PAGES[code], "Way out"), tmp_path) == []
+
+
+def test_mistakes_in_a_model_have_a_way_out_in_a_model() -> None:
+    without = {NAMES[code] for code in NAMES if not section(PAGES[code], "Way out")}
+
+    assert {name for name in without if CODES[name].code < "SW09"} == {
+        name for name in NO_MODEL if CODES[name].code < "SW09"
+    }
+
+
+@pytest.mark.parametrize("name", sorted(NO_MODEL))
+def test_pages_without_a_model_have_prose(name: str) -> None:
+    assert section(PAGES[CODES[name].code], "Example") == []
+
+
+def test_there_is_no_page_without_a_code() -> None:
+    pages = page_path("SW0000").parent.glob("*.md")
+
+    assert sorted(path.stem for path in pages) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("name", CODES)
+def test_every_code_has_a_golden_case_or_another_test(name: str) -> None:
+    code = CODES[name].code
+    if code < "SW09" and name not in UNTEXTUAL:
+        assert list((ROOT / "tests" / "diagnostics").glob(f"{code}_*.txt"))
+    else:
+        tests = set((ROOT / "tests").rglob("test_*.py")) - {Path(__file__)}
+        assert [test for test in tests if re.search(rf"\b({name}|{code})\b", read(test))]
+
+
+def test_every_code_is_used_and_no_other_is() -> None:
+    modules = {*SOURCES.rglob("*.py"), *(ROOT / "generators").rglob("*.py")}
+    text = "\n".join(read(path) for path in sorted(modules - {SOURCES / "codes.py"}))
+    used = {name for name in CODES if f'"{name}"' in text}
+
+    assert used == set(CODES)
+    assert set(re.findall(r'\breport\(\s*"([^"]+)"', text)) - set(CODES) == set()
+
+
+def test_numbers_are_unique_and_of_their_group() -> None:
+    text = read(SOURCES / "codes.py")
+    titles = dict(re.findall(r"(\d\d)xx  (\w.*?)(?:  |\n)", text))
+    by_group = re.split(r"# ---- (.+)\n", text)
+    found: list[str] = []
+    for title, entries in zip(by_group[1::2], by_group[2::2], strict=True):
+        numbers = re.findall(r'"(SW\d\d)(\d\d)"', entries)
+        assert {titles[group.removeprefix("SW")] for group, _ in numbers} == {title}
+        found += [group + number for group, number in numbers]
+
+    assert found == sorted(set(found))
+    assert found == [entry.code for entry in CODES.values()]
+
+
+def read(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
