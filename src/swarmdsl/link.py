@@ -8,70 +8,94 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.inheritance import all_items
 from swarmdsl.link_machines import link_machine
 from swarmdsl.link_types import TypeLinker
 from swarmdsl.load import Project
 from swarmdsl.scopes import FileScope, bare, kind_of, report_unresolved
 from swarmdsl.syntax import (
+    Activity,
     BehaviorUse,
     Component,
     Connector,
+    Constant,
+    CountRange,
+    EnumType,
     Environment,
     Event,
+    Fitness,
+    FitnessInput,
     Function,
     Member,
     NameUse,
     Node,
+    Operation,
+    Optimization,
     Param,
+    ParamRange,
     Part,
     Port,
     PortRef,
     Ref,
+    Role,
     StateMachine,
+    Swarm,
     TypeRef,
     Variable,
     walk,
 )
 
 _TOP_LEVEL: dict[str, type[Any]] = {
-    kind.__name__: kind for kind in (StateMachine, Component, Member, Environment, Event, Function)
+    kind.__name__: kind
+    for kind in (StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm)
 }
 
-Values = Mapping[str, Variable | Param]
+K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
+Values = Mapping[str, Variable | Param | FitnessInput]
 
 
 def link(project: Project, report: Diagnostics) -> None:
     """Resolve every name of every file."""
     scopes = {file: FileScope(file, project) for file in project.files}
     types = TypeLinker(scopes, report)
-    for file, declaration in project.declarations():
-        for node in walk(declaration):
+    owners = [*project.declarations(), *project.optimizations()]
+    for file, owner in owners:
+        for node in walk(owner):
             if isinstance(node, TypeRef):
                 types.link(node, file)
-            _link_top_level(node, scopes[file], report)
+            elif not isinstance(node, Activity):
+                _link_top_level(node, scopes[file], report)
     params = _params_of_members(project)
-    for file, declaration in project.declarations():
+    for file, owner in owners:
         scope = scopes[file]
-        match declaration:
+        values: Values = {}
+        match owner:
             case StateMachine():
-                link_machine(declaration, scope, report)
-                link_values(declaration, params[declaration] | _values(declaration), scope, report)
+                link_machine(owner, scope, report)
+                _link_activities(owner, scope, report)
+                values = params[owner] | _named(owner.items, Param) | _named(owner.items, Variable)
             case Member():
-                _link_member(declaration, scope, report)
-                link_values(declaration, _values(declaration), scope, report)
-            case Function() | Component():
-                link_values(declaration, {}, scope, report)
+                _link_member(owner, scope, report)
+                values = _named(all_items(owner, Param), Param)
+            case Fitness():
+                values = _named(owner.items, FitnessInput) | _named(owner.items, Param)
+            case Optimization():
+                _link_optimization(owner, scope, report)
+        link_values(owner, values, scope, report)
 
 
 def link_values(owner: Node, values: Values, scope: FileScope, report: Diagnostics) -> None:
-    """Bind the names in the expressions of a declaration to its variables and params."""
+    """Bind the names in the expressions of a declaration: its own values, then constants."""
     for node in walk(owner):
         if not isinstance(node, NameUse) or node.name == "event":
             continue
         node.target = values.get(node.name)
+        if node.target is None:
+            constants = [c for c in scope.find(node.name) if isinstance(c, (Constant, EnumType))]
+            node.target = constants[0] if len(constants) == 1 else None
         if node.target is None and node.name not in scope.lost:
             report_unresolved("variable or param", node.name, node.span, values, None, report)
 
@@ -91,24 +115,67 @@ def _refs(node: Node) -> Iterable[Ref[Any]]:
             yield value
 
 
-def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Param | Variable]]:
+def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Param]]:
     """For each machine the params that all members which behave so have in common."""
-    found: dict[StateMachine, dict[str, Param | Variable]] = {}
-    for _, member in project.declarations():
-        if not isinstance(member, Member):
+    found: dict[StateMachine, dict[str, Param]] = {}
+    for _, owner in project.declarations():
+        if not isinstance(owner, (Member, Component)):
             continue
-        params: dict[str, Param | Variable] = {
-            str(item.name): item for item in member.items if isinstance(item, Param)
-        }
-        for item in member.items:
-            if isinstance(item, BehaviorUse) and item.machine.target is not None:
-                common = found.setdefault(item.machine.target, params)
-                found[item.machine.target] = {k: v for k, v in common.items() if k in params}
+        params = _named(all_items(owner, Param), Param)
+        for use in all_items(owner, BehaviorUse):
+            if use.machine.target is not None:
+                common = found.setdefault(use.machine.target, params)
+                found[use.machine.target] = {k: v for k, v in common.items() if k in params}
     return defaultdict(dict, found)
 
 
-def _values(owner: StateMachine | Member) -> dict[str, Variable | Param]:
-    return {str(item.name): item for item in owner.items if isinstance(item, (Variable, Param))}
+def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
+    return {str(item.name): item for item in items if isinstance(item, kind)}
+
+
+def _link_activities(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve what each state does: a function, or `Component.operation`."""
+    for node in walk(machine):
+        if not isinstance(node, Activity):
+            continue
+        ref = node.function
+        owner, _, name = ref.name.rpartition(".")
+        components = [c for c in scope.find(owner) if isinstance(c, Component)] if owner else []
+        if not components:
+            ref.target = scope.resolve(ref.name, ref.span, Function, report)
+            continue
+        operations = _named(all_items(components[0], Operation), Operation)
+        ref.target = operations.get(name)
+        if ref.target is None and name not in scope.lost:
+            kind = f"operation of {bare(kind_of(components[0]))} `{owner}`"
+            report_unresolved(kind, name, ref.span, operations, None, report)
+
+
+# ---- optimization
+
+
+def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the roles of the swarm, and the params of their members."""
+    swarm = owner.swarm.target
+    if swarm is None:
+        return
+    roles = _named(swarm.items, Role)
+    for item in owner.items:
+        if not isinstance(item, (CountRange, ParamRange)):
+            continue
+        item.role.target = roles.get(item.role.name)
+        if item.role.target is None:
+            if item.role.name not in scope.lost:
+                kind = f"role in swarm `{swarm.name}`"
+                report_unresolved(kind, item.role.name, item.role.span, roles, None, report)
+            continue
+        member = item.role.target.member.target
+        if isinstance(item, ParamRange) and member is not None:
+            params = _named(all_items(member, Param), Param)
+            item.param.target = params.get(item.param.name)
+            if item.param.target is None and item.param.name not in scope.lost:
+                kind = f"param of member `{member.name}`"
+                report_unresolved(kind, item.param.name, item.param.span, params, None, report)
 
 
 # ---- members
@@ -116,8 +183,8 @@ def _values(owner: StateMachine | Member) -> dict[str, Variable | Param]:
 
 def _link_member(member: Member, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the two ends of each connector."""
-    parts = {str(item.name): item for item in member.items if isinstance(item, Part)}
-    own = {str(item.name): item for item in member.items if isinstance(item, Port)}
+    parts = _named(all_items(member, Part), Part)
+    own = _named(all_items(member, Port), Port)
     for item in member.items:
         if isinstance(item, Connector):
             for end in (item.source, item.target):
@@ -145,7 +212,7 @@ def _link_port(
     component = end.part.target.component.target
     if component is None:
         return
-    ports = {str(item.name): item for item in component.items if isinstance(item, Port)}
+    ports = _named(all_items(component, Port), Port)
     end.port.target = ports.get(end.port.name)
     if end.port.target is None and end.port.name not in scope.lost:
         owner = f"{bare(kind_of(component))} `{component.name}`"

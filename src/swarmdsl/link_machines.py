@@ -19,6 +19,7 @@ from swarmdsl.syntax import (
     Container,
     DoneTrigger,
     FinalState,
+    History,
     Initial,
     Parallel,
     Ref,
@@ -43,7 +44,7 @@ def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -
 def vertices(container: Container) -> Iterator[Vertex]:
     """The states directly inside a container."""
     for item in container.items:
-        if isinstance(item, (State, Parallel, Choice, FinalState)):
+        if isinstance(item, (State, Parallel, Choice, History, FinalState)):
             yield item
 
 
@@ -81,13 +82,16 @@ def _link_container(
                 _link_vertex(item.target, (inside,), scope, report)
             case Transition():
                 assert isinstance(container, (State, Parallel))
-                _link_vertex(item.target, (*outer, inside, *beside), scope, report)
+                if item.target is not None:
+                    _link_vertex(item.target, (*outer, inside, *beside), scope, report)
                 for trigger in item.triggers:
                     if isinstance(trigger, DoneTrigger):
                         _link_done(trigger, container, scope, report)
             case Choice():
                 for branch in item.branches:
                     _link_vertex(branch.target, (inside, *outer, *beside), scope, report)
+            case History():
+                _link_vertex(item.target, (inside,), scope, report)
             case Region():
                 _link_container(item, outer, (inside, *beside), scope, report)
             case State() | Parallel():

@@ -11,6 +11,7 @@ from swarmdsl.scopes import FileScope
 from swarmdsl.syntax import (
     ActionType,
     AliasType,
+    EnumType,
     Interface,
     MessageType,
     ServiceType,
@@ -20,6 +21,7 @@ from swarmdsl.syntax import (
 
 _TYPES: tuple[type[Interface], ...] = (
     StructType,
+    EnumType,
     AliasType,
     MessageType,
     ServiceType,
@@ -63,7 +65,7 @@ class TypeLinker:
         scope = self._scopes[file]
         element: Type | None = None
         if ref.name in PRIMITIVES:
-            element = Primitive(ref.name)
+            element = Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
         elif "/" in ref.name:
             package, _, last = ref.name.partition("/")
             element = Named(package, last)
@@ -80,8 +82,8 @@ class TypeLinker:
         if isinstance(element, Array) and ref.array:
             self._report.report("nested-array", ref.span, help="put the inner array into a struct")
         elif element is not None and ref.array:
-            size = ref.array.strip("[] \t\n")
-            element = Array(element, int(size) if size else None)
+            size = ref.array.strip("[<=] \t\n")
+            element = Array(element, int(size) if size else None, "<=" in ref.array)
         ref.type = element
 
     def _declared(self, ref: TypeRef, scope: FileScope, seen: tuple[AliasType, ...]) -> Type | None:

@@ -13,7 +13,7 @@ from swarmdsl.graph import cycles
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import did_you_mean
-from swarmdsl.syntax import Declaration, Import, Model
+from swarmdsl.syntax import Declaration, Import, ImportFile, Model, Optimization
 
 SUFFIX = ".swarm"
 
@@ -54,12 +54,18 @@ class Project:
             for declaration in file.model.declarations:
                 yield file, declaration
 
+    def optimizations(self) -> Iterator[tuple[File, Optimization]]:
+        """Every optimization with its file."""
+        for file in self.files:
+            for optimization in file.model.optimizations:
+                yield file, optimization
+
 
 def load(paths: Iterable[Path], report: Diagnostics) -> Project:
     """Read the files, those in the folders, and everything they import."""
     project = Project()
     known: dict[Path, File | None] = {}
-    work: deque[tuple[Path, File | None, Import | None]] = deque(
+    work: deque[tuple[Path, File | None, ImportFile | None]] = deque(
         (path, None, None) for path in _expanded(paths, report)
     )
     while work:
@@ -71,7 +77,9 @@ def load(paths: Iterable[Path], report: Diagnostics) -> Project:
             if file is not None:
                 project.files.append(file)
                 work.extend(
-                    (_relative(path, wanted.path), file, wanted) for wanted in file.model.imports
+                    (_relative(path, wanted.path), file, wanted)
+                    for wanted in file.model.imports
+                    if isinstance(wanted, ImportFile)
                 )
         imported = known[identity]
         if importer is not None and statement is not None and imported is not None:
@@ -137,7 +145,9 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     source = Source(str(path), _unified(text), path)
     before = len(report)
     parsed = parse(source, report)
-    if not parsed.model.declarations and not parsed.model.imports and len(report) == before:
+    model = parsed.model
+    something = model.declarations or model.imports or model.optimizations
+    if not something and len(report) == before:
         report.report(
             "empty-file",
             Span(source, 0, 0),

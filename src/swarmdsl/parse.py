@@ -40,7 +40,7 @@ RECURSION_LIMIT = 20_000
 _ERRORS_PER_DECLARATION = 10
 # Where a top-level declaration starts: a word in the first column.
 _DECLARATION_START = re.compile(
-    r"^(?=(?:package|import|struct|type|message|service|action|swarm|event|function|sensor|"
+    r"^(?=(?:package|import|struct|enum|type|const|message|service|action|swarm|event|function|sensor|"
     r"actuator|controller|virtual|member|endless|statemachine|environment)\b)",
     re.MULTILINE,
 )
@@ -96,7 +96,7 @@ def _parse_whole(source: Source) -> Parsed | None:
 
 
 def _parse_by_declaration(source: Source, faults: tuple[int, ...], report: Diagnostics) -> Parsed:
-    model = Model(Span(source, 0, len(source.text)), None, [], [])
+    model = Model(Span(source, 0, len(source.text)), None, [], [], [])
     parsed = Parsed(model)
     starts = [found.start() for found in _DECLARATION_START.finditer(source.text)]
     bounds = sorted({0, *starts, len(source.text)})
@@ -118,6 +118,7 @@ def _parse_by_declaration(source: Source, faults: tuple[int, ...], report: Diagn
         model.package = model.package or piece.package
         model.imports += piece.imports
         model.declarations += piece.declarations
+        model.optimizations += piece.optimizations
     return parsed
 
 
@@ -179,7 +180,7 @@ def _tree(source: Source, text: str, offset: int) -> Model:
     made = metamodel().model_from_str(text)
     span = Span(source, offset, offset + len(text))
     if isinstance(made, str):  # textX makes no model of nothing
-        return Model(span, None, [], [])
+        return Model(span, None, [], [], [])
     model = _converted(made, source, offset)
     assert isinstance(model, Model)
     model.span = span

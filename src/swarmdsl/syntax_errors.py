@@ -31,9 +31,9 @@ _WORDS = {
 _DECLARATIONS = {
     f"`{word}`"
     for word in (
-        *("struct", "type", "message", "service", "action", "swarm", "event", "function"),
+        *("struct", "enum", "type", "const", "message", "service", "action", "swarm", "event", "function"),
         *("sensor", "actuator", "controller", "virtual", "member"),
-        *("endless", "statemachine", "environment"),
+        *("endless", "statemachine", "environment", "fitness", "optimize"),
     )
 }
 # Left out of a list of what is possible when something more specific is there.

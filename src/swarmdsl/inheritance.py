@@ -1,0 +1,54 @@
+"""What components and members have from those they extend."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+from swarmdsl.syntax import (
+    BehaviorUse,
+    CommunicationSettings,
+    Component,
+    Connector,
+    Member,
+    Operation,
+    Param,
+    Part,
+    Port,
+)
+
+Item = Port | Param | Operation | Part | Connector | BehaviorUse | CommunicationSettings
+Owner = TypeVar("Owner", Component, Member)
+Kind = TypeVar("Kind", bound=Item)
+
+
+def lineage(owner: Owner) -> list[Owner]:
+    """The owner and what it extends, the nearest first; each once, also in a cycle."""
+    found: list[Owner] = []
+    current: Owner | None = owner
+    while current is not None and current not in found:
+        found.append(current)
+        current = current.base.target if current.base is not None else None
+    return found
+
+
+def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
+    """The items of a kind, the inherited ones first.
+
+    An own param takes the place of an inherited one of its name; an own behaviour and
+    own communication settings that of the inherited ones.
+    """
+    found: dict[object, Kind] = {}
+    for each in reversed(lineage(owner)):
+        for item in each.items:
+            if isinstance(item, kind):
+                found[_place(item)] = item
+    return list(found.values())
+
+
+def _place(item: Item) -> object:
+    match item:
+        case Param(name=name):
+            return str(name)
+        case BehaviorUse() | CommunicationSettings():
+            return type(item)
+    return item
