@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl import compiler, plugins
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.emit import Request
 from swarmdsl.parse import parse
 from swarmdsl.render import render
 from swarmdsl.source import Source
@@ -48,9 +49,21 @@ def test_model(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert {found.code for found in report} == expected, shown.getvalue()
 
 
+@pytest.mark.parametrize("target", plugins.BUILT_IN)
+@pytest.mark.parametrize(
+    "block", [block for block in MODELS if "reports" not in block.attributes], ids=str
+)
+def test_every_target_can_express_it(block: Block, target: str, tmp_path: Path) -> None:
+    path = write(block, tmp_path)
+
+    report = compiler.build([path], [Request(target)], tmp_path / "out").report
+
+    assert report.has_errors == (target == block.attributes.get("except")), list(report)
+
+
 @pytest.mark.parametrize("block", MODELS, ids=str)
 def test_attributes_are_known(block: Block) -> None:
-    assert block.attributes.keys() <= {"file", "with", "reports"}
+    assert block.attributes.keys() <= {"file", "with", "reports", "except"}
 
 
 def test_the_reference_shows_every_element() -> None:

@@ -267,6 +267,26 @@ def test_all_that_the_dialect_can_say(compiled: Compile, emit: Emit) -> None:
     assert policy(tree, "Both_Left_Go") == [["callback"], ["callback"]]
 
 
+def test_a_way_out_to_a_final_state_further_out(dialect: Any) -> None:
+    """It ends each container on the way; only a container's own final state is followed."""
+    tree = dialect(
+        """
+        initial Out
+        state Out { initial In
+          state In { initial Go
+            state Go { do land on succeeded -> There on aborted -> Stop }
+            final There
+            on done -> Next }
+          state Next { do land on succeeded -> Next on aborted -> Stop } }
+        final Stop
+        """
+    )
+
+    assert transitions(by_id(tree, "InThreads")) == {"succeeded": "Next"}
+    assert transitions(by_id(tree, "Next")) == {"succeeded": "Next"}
+    assert [transitions(by_id(tree, name)) for name in ("Out", "Go")] == [{}, {}]
+
+
 def test_a_state_of_a_real_file(dialect: Any) -> None:
     """The state of `head_action_mapping1.xml` that is called while an event is waited for."""
     tree = dialect(

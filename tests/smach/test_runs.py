@@ -728,3 +728,77 @@ def test_shutdown_from_every_depth(model: str, robot: Run) -> None:
     work.world.wait_for("work")
     assert work.preempt() == "preempted"
     assert ("cancel", "work") in work.world.log
+
+
+def test_call_that_outlasts_a_preempt_runs_again(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        endless statemachine Work {
+          initial Mission
+          state Mission {
+            initial Sub
+            state Sub {
+              initial Call
+              state Call { do land  on succeeded -> Over  on aborted -> Over }
+              final Over
+              on done -> B
+            }
+            state B { do work  on succeeded -> Sub  on aborted -> Sub }
+            on Stop -> Home
+          }
+          state Home { do rest  on succeeded -> Mission  on aborted -> Mission }
+        }"""
+    )
+    world = work.world
+    work.start()
+    for _ in range(2):
+        world.wait_for("land")
+        work.wait_in("Mission/Mission/Sub/Call", "Mission/Stop")
+        world.publish("stop")
+        call = work.machine["Mission"]["Mission"]["Sub"]["Call"]
+        world.wait_until(call.preempt_requested, "the call is to be interrupted")
+        world.finish("land")
+        world.finish("rest")
+    world.finish("land")
+    world.wait_for("work")
+
+
+def test_activity_that_outlasts_an_event_runs_again(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        endless statemachine Work {
+          initial A
+          state A { do work  on succeeded -> A  on aborted -> A  on Stop -> B }
+          state B { do rest  on succeeded -> A  on aborted -> A }
+        }"""
+    )
+    world = work.world
+    world.deaf.add("work")
+    work.start()
+    for _ in range(3):
+        call = world.wait_for("work")
+        work.wait_in("A/A", "A/Stop")
+        world.publish("stop")
+        world.wait_until(lambda call=call: call.cancelled, "the goal is cancelled")
+        world.finish("work")
+        world.finish("rest")
+    world.wait_for("work")
+
+
+def test_shutdown_during_a_call_that_cannot_be_interrupted(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A { do land  on succeeded -> End  on aborted -> End }
+          final End
+        }"""
+    )
+    work.start()
+    work.world.wait_for("land")
+    work.machine.request_preempt()
+    work.world.finish("land")
+    assert work.ended() == "preempted"

@@ -114,7 +114,7 @@ class _Shaper:
             return self._parallel(state)
         if state.kind is StateKind.COMPOSITE:
             children, ends = self._inside(state.states, state.initial, state.origin)
-            ends = self._followed(ends, state.transitions)
+            ends = self._followed(ends, state.id, state.transitions)
         else:
             children, ends = (), []
             if state.activity is None and not _monitors(state):
@@ -144,7 +144,7 @@ class _Shaper:
             else:
                 contents, inner = self._inside(region.states, region.initial, region.origin)
                 children.append(Vertex(region, children=contents))
-            ends += self._followed(inner, state.transitions)
+            ends += self._followed(inner, region.id, state.transitions)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, DoneTrigger) and trigger.state == state.id:
@@ -196,27 +196,21 @@ class _Shaper:
             monitor.event for monitor in _monitors(self.states[state])
         ]
 
-    def _followed(self, ends: list[_Signal], transitions: tuple[Transition, ...]) -> list[_Signal]:
-        """The ends of a container with final states replaced by what follows them."""
+    def _followed(
+        self, ends: list[_Signal], container: str, transitions: tuple[Transition, ...]
+    ) -> list[_Signal]:
+        """The ends of a container with its own final states replaced by what follows them."""
         followed = []
         for end in ends:
             target: str | None = end.target
-            if self.states[end.target].kind is StateKind.FINAL:
-                target = self._after(end.target, transitions)
+            final = self.states[end.target].kind is StateKind.FINAL
+            if final and self.parents[end.target] == container:
+                target = _after(end.target, container, transitions)
             if target is None:
                 self._refuse("a final state that nothing follows", end.origin)
             else:
                 followed.append(replace(end, target=target))
         return self._distinct(followed)
-
-    def _after(self, final: str, transitions: tuple[Transition, ...]) -> str | None:
-        container = self.parents[final]
-        assert container is not None
-        completions = {DoneTrigger(container, None), DoneTrigger(container, final)}
-        for transition in transitions:
-            if completions.intersection(transition.triggers):
-                return transition.target
-        return None
 
     def _distinct(self, signals: list[_Signal]) -> list[_Signal]:
         """The signals without repetition; one that leads to two places is reported."""
@@ -243,6 +237,15 @@ class _Shaper:
 
     def _refuse(self, construct: str, origin: Span | None) -> None:
         self.report.report("unsupported-construct", origin, target=TARGET, construct=construct)
+
+
+def _after(final: str, container: str, transitions: tuple[Transition, ...]) -> str | None:
+    """What follows when a container has reached a final state."""
+    completions = {DoneTrigger(container, None), DoneTrigger(container, final)}
+    for transition in transitions:
+        if completions.intersection(transition.triggers):
+            return transition.target
+    return None
 
 
 def _monitors(state: State) -> tuple[Monitor, ...]:
