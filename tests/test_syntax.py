@@ -13,7 +13,7 @@ from swarmdsl.syntax import NODES
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
 EXPRESSIONS = {"Expression", "Operand"}
 # Nodes that come from expression.lark, and the bases.
-OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "Operation"}
+OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 
 
 def common_rules() -> dict[str, set[str]]:

@@ -14,7 +14,7 @@ from lark.exceptions import UnexpectedInput, UnexpectedToken
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.resources import grammar
 from swarmdsl.source import Source, Span
-from swarmdsl.syntax import Call, ExpressionTree, FieldUse, NameUse, Operation, Value, Word
+from swarmdsl.syntax import Call, ExpressionTree, FieldUse, NameUse, OperatorUse, Value, Word
 
 _QUANTITY = re.compile(r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)[ \t]*([a-z]*)")
 _ESCAPE = re.compile(r"\\(.)")
@@ -54,7 +54,7 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
     ]
     match tree.data:
         case "operation":
-            return Operation(span, words[0], tuple(operands))
+            return OperatorUse(span, words[0], tuple(operands))
         case "field":
             return FieldUse(span, operands[0], words[0])
         case "call":

@@ -32,7 +32,7 @@ from swarmdsl.syntax import (
     Field,
     FieldUse,
     NameUse,
-    Operation,
+    OperatorUse,
     Value,
     Variable,
 )
@@ -74,9 +74,9 @@ class Typing:
                 return self.field(self.infer(base), name, name.span)
             case Call():
                 return self._call(tree)
-            case Operation(operands=(operand,)):
+            case OperatorUse(operands=(operand,)):
                 return self._unary(tree, self.infer(operand))
-            case Operation(operands=(left, right)):
+            case OperatorUse(operands=(left, right)):
                 return self._binary(tree, self.infer(left), self.infer(right))
         raise AssertionError(tree)
 
@@ -141,14 +141,14 @@ class Typing:
             self._require(call, call.function, types, is_number)
         return DURATION if durations and DURATION in types else _widest(types)
 
-    def _unary(self, tree: Operation, operand: Type | None) -> Type | None:
+    def _unary(self, tree: OperatorUse, operand: Type | None) -> Type | None:
         if tree.operator == "not":
             self._require(tree, "not", [operand], lambda t: t == BOOL)
             return BOOL
         self._require(tree, "-", [operand], lambda t: is_number(t) or t == DURATION)
         return operand
 
-    def _binary(self, tree: Operation, left: Type | None, right: Type | None) -> Type | None:
+    def _binary(self, tree: OperatorUse, left: Type | None, right: Type | None) -> Type | None:
         operator, types = str(tree.operator), [left, right]
         if operator in ("and", "or"):
             self._require(tree, operator, types, lambda t: t == BOOL)
@@ -219,7 +219,7 @@ def constant(tree: ExpressionTree) -> bool:
     match tree:
         case Value():
             return True
-        case Operation(operands=operands):
+        case OperatorUse(operands=operands):
             return all(constant(operand) for operand in operands)
         case Call(arguments=arguments):
             return all(constant(argument) for argument in arguments)

@@ -17,14 +17,13 @@ from swarmdsl.syntax import (
 )
 
 Item = Port | Param | Operation | Part | Connector | BehaviorUse | CommunicationSettings
-Owner = TypeVar("Owner", Component, Member)
 Kind = TypeVar("Kind", bound=Item)
 
 
-def lineage(owner: Owner) -> list[Owner]:
+def lineage(owner: Component | Member) -> list[Component | Member]:
     """The owner and what it extends, the nearest first; each once, also in a cycle."""
-    found: list[Owner] = []
-    current: Owner | None = owner
+    found: list[Component | Member] = []
+    current: Component | Member | None = owner
     while current is not None and current not in found:
         found.append(current)
         current = current.base.target if current.base is not None else None

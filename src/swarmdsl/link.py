@@ -76,12 +76,16 @@ def link(project: Project, report: Diagnostics) -> None:
             case StateMachine():
                 link_machine(owner, scope, report)
                 _link_activities(owner, scope, report)
-                values = params[owner] | _named(owner.items, Param) | _named(owner.items, Variable)
+                values = {
+                    **params[owner],
+                    **_named(owner.items, Param),
+                    **_named(owner.items, Variable),
+                }
             case Member():
                 _link_member(owner, scope, report)
                 values = _named(all_items(owner, Param), Param)
             case Fitness():
-                values = _named(owner.items, FitnessInput) | _named(owner.items, Param)
+                values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
             case Optimization():
                 _link_optimization(owner, scope, report)
         link_values(owner, values, scope, report)

@@ -113,14 +113,14 @@ class Call(Node):
 
 
 @dataclass(slots=True, eq=False)
-class Operation(Node):
+class OperatorUse(Node):
     """An operator with one or two operands."""
 
     operator: Word
     operands: tuple[ExpressionTree, ...]
 
 
-ExpressionTree = Value | NameUse | FieldUse | Call | Operation
+ExpressionTree = Value | NameUse | FieldUse | Call | OperatorUse
 
 
 # ---- interfaces
@@ -155,7 +155,7 @@ class EnumType(Documented):
     """`enum Mode : uint8 { ... }`."""
 
     name: Word
-    type: TypeRef | None
+    underlying: TypeRef | None
     values: list[EnumValue]
 
 

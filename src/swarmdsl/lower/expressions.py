@@ -12,7 +12,7 @@ from swarmdsl.syntax import (
     ExpressionTree,
     FieldUse,
     NameUse,
-    Operation,
+    OperatorUse,
     Param,
     Value,
     Variable,
@@ -63,9 +63,9 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case Call(function=function, arguments=arguments):
             values = tuple(_lower(argument, context) for argument in arguments)
             return ir.Call(str(function), values, type_, tree.span)
-        case Operation(operator=operator, operands=(operand,)):
+        case OperatorUse(operator=operator, operands=(operand,)):
             return ir.Unary(str(operator), _lower(operand, context), type_, tree.span)
-        case Operation(operator=operator, operands=(left, right)):
+        case OperatorUse(operator=operator, operands=(left, right)):
             return ir.Binary(
                 str(operator), _lower(left, context), _lower(right, context), type_, tree.span
             )
