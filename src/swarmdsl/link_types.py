@@ -87,9 +87,7 @@ class TypeLinker:
         ref.type = element
 
     def _declared(self, ref: TypeRef, scope: FileScope, seen: tuple[AliasType, ...]) -> Type | None:
-        declaration = scope.resolve(
-            ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES
-        )
+        declaration = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
         if declaration is None:
             return None
         home = self._homes[declaration]

@@ -1,0 +1,78 @@
+"""What comes out of a model, whole: the IR and the files of every target.
+
+`pytest --bless` writes what is expected anew; read the difference before you commit it.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler, plugins
+from swarmdsl.emit import Request
+from swarmdsl.ir.dump import dump
+from swarmdsl.render import render
+
+ROOT = Path(__file__).resolve().parents[1]
+GOLDEN = ROOT / "tests" / "golden"
+CASES = {
+    "minimal": ROOT / "examples" / "minimal",
+    "search_and_rescue": ROOT / "examples" / "search_and_rescue",
+    **{model.parent.name: model for model in sorted(GOLDEN.glob("*/model.swarm"))},
+}
+
+
+@pytest.fixture
+def made(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
+    """Everything made of a case, as text by path."""
+    monkeypatch.chdir(ROOT)
+    return make(CASES[case], tmp_path / "out")
+
+
+def make(model: Path, out: Path) -> dict[str, str]:
+    model = model.relative_to(ROOT)
+    checked = compiler.check([model])
+    assert checked.system is not None, [found.message for found in checked.report]
+    texts = {"ir.txt": dump(checked.system)}
+    for target in plugins.BUILT_IN:
+        result = compiler.build([model], [Request(target)], out)
+        if len(result.report):
+            texts[f"{target}.diagnostics.txt"] = rendered(result)
+    for path in sorted(out.rglob("*")):
+        if path.is_file() and path.name != ".swarmdsl.json":
+            texts[path.relative_to(out).as_posix()] = path.read_text(encoding="utf-8")
+    return texts
+
+
+def rendered(result: compiler.Result) -> str:
+    from io import StringIO
+
+    stream = StringIO()
+    render(result.report, "concise", stream)
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_golden(case: str, made: dict[str, str], request: pytest.FixtureRequest) -> None:
+    expected = GOLDEN / case / "expected"
+    if request.config.getoption("--bless"):
+        for path in sorted(expected.rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() else path.unlink()
+        for name, text in made.items():
+            (expected / name).parent.mkdir(parents=True, exist_ok=True)
+            (expected / name).write_text(text, encoding="utf-8")
+    known = {
+        path.relative_to(expected).as_posix(): path.read_text(encoding="utf-8")
+        for path in expected.rglob("*")
+        if path.is_file()
+    }
+
+    assert sorted(known) == sorted(made)
+    for name, text in made.items():
+        assert known[name] == text, name
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_same_input_same_bytes(case: str, made: dict[str, str], tmp_path: Path) -> None:
+    assert make(CASES[case], tmp_path / "again") == made
