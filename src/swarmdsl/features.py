@@ -33,6 +33,7 @@ _KINDS = {
     StateKind.COMPOSITE: Feature.COMPOSITE,
     StateKind.PARALLEL: Feature.PARALLEL,
     StateKind.CHOICE: Feature.CHOICE,
+    StateKind.HISTORY: Feature.HISTORY,
 }
 
 
@@ -62,7 +63,8 @@ def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
         yield from _in_activity(state.activity)
     for transition in state.transitions:
         yield from _in_transition(transition)
-        if parents[transition.target] != parents[state.id]:
+        target = transition.target
+        if target is not None and parents[target] != parents[state.id]:
             yield Feature.CROSS_LEVEL, transition.origin
 
 

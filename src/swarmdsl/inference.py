@@ -6,7 +6,7 @@ was not resolved) is None and fits everywhere: one mistake is reported once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from swarmdsl.diagnostics import Diagnostics, listed
@@ -28,13 +28,19 @@ from swarmdsl.source import Span
 from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
     Call,
+    Constant,
+    EnumType,
     ExpressionTree,
     Field,
     FieldUse,
+    FitnessInput,
     NameUse,
     OperatorUse,
+    Param,
+    Parameter,
     Value,
     Variable,
+    Word,
 )
 
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
@@ -68,8 +74,21 @@ class Typing:
                         help="use it in a guard or effect of a transition on one event",
                     )
                 return self.event
-            case NameUse(target=target):
-                return target.type.type if target is not None else None
+            case NameUse(target=EnumType() as enum):
+                self.report.report(
+                    "bad-operand",
+                    tree.span,
+                    operator=enum.name,
+                    operands="its own: name one of its values",
+                    help=f"write `{enum.name}.{enum.values[0].name}`" if enum.values else None,
+                )
+                return None
+            case NameUse(target=None):
+                return None
+            case NameUse(target=Variable() | Param() | Constant() | FitnessInput() as value):
+                return value.type.type
+            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+                return self._enum_value(enum, name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
             case Call():
@@ -106,6 +125,15 @@ class Typing:
         elif owner is not None:
             self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
         return None
+
+    def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
+        values = [str(value.name) for value in enum.values]
+        if str(name) not in values:
+            report_unresolved(
+                f"value of enum `{enum.name}`", name, name.span, values, None, self.report
+            )
+            return None
+        return enum.type
 
     def _call(self, call: Call) -> Type | None:
         types = [self.infer(argument) for argument in call.arguments]
@@ -194,7 +222,7 @@ class Typing:
 
 
 def report_unknown_field(
-    owner: str, name: str, at: Span, fields: list[Field], report: Diagnostics
+    owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
 ) -> None:
     """Report a field that a message does not have, with those it has."""
     names = [str(known.name) for known in fields]
@@ -217,7 +245,9 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
 def constant(tree: ExpressionTree) -> bool:
     """Whether the value is known without running anything."""
     match tree:
-        case Value():
+        case Value() | NameUse(target=Constant()):
+            return True
+        case FieldUse(base=NameUse(target=EnumType())):
             return True
         case OperatorUse(operands=operands):
             return all(constant(operand) for operand in operands)

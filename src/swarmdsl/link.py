@@ -98,8 +98,7 @@ def link_values(owner: Node, values: Values, scope: FileScope, report: Diagnosti
             continue
         node.target = values.get(node.name)
         if node.target is None:
-            constants = [c for c in scope.find(node.name) if isinstance(c, (Constant, EnumType))]
-            node.target = constants[0] if len(constants) == 1 else None
+            node.target = scope.one(node.name, Constant) or scope.one(node.name, EnumType)
         if node.target is None and node.name not in scope.lost:
             report_unresolved("variable or param", node.name, node.span, values, None, report)
 
@@ -144,14 +143,14 @@ def _link_activities(machine: StateMachine, scope: FileScope, report: Diagnostic
             continue
         ref = node.function
         owner, _, name = ref.name.rpartition(".")
-        components = [c for c in scope.find(owner) if isinstance(c, Component)] if owner else []
-        if not components:
+        component = scope.one(owner, Component)
+        if component is None:
             ref.target = scope.resolve(ref.name, ref.span, Function, report)
             continue
-        operations = _named(all_items(components[0], Operation), Operation)
+        operations = _named(all_items(component, Operation), Operation)
         ref.target = operations.get(name)
         if ref.target is None and name not in scope.lost:
-            kind = f"operation of {bare(kind_of(components[0]))} `{owner}`"
+            kind = f"operation of {bare(kind_of(component))} `{owner}`"
             report_unresolved(kind, name, ref.span, operations, None, report)
 
 

@@ -57,6 +57,9 @@ class TypeLinker:
         self._homes = {
             declaration: file for file in scopes for declaration in file.model.declarations
         }
+        for declaration, file in self._homes.items():
+            if isinstance(declaration, EnumType):
+                declaration.type = interface_name(file, declaration.name)
 
     def link(self, ref: TypeRef, file: File, seen: tuple[AliasType, ...] = ()) -> None:
         """Resolve a type named in a file; `seen` are the aliases on the way to it."""

@@ -190,7 +190,7 @@ def _similar_file(path: Path) -> str | None:
 
 
 def _report_cycles(project: Project, report: Diagnostics) -> None:
-    for file, imports in cycles(project.files, lambda file: file.imports):
+    for file, imports in cycles(project.files, _imported):
         *way, last = imports
         report.report(
             "import-cycle",

@@ -131,6 +131,11 @@ class FileScope:
             if other.package == package and last in names
         ]
 
+    def one(self, name: str, kind: type[D]) -> D | None:
+        """The one declaration of this kind that a name means, None when there is none."""
+        found = [node for _, node in self.find(name) if isinstance(node, kind)]
+        return found[0] if len(found) == 1 else None
+
     def resolve(
         self,
         name: str,

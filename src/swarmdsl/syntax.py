@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
 from typing import Generic, Literal, TypeVar
 
-from swarmdsl.ir.types import Type
+from swarmdsl.ir.types import Named, Type
 from swarmdsl.source import Span
 
 
@@ -152,11 +152,12 @@ class EnumValue(Documented):
 
 @dataclass(slots=True, eq=False)
 class EnumType(Documented):
-    """`enum Mode : uint8 { ... }`."""
+    """`enum Mode : uint8 { ... }`; `type` is None until it is linked."""
 
     name: Word
     underlying: TypeRef | None
     values: list[EnumValue]
+    type: Named | None = field(default=None, init=False)
 
 
 @dataclass(slots=True, eq=False)

@@ -31,7 +31,18 @@ _WORDS = {
 _DECLARATIONS = {
     f"`{word}`"
     for word in (
-        *("struct", "enum", "type", "const", "message", "service", "action", "swarm", "event", "function"),
+        *(
+            "struct",
+            "enum",
+            "type",
+            "const",
+            "message",
+            "service",
+            "action",
+            "swarm",
+            "event",
+            "function",
+        ),
         *("sensor", "actuator", "controller", "virtual", "member"),
         *("endless", "statemachine", "environment", "fitness", "optimize"),
     )

@@ -15,13 +15,21 @@ from swarmdsl.lower.architecture import (
     lower_swarm,
 )
 from swarmdsl.lower.context import make_context
-from swarmdsl.lower.interfaces import lower_event, lower_function, lower_interface
+from swarmdsl.lower.interfaces import (
+    lower_event,
+    lower_function,
+    lower_interface,
+    lower_operations,
+)
 from swarmdsl.lower.machines import lower_machine
+from swarmdsl.lower.optimization import lower_fitness, lower_optimization
 from swarmdsl.syntax import (
     ActionType,
     Component,
+    EnumType,
     Environment,
     Event,
+    Fitness,
     Function,
     Member,
     MessageType,
@@ -43,35 +51,43 @@ def lower(project: Project) -> ir.System:
     machines: list[ir.StateMachine] = []
     environments: list[ir.Environment] = []
     swarms: list[ir.Swarm] = []
+    fitness: list[ir.Fitness] = []
     for file, declaration in project.declarations():
         match declaration:
-            case StructType() | MessageType() | ServiceType() | ActionType():
-                interfaces.append(lower_interface(declaration, file))
+            case StructType() | EnumType() | MessageType() | ServiceType() | ActionType():
+                interfaces.append(lower_interface(declaration, file, context))
             case Event():
                 events.append(lower_event(declaration, context))
             case Function():
                 functions.append(lower_function(declaration, context))
             case Component():
                 components.append(lower_component(declaration, context))
+                services, offered = lower_operations(declaration, file, context)
+                interfaces += services
+                functions += offered
             case Member():
                 members.append(lower_member(declaration, context))
             case StateMachine():
                 machines.append(lower_machine(declaration, context))
             case Environment():
                 environments.append(lower_environment(declaration, context))
+            case Fitness():
+                fitness.append(lower_fitness(declaration, context))
             case Swarm():
                 swarms.append(lower_swarm(declaration, context))
     first = project.files[0]
     return ir.System(
         name=first.package,
         interfaces=tuple(interfaces),
-        events=tuple(events),
+        events=(*events, *context.monitored()),
         functions=tuple(functions),
         components=tuple(components),
         members=tuple(members),
         machines=tuple(machines),
         environments=tuple(environments),
         swarms=tuple(swarms),
+        fitness=tuple(fitness),
+        optimizations=tuple(lower_optimization(o, context) for _, o in project.optimizations()),
         doc=first.model.package.doc if first.model.package else "",
         origin=first.model.package.span if first.model.package else None,
     )

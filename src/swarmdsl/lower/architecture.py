@@ -6,18 +6,23 @@ import re
 from collections.abc import Iterable
 
 from swarmdsl import ir
-from swarmdsl.lower.context import Context, type_of
+from swarmdsl.inheritance import all_items
+from swarmdsl.lower.context import Context
 from swarmdsl.lower.expressions import lower_expression
 from swarmdsl.lower.interfaces import lower_params
 from swarmdsl.naming import snake_case
 from swarmdsl.syntax import (
     BehaviorUse,
+    CommunicationSettings,
     Component,
     Connector,
     Environment,
     EnvironmentUse,
+    FitnessUse,
     Member,
     Multiplicity,
+    Operation,
+    Param,
     Part,
     Port,
     PortRef,
@@ -35,8 +40,11 @@ def lower_component(component: Component, context: Context) -> ir.Component:
     return ir.Component(
         name=context.names[component],
         kind=component.kind,
-        ports=_ports(component.items),
-        params=lower_params(component.items, context),
+        ports=_ports(all_items(component, Port), context),
+        params=lower_params(all_items(component, Param), context),
+        operations=tuple(context.operations[item] for item in all_items(component, Operation)),
+        behavior=_behavior(component, context),
+        base=context.name(component.base) if component.base is not None else None,
         doc=component.doc,
         origin=component.name.span,
     )
@@ -44,18 +52,18 @@ def lower_component(component: Component, context: Context) -> ir.Component:
 
 def lower_member(member: Member, context: Context) -> ir.Member:
     """A member with its parts and connectors."""
-    behavior = next((item for item in member.items if isinstance(item, BehaviorUse)), None)
     return ir.Member(
         name=context.names[member],
-        behavior=context.name(behavior.machine) if behavior else None,
-        ports=_ports(member.items),
-        params=lower_params(member.items, context),
-        parts=tuple(_part(item, context) for item in member.items if isinstance(item, Part)),
+        behavior=_behavior(member, context),
+        ports=_ports(all_items(member, Port), context),
+        params=lower_params(all_items(member, Param), context),
+        parts=tuple(_part(part, context) for part in all_items(member, Part)),
         connectors=tuple(
             ir.Connector(_end(item.source), _end(item.target), item.span)
-            for item in member.items
-            if isinstance(item, Connector)
+            for item in all_items(member, Connector)
         ),
+        communication=_communication(member, context),
+        base=context.name(member.base) if member.base is not None else None,
         doc=member.doc,
         origin=member.name.span,
     )
@@ -64,6 +72,7 @@ def lower_member(member: Member, context: Context) -> ir.Member:
 def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
     """A swarm with its roles."""
     place = next((item for item in swarm.items if isinstance(item, EnvironmentUse)), None)
+    fitness = next((item for item in swarm.items if isinstance(item, FitnessUse)), None)
     return ir.Swarm(
         name=context.names[swarm],
         roles=tuple(
@@ -78,6 +87,7 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
             if isinstance(item, Role)
         ),
         environment=context.name(place.environment) if place else None,
+        fitness=context.name(fitness.fitness) if fitness else None,
         doc=swarm.doc,
         origin=swarm.name.span,
     )
@@ -96,18 +106,32 @@ def lower_environment(environment: Environment, context: Context) -> ir.Environm
     )
 
 
-def _ports(items: Iterable[object]) -> tuple[ir.Port, ...]:
+def _behavior(owner: Component | Member, context: Context) -> str | None:
+    uses = all_items(owner, BehaviorUse)
+    return context.name(uses[0].machine) if uses else None
+
+
+def _communication(member: Member, context: Context) -> ir.CommunicationSettings | None:
+    for settings in all_items(member, CommunicationSettings):
+        return ir.CommunicationSettings(
+            str(settings.technology),
+            tuple((str(v.name), lower_expression(v.value, context)) for v in settings.values),
+            settings.span,
+        )
+    return None
+
+
+def _ports(items: Iterable[Port], context: Context) -> tuple[ir.Port, ...]:
     return tuple(
         ir.Port(
             str(item.name),
             item.direction,
-            type_of(item.type),
+            context.type_of(item.type),
             str(item.topic) if item.topic is not None else snake_case(item.name),
             item.doc,
             item.name.span,
         )
         for item in items
-        if isinstance(item, Port)
     )
 
 

@@ -3,26 +3,34 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 from swarmdsl import ir
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.enums import underlying
 from swarmdsl.inference import Typing
+from swarmdsl.inheritance import all_items
 from swarmdsl.link_types import interface_name
-from swarmdsl.load import Project
+from swarmdsl.load import File, Project
+from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.syntax import (
     BehaviorUse,
+    Component,
     Declaration,
+    EnumType,
     Member,
     MessageType,
+    MonitorTrigger,
+    Operation,
     Param,
     Ref,
     StateMachine,
     StructType,
     TypeRef,
     Variable,
+    walk,
 )
 
 
@@ -31,19 +39,25 @@ class Context:
     """Passed through lowering.
 
     `names` gives each declaration its name in the system: its own, with the package
-    before it where two packages use the same. `behaving` are the members by machine.
+    before it where two packages use the same. `behaving` are the members and components by machine.
     In a machine that another one reuses, `variables` and `values` say what its variables
-    are called there and which values its params have.
+    are called there and which values its params have. `enums` are the types of the numbers
+    behind enums.
     """
 
     names: Mapping[Declaration, str]
+    operations: Mapping[Operation, str]
+    monitors: Mapping[tuple[str, ir.Type], ir.Event]
     typing: Typing
-    behaving: Mapping[StateMachine, list[Member]]
+    behaving: Mapping[StateMachine, list[Member | Component]]
     variables: Mapping[Variable, str] = field(default_factory=dict)
     values: Mapping[Param, ir.Expression] = field(default_factory=dict)
+    enums: Mapping[ir.Named, ir.Primitive] = field(default_factory=dict)
 
     def name(self, ref: Ref[Any]) -> str:
         """The name of what a resolved reference means."""
+        if isinstance(ref.target, Operation):
+            return self.operations[ref.target]
         return self.names[cast("Declaration", ref.target)]
 
     def reusing(
@@ -56,14 +70,34 @@ class Context:
         """The same, where `event` is a message of that type."""
         return replace(self, typing=replace(self.typing, has_event=True, event=type_))
 
+    def monitor(self, trigger: MonitorTrigger) -> ir.Event:
+        """The event that a monitored topic stands for."""
+        return self.monitors[str(trigger.topic), self.type_of(trigger.type)]
+
+    def monitored(self) -> tuple[ir.Event, ...]:
+        """The events that have no declaration because a transition monitors their topic."""
+        return tuple(self.monitors.values())
+
+    def type_of(self, ref: TypeRef) -> ir.Type:
+        """The type a resolved type reference means, an enum's being that of its numbers."""
+        assert ref.type is not None
+        return self.plain(ref.type)
+
+    def plain(self, type_: ir.Type) -> ir.Type:
+        """The same type with the numbers of enums for the enums."""
+        if isinstance(type_, ir.Array):
+            return replace(type_, element=self.plain(type_.element))
+        return self.enums.get(type_, type_) if isinstance(type_, ir.Named) else type_
+
 
 def make_context(project: Project) -> Context:
     """Name everything and gather what the project says about types and behaviours."""
     pairs = list(project.declarations())
     count = Counter(str(declaration.name) for _, declaration in pairs)
     names: dict[Declaration, str] = {}
-    behaving: dict[StateMachine, list[Member]] = {}
+    behaving: dict[StateMachine, list[Member | Component]] = {}
     fields = {}
+    enums: dict[ir.Named, ir.Primitive] = {}
     for file, declaration in pairs:
         name = str(declaration.name)
         if count[name] > 1:
@@ -71,14 +105,39 @@ def make_context(project: Project) -> Context:
         names[declaration] = name
         if isinstance(declaration, (StructType, MessageType)):
             fields[interface_name(file, declaration.name)] = declaration.fields
-        if isinstance(declaration, Member):
-            for item in declaration.items:
-                if isinstance(item, BehaviorUse) and item.machine.target is not None:
-                    behaving.setdefault(item.machine.target, []).append(declaration)
-    return Context(names, Typing(fields, Diagnostics()), behaving)
+        if isinstance(declaration, EnumType) and declaration.type is not None:
+            enums[declaration.type] = underlying(declaration)
+        if isinstance(declaration, (Member, Component)):
+            for use in all_items(declaration, BehaviorUse):
+                if use.machine.target is not None:
+                    behaving.setdefault(use.machine.target, []).append(declaration)
+    operations = {
+        item: f"{snake_case(names[declaration])}_{item.name}"
+        for _, declaration in pairs
+        if isinstance(declaration, Component)
+        for item in declaration.items
+        if isinstance(item, Operation)
+    }
+    monitors = _monitors(pairs, set(names.values()))
+    typing = Typing(fields, Diagnostics())
+    return Context(names, operations, monitors, typing, behaving, enums=enums)
 
 
-def type_of(ref: TypeRef) -> ir.Type:
-    """The type a resolved type reference means."""
-    assert ref.type is not None
-    return ref.type
+def _monitors(
+    pairs: Iterable[tuple[File, Declaration]], taken: set[str]
+) -> dict[tuple[str, ir.Type], ir.Event]:
+    """One event for each topic that is monitored, named after it."""
+    found: dict[tuple[str, ir.Type], ir.Event] = {}
+    for _, declaration in pairs:
+        for node in walk(declaration):
+            if not isinstance(node, MonitorTrigger) or node.type.type is None:
+                continue
+            topic, type_ = str(node.topic), node.type.type
+            if (topic, type_) in found:
+                continue
+            name = camel_case(topic) or "Topic"
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            found[topic, type_] = ir.Event(name, type_, topic, False, "", node.span)
+    return found

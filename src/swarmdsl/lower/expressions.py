@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from swarmdsl import ir
+from swarmdsl.enums import numbers, underlying
 from swarmdsl.inference import UNITS
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
 from swarmdsl.syntax import (
     Call,
+    Constant,
+    EnumType,
     Expression,
     ExpressionTree,
     FieldUse,
+    FitnessInput,
     NameUse,
     OperatorUse,
     Param,
@@ -44,6 +48,7 @@ def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str
 
 def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
     type_ = context.typing.infer(tree)
+    type_ = context.plain(type_) if type_ is not None else None
     match tree:
         case Value():
             return _literal(tree)
@@ -58,6 +63,13 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
             if param in context.values:
                 return context.values[param]
             return ir.ParamRef(tree.name, type_, tree.span)
+        case NameUse(target=Constant() as constant):
+            return lower_expression(constant.value, context)
+        case NameUse(target=FitnessInput()):
+            assert type_ is not None
+            return ir.VariableRef(tree.name, type_, tree.span)
+        case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+            return ir.Literal(numbers(enum)[str(name)], underlying(enum), tree.span)
         case FieldUse(base=base, name=name):
             return ir.FieldAccess(_lower(base, context), str(name), type_, tree.span)
         case Call(function=function, arguments=arguments):

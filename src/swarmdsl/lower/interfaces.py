@@ -5,19 +5,24 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl import ir
+from swarmdsl.enums import numbers, underlying
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File
-from swarmdsl.lower.context import Context, type_of
-from swarmdsl.lower.expressions import lower_optional
-from swarmdsl.naming import snake_case
+from swarmdsl.lower.context import Context
+from swarmdsl.lower.expressions import lower_expression, lower_optional
+from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.syntax import (
     ActionType,
     Communication,
+    Component,
+    Constant,
+    EnumType,
     Event,
     Field,
     Function,
     FunctionPort,
     MessageType,
+    Operation,
     Param,
     ServiceType,
     StructType,
@@ -25,7 +30,9 @@ from swarmdsl.syntax import (
 
 
 def lower_interface(
-    declaration: StructType | MessageType | ServiceType | ActionType, file: File
+    declaration: StructType | EnumType | MessageType | ServiceType | ActionType,
+    file: File,
+    context: Context,
 ) -> ir.Interface:
     """A message, service or action; a struct is a message of the model."""
     type_ = interface_name(file, declaration.name)
@@ -33,19 +40,87 @@ def lower_interface(
     doc, origin = declaration.doc, declaration.name.span
     match declaration:
         case ServiceType(request=request, response=response):
-            return ir.Service(type_, _fields(request), _fields(response), external, doc, origin)
+            return ir.Service(
+                type_, _fields(request, context), _fields(response, context), external, doc, origin
+            )
         case ActionType(goal=goal, result=result, feedback=feedback):
-            parts = (_fields(goal), _fields(result), _fields(feedback))
-            return ir.Action(type_, *parts, external, doc, origin)
-        case StructType(fields=fields) | MessageType(fields=fields):
-            return ir.Message(type_, _fields(fields), external, doc, origin)
+            return ir.Action(
+                type_,
+                _fields(goal, context),
+                _fields(result, context),
+                _fields(feedback, context),
+                external,
+                doc,
+                origin,
+            )
+        case EnumType():
+            return ir.Message(type_, (), external, _values(declaration), doc, origin)
+        case StructType(fields=fields):
+            return ir.Message(type_, _fields(fields, context), external, (), doc, origin)
+        case MessageType(fields=fields, constants=constants):
+            values = tuple(_constant(constant, context) for constant in constants)
+            return ir.Message(type_, _fields(fields, context), external, values, doc, origin)
+
+
+def _values(enum: EnumType) -> tuple[ir.Constant, ...]:
+    """An enum is, in ROS, a message of constants."""
+    known, type_ = numbers(enum), underlying(enum)
+    return tuple(
+        ir.Constant(
+            str(value.name),
+            type_,
+            ir.Literal(known[str(value.name)], type_, value.span),
+            value.doc,
+            value.name.span,
+        )
+        for value in enum.values
+    )
+
+
+def _constant(constant: Constant, context: Context) -> ir.Constant:
+    return ir.Constant(
+        str(constant.name),
+        context.type_of(constant.type),
+        lower_expression(constant.value, context),
+        constant.doc,
+        constant.name.span,
+    )
+
+
+def lower_operations(
+    component: Component, file: File, context: Context
+) -> tuple[list[ir.Service], list[ir.Function]]:
+    """The operations of a component: functions called as services of its own package."""
+    services = []
+    functions = []
+    for operation in component.items:
+        if not isinstance(operation, Operation):
+            continue
+        type_ = interface_name(file, f"{component.name}{camel_case(operation.name)}")
+        fields = {
+            direction: tuple(
+                ir.Field(str(p.name), context.type_of(p.type), p.doc, p.name.span)
+                for p in operation.parameters
+                if (p.direction or "in") == direction
+            )
+            for direction in ("in", "out")
+        }
+        origin = operation.name.span
+        services.append(
+            ir.Service(type_, fields["in"], fields["out"], False, operation.doc, origin)
+        )
+        server = f"{snake_case(component.name)}/{operation.name}"
+        call = ir.Communication("service", server, type_, "", origin)
+        name = context.operations[operation]
+        functions.append(ir.Function(name, "abstraction", call, (), (), operation.doc, origin))
+    return services, functions
 
 
 def lower_event(event: Event, context: Context) -> ir.Event:
     """An event; its topic is its name where none is given."""
     return ir.Event(
         name=context.names[event],
-        type=type_of(event.type),
+        type=context.type_of(event.type),
         topic=str(event.topic) if event.topic is not None else snake_case(event.name),
         swarm=event.swarm,
         doc=event.doc,
@@ -56,7 +131,7 @@ def lower_event(event: Event, context: Context) -> ir.Event:
 def lower_function(function: Function, context: Context) -> ir.Function:
     """A function with how it is called."""
     call = next(item for item in function.items if isinstance(item, Communication))
-    type_ = type_of(call.type)
+    type_ = context.type_of(call.type)
     assert isinstance(type_, ir.Named)
     return ir.Function(
         name=context.names[function],
@@ -64,7 +139,7 @@ def lower_function(function: Function, context: Context) -> ir.Function:
         communication=ir.Communication(call.paradigm, str(call.name), type_, call.doc, call.span),
         ports=tuple(
             ir.FunctionPort(
-                item.direction, str(item.topic), type_of(item.type), item.doc, item.span
+                item.direction, str(item.topic), context.type_of(item.type), item.doc, item.span
             )
             for item in function.items
             if isinstance(item, FunctionPort)
@@ -80,7 +155,7 @@ def lower_params(items: Iterable[object], context: Context) -> tuple[ir.Param, .
     return tuple(
         ir.Param(
             str(item.name),
-            type_of(item.type),
+            context.type_of(item.type),
             lower_optional(item.default, context),
             item.doc,
             item.name.span,
@@ -90,8 +165,8 @@ def lower_params(items: Iterable[object], context: Context) -> tuple[ir.Param, .
     )
 
 
-def _fields(fields: list[Field]) -> tuple[ir.Field, ...]:
+def _fields(fields: list[Field], context: Context) -> tuple[ir.Field, ...]:
     return tuple(
-        ir.Field(str(field.name), type_of(field.type), field.doc, field.name.span)
+        ir.Field(str(field.name), context.type_of(field.type), field.doc, field.name.span)
         for field in fields
     )

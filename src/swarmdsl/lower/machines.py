@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from swarmdsl import ir
+from swarmdsl.inheritance import all_items
 from swarmdsl.link_machines import regions, vertices
-from swarmdsl.lower.context import Context, type_of
+from swarmdsl.lower.context import Context
 from swarmdsl.lower.expressions import lower_expression, lower_optional, lower_path
 from swarmdsl.lower.interfaces import lower_params
 from swarmdsl.naming import snake_case
@@ -20,13 +21,18 @@ from swarmdsl.syntax import (
     Container,
     DoneTrigger,
     Effect,
+    Entry,
     EventTrigger,
+    Exit,
     FinalState,
+    History,
     Initial,
+    MonitorTrigger,
     NameUse,
     OutcomeTrigger,
     Parallel,
     Param,
+    Ref,
     Region,
     Send,
     State,
@@ -88,7 +94,7 @@ class _Builder:
                 self.variables.append(
                     ir.Variable(
                         name,
-                        type_of(item.type),
+                        context.type_of(item.type),
                         lower_optional(item.initial, context),
                         item.doc,
                         item.name.span,
@@ -111,6 +117,13 @@ class _Builder:
         match state:
             case FinalState():
                 return replace(made, kind=ir.StateKind.FINAL)
+            case History():
+                assert state.target.target is not None
+                target = frame.ids[state.target.target]
+                resume = ir.Transition((), None, (), target, origin=state.span)
+                return replace(
+                    made, kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,)
+                )
             case Choice():
                 branches = tuple(_branch(branch, frame) for branch in state.branches)
                 return replace(made, kind=ir.StateKind.CHOICE, transitions=branches)
@@ -124,9 +137,16 @@ class _Builder:
                         if isinstance(item, Region)
                     ),
                     transitions=_transitions(state, frame),
+                    entry=_effects(state, Entry, frame),
+                    exit=_effects(state, Exit, frame),
                 )
             case State():
-                made = replace(made, transitions=_transitions(state, frame))
+                made = replace(
+                    made,
+                    transitions=_transitions(state, frame),
+                    entry=_effects(state, Entry, frame),
+                    exit=_effects(state, Exit, frame),
+                )
                 if state.machine is not None:
                     return self._submachine(made, state, frame)
                 if any(True for _ in vertices(state)):
@@ -154,11 +174,13 @@ class _Builder:
         machine = state.machine.target
         assert machine is not None
         names = self.add_variables(machine, snake_case(made.id) + "_", frame.context)
-        values = {
-            item: lower_expression(item.default, frame.context)
-            for item in machine.items
-            if isinstance(item, Param) and item.default is not None
-        }
+        bound = {str(binding.name): binding.value for binding in state.bindings}
+        values = {}
+        for item in machine.items:
+            if isinstance(item, Param):
+                value = bound.get(str(item.name), item.default)
+                assert value is not None
+                values[item] = lower_expression(value, frame.context)
         inner = _Frame(_ids(machine, made.id), frame.context.reusing(names, values))
         return replace(
             made,
@@ -198,7 +220,9 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
         if isinstance(node, NameUse) and isinstance(node.target, Param)
     }
     members = context.behaving.get(machine, [])
-    given = [{param.name: param for param in lower_params(m.items, context)} for m in members]
+    given = [
+        {param.name: param for param in lower_params(all_items(m, Param), context)} for m in members
+    ]
     found = []
     for param in lower_params(
         [*own, *sorted(used - set(own), key=lambda p: p.span.start)], context
@@ -212,23 +236,67 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
     return tuple(found)
 
 
-def _transitions(state: State | Parallel, frame: _Frame) -> tuple[ir.Transition, ...]:
+def _effects(
+    state: State | Parallel, kind: type[Entry] | type[Exit], frame: _Frame
+) -> tuple[ir.Effect, ...]:
     return tuple(
-        _transition(item, state, frame) for item in state.items if isinstance(item, Transition)
+        _effect(effect, frame.context)
+        for item in state.items
+        if isinstance(item, kind)
+        for effect in item.effects
     )
 
 
-def _transition(transition: Transition, owner: State | Parallel, frame: _Frame) -> ir.Transition:
+def _transitions(state: State | Parallel, frame: _Frame) -> tuple[ir.Transition, ...]:
+    items = [item for item in state.items if isinstance(item, Transition)]
+    return tuple(made for item in items for made in _transition(item, state, frame))
+
+
+def _transition(
+    transition: Transition, owner: State | Parallel, frame: _Frame
+) -> Iterator[ir.Transition]:
+    """One transition; two where one of the triggers is the completion of a simple state.
+
+    A state that does nothing and has nothing in it is complete at once (UML 2.5.1, 14.2.3.4):
+    a transition on that is one without trigger.
+    """
     context = frame.context
-    event = next((t.event.target for t in transition.triggers if isinstance(t, EventTrigger)), None)
-    if event is not None:
-        context = context.with_event(type_of(event.type))
-    return ir.Transition(
-        triggers=tuple(_trigger(trigger, owner, frame) for trigger in transition.triggers),
+    types = [_message_type(trigger, context) for trigger in transition.triggers]
+    if types and types[0] is not None:
+        context = context.with_event(types[0])
+    waiting = [t for t in transition.triggers if not _at_once(t, owner)]
+    triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
+    made = ir.Transition(
+        triggers=triggers,
         guard=lower_optional(transition.guard, context),
         effects=tuple(_effect(effect, context) for effect in transition.effects),
-        target=_target(transition, frame),
+        target=_target(transition.target, frame) if transition.target is not None else None,
+        internal=transition.internal,
         origin=transition.span,
+    )
+    if len(waiting) < len(transition.triggers):
+        yield replace(made, triggers=())
+    if waiting or not transition.triggers:
+        yield made
+
+
+def _message_type(trigger: Trigger, context: Context) -> ir.Type | None:
+    match trigger:
+        case EventTrigger():
+            assert trigger.event.target is not None
+            return context.type_of(trigger.event.target.type)
+        case MonitorTrigger():
+            return context.type_of(trigger.type)
+    return None
+
+
+def _at_once(trigger: Trigger, owner: State | Parallel) -> bool:
+    if not (isinstance(trigger, DoneTrigger) and trigger.region is None):
+        return False
+    return (
+        isinstance(owner, State)
+        and owner.machine is None
+        and not any(isinstance(item, (Activity, Vertex)) for item in owner.items)
     )
 
 
@@ -237,14 +305,14 @@ def _branch(branch: Branch, frame: _Frame) -> ir.Transition:
         triggers=(),
         guard=lower_optional(branch.guard, frame.context),
         effects=tuple(_effect(effect, frame.context) for effect in branch.effects),
-        target=_target(branch, frame),
+        target=_target(branch.target, frame),
         origin=branch.span,
     )
 
 
-def _target(arrow: Transition | Branch, frame: _Frame) -> str:
-    assert arrow.target.target is not None
-    return frame.ids[arrow.target.target]
+def _target(ref: Ref[Vertex], frame: _Frame) -> str:
+    assert ref.target is not None
+    return frame.ids[ref.target]
 
 
 def _trigger(trigger: Trigger, owner: State | Parallel, frame: _Frame) -> ir.Trigger:
@@ -253,6 +321,8 @@ def _trigger(trigger: Trigger, owner: State | Parallel, frame: _Frame) -> ir.Tri
             return ir.EventTrigger(frame.context.name(trigger.event), trigger.span)
         case OutcomeTrigger(outcome=outcome):
             return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
+        case MonitorTrigger():
+            return ir.EventTrigger(frame.context.monitor(trigger).name, trigger.span)
         case TimeTrigger(delay=delay):
             return ir.TimeTrigger(lower_expression(delay, frame.context), trigger.span)
         case DoneTrigger(region=region, final=final):

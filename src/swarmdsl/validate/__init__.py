@@ -10,15 +10,18 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.load import Project
 from swarmdsl.syntax import (
     Component,
+    Constant,
+    EnumType,
     Environment,
     Event,
+    Fitness,
     Function,
     Member,
     StateMachine,
     Swarm,
 )
 from swarmdsl.validate.activities import check_activities
-from swarmdsl.validate.architecture import check_component, check_member
+from swarmdsl.validate.architecture import check_component, check_inheritance, check_member
 from swarmdsl.validate.composition import check_environment, check_swarm
 from swarmdsl.validate.context import make_context
 from swarmdsl.validate.expressions import check_expressions
@@ -29,6 +32,12 @@ from swarmdsl.validate.interfaces import (
     check_values,
 )
 from swarmdsl.validate.names import check_names
+from swarmdsl.validate.optimization import (
+    check_constant,
+    check_enum,
+    check_fitness,
+    check_optimization,
+)
 from swarmdsl.validate.reachability import check_reachability
 from swarmdsl.validate.structure import check_structure, check_submachine_cycles
 from swarmdsl.validate.transitions import check_transitions
@@ -39,6 +48,7 @@ def validate(project: Project, report: Diagnostics) -> None:
     context = make_context(project, report)
     check_names(project, report)
     check_submachine_cycles(project, report)
+    check_inheritance(project, report)
     check_message_cycles(context)
     for file, declaration in project.declarations():
         if declaration in file.parsed.damaged:
@@ -59,10 +69,18 @@ def validate(project: Project, report: Diagnostics) -> None:
                 check_reachability(declaration, context)
                 check_activities(declaration, context)
                 check_expressions(declaration, context)
+            case Constant():
+                check_constant(declaration, context)
+            case EnumType():
+                check_enum(declaration, context)
+            case Fitness():
+                check_fitness(declaration, context)
             case Swarm():
                 check_swarm(declaration, context)
             case Environment():
                 check_environment(declaration, context)
+    for _, optimization in project.optimizations():
+        check_optimization(optimization, context)
 
 
 __all__ = ["validate"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from swarmdsl.diagnostics import Label, listed
 from swarmdsl.inference import Typing, assignable, report_unknown_field
 from swarmdsl.ir.types import Named
@@ -11,6 +13,8 @@ from swarmdsl.syntax import (
     Argument,
     Communication,
     Field,
+    Operation,
+    Parameter,
     ResultMapping,
     ServiceType,
     StateMachine,
@@ -35,6 +39,9 @@ def _check_activity(activity: Activity, context: Context) -> None:
     context.check_repeated((argument.name for argument in activity.arguments), "field")
     context.check_repeated((result.field for result in activity.results), "field")
     function = activity.function.target
+    if isinstance(function, Operation):
+        _check_operation(activity, function, context)
+        return
     call = (
         next((item for item in function.items if isinstance(item, Communication)), None)
         if function is not None
@@ -62,8 +69,24 @@ def _check_activity(activity: Activity, context: Context) -> None:
         _check_result(result, received, f"the {words[1]} of {name}", context)
 
 
+def _check_operation(activity: Activity, operation: Operation, context: Context) -> None:
+    """An operation takes its `in` parameters and gives its `out` parameters."""
+    owner = f"operation `{operation.name}`"
+    taken = [p for p in operation.parameters if p.direction != "out"]
+    given = [p for p in operation.parameters if p.direction == "out"]
+    if activity.goal_callback is None and check_arguments(
+        activity.arguments, taken, owner, context.typing
+    ):
+        _check_missing(activity, taken, owner, context)
+    for result in activity.results:
+        _check_result(result, given, owner, context)
+
+
 def check_arguments(
-    arguments: list[Argument], fields: list[Field] | None, owner: str, typing: Typing
+    arguments: list[Argument],
+    fields: Sequence[Field | Parameter] | None,
+    owner: str,
+    typing: Typing,
 ) -> bool:
     """Check values given to fields by name; return whether all the fields exist.
 
@@ -86,7 +109,10 @@ def check_arguments(
 
 
 def _check_missing(
-    activity: Activity, fields: list[Field] | None, owner: str, context: Context
+    activity: Activity,
+    fields: Sequence[Field | Parameter] | None,
+    owner: str,
+    context: Context,
 ) -> None:
     given = {str(argument.name) for argument in activity.arguments}
     missing = [field for field in fields or () if field.name not in given]
@@ -104,7 +130,7 @@ def _check_missing(
 
 
 def _check_result(
-    result: ResultMapping, fields: list[Field] | None, owner: str, context: Context
+    result: ResultMapping, fields: Sequence[Field | Parameter] | None, owner: str, context: Context
 ) -> None:
     tree = result.target.tree
     if tree is not None and not assignable(tree):

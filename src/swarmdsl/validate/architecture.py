@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from swarmdsl.diagnostics import Label
+from collections.abc import Iterator
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.graph import cycles
 from swarmdsl.inference import fits
+from swarmdsl.inheritance import all_items
+from swarmdsl.ir.types import INT, STRING
+from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
+from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     BehaviorUse,
+    CommunicationSettings,
     Component,
     Connector,
     Member,
@@ -18,22 +26,62 @@ from swarmdsl.syntax import (
 )
 from swarmdsl.validate.context import Context
 
+# What can be said of the technology that members reach each other with.
+_SETTINGS = ("ifname", "port", "name", "device_class")
+
 
 def check_component(component: Component, context: Context) -> None:
-    """Check the ports and params of a component."""
+    """Check what a component extends, its params and its behaviour."""
+    base = component.base.target if component.base is not None else None
+    if base is not None and base.kind != component.kind and component.base is not None:
+        context.report.report(
+            "wrong-kind",
+            component.base.span,
+            name=base.name,
+            actual=f"a {base.kind}".replace("a actuator", "an actuator"),
+            expected=f"a {component.kind}".replace("a actuator", "an actuator"),
+            related=(Label(base.name.span, "declared here"),),
+        )
+    behaviors = [item for item in component.items if isinstance(item, BehaviorUse)]
+    context.check_single([item.span for item in behaviors], "the behavior")
     for item in component.items:
-        if isinstance(item, Param):
-            context.check_default(item, item.default)
+        match item:
+            case Param():
+                context.check_default(item, item.default)
+            case BehaviorUse():
+                _check_params_given(component, item, context)
+
+
+def check_inheritance(project: Project, report: Diagnostics) -> None:
+    """No component and no member extends itself, through however many others."""
+    owners = [o for _, o in project.declarations() if isinstance(o, (Component, Member))]
+
+    def bases(owner: Component | Member) -> Iterator[tuple[Span, Component | Member]]:
+        if owner.base is not None and owner.base.target is not None:
+            yield owner.base.span, owner.base.target
+
+    for owner, spans in cycles(owners, bases):
+        *way, last = spans
+        report.report(
+            "inheritance-cycle",
+            last,
+            name=owner.name,
+            related=tuple(Label(span, "by way of this") for span in way),
+        )
 
 
 def check_member(member: Member, context: Context) -> None:
     """Check behaviour, params, parts and connectors of a member."""
     behaviors = [item for item in member.items if isinstance(item, BehaviorUse)]
     context.check_single([item.span for item in behaviors], "the behavior")
+    settings = [item for item in member.items if isinstance(item, CommunicationSettings)]
+    context.check_single([item.span for item in settings], "the communication")
+    for use in all_items(member, BehaviorUse):
+        _check_params_given(member, use, context)
     for item in member.items:
         match item:
-            case BehaviorUse():
-                _check_params_given(member, item, context)
+            case CommunicationSettings():
+                _check_settings(item, context)
             case Param():
                 context.check_default(item, item.default)
             case Part():
@@ -42,10 +90,25 @@ def check_member(member: Member, context: Context) -> None:
                 _check_connector(item, context)
 
 
-def _check_params_given(member: Member, use: BehaviorUse, context: Context) -> None:
-    """A param of the machine needs a default, or a param of the same name in the member."""
+def _check_settings(settings: CommunicationSettings, context: Context) -> None:
+    context.check_repeated((value.name for value in settings.values), "setting")
+    for value in settings.values:
+        if value.name not in _SETTINGS:
+            context.report.report(
+                "unknown-setting",
+                value.name.span,
+                name=value.name,
+                help=suggest(value.name, _SETTINGS, "settings"),
+            )
+            continue
+        wanted = INT if value.name == "port" else STRING
+        context.expect(value.value, wanted, context.typing)
+
+
+def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Context) -> None:
+    """A param of the machine needs a default, or a param of the same name in its owner."""
     machine = use.machine.target
-    own = {str(item.name): item for item in member.items if isinstance(item, Param)}
+    own = {str(param.name): param for param in all_items(owner, Param)}
     for param in machine.items if machine else ():
         if not isinstance(param, Param):
             continue
@@ -57,7 +120,7 @@ def _check_params_given(member: Member, use: BehaviorUse, context: Context) -> N
                 name=param.name,
                 machine=use.machine.name,
                 related=(Label(param.name.span, "declared here, without a default"),),
-                help=f"add `param {param.name} : {param.type.span.text}` to the member",
+                help=f"add `param {param.name} : {param.type.span.text}` to `{owner.name}`",
             )
         elif given is not None and not fits(given.type.type, param.type.type):
             context.report.report(
@@ -74,7 +137,7 @@ def _check_part(part: Part, context: Context) -> None:
     component = part.component.target
     if component is None:
         return
-    params = {str(item.name): item for item in component.items if isinstance(item, Param)}
+    params = {str(param.name): param for param in all_items(component, Param)}
     for value in part.values:
         param = params.get(str(value.name))
         if param is None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.inference import Typing, constant, fits
+from swarmdsl.inference import Typing, constant, fits, is_number
 from swarmdsl.ir.types import Array, Named, Type
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import Project
@@ -15,11 +15,13 @@ from swarmdsl.source import Span
 from swarmdsl.syntax import (
     ActionType,
     AliasType,
+    EnumType,
     EventTrigger,
     Expression,
     Field,
     Interface,
     MessageType,
+    MonitorTrigger,
     Param,
     ServiceType,
     StructType,
@@ -49,11 +51,24 @@ class Context:
 
     def check_default(self, owner: Param | Variable, value: Expression | None) -> None:
         """Check a value that must be known when the model is compiled."""
-        if value is None or value.tree is None:
+        if value is not None:
+            self.check_constant(value, owner.type.type)
+
+    def check_constant(self, value: Expression, wanted: Type | None) -> None:
+        """Check a value of a type that must be known when the model is compiled."""
+        if value.tree is None:
             return
         if not constant(value.tree):
             self.report.report("not-constant", value.span)
-        self.typing.expect(value.tree, owner.type.type)
+        self.typing.expect(value.tree, wanted)
+
+    def check_number(self, value: Expression) -> None:
+        """Check that a value is a number."""
+        if value.tree is None:
+            return
+        found = self.typing.infer(value.tree)
+        if found is not None and not is_number(found):
+            self.report.report("type-mismatch", value.span, expected="a number", found=f"`{found}`")
 
     def check_kind(self, ref: TypeRef, wanted: type[Interface]) -> None:
         """Check that a type names a message (or an action, a service), where that is known."""
@@ -92,11 +107,17 @@ class Context:
                 "repeated-item", place, item=what, related=(Label(places[0], "first given here"),)
             )
 
-    def with_event(self, triggers: list[EventTrigger]) -> Typing:
+    def with_event(self, triggers: list[EventTrigger | MonitorTrigger]) -> Typing:
         """Typing where `event` is the message of any of these triggers."""
-        types = [t.event.target.type.type if t.event.target else None for t in triggers]
+        types = [_message(trigger) for trigger in triggers]
         alike = all(known == types[0] for known in types)
         return replace(self.typing, has_event=alike, event=types[0])
+
+
+def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:
+    if isinstance(trigger, MonitorTrigger):
+        return trigger.type.type
+    return trigger.event.target.type.type if trigger.event.target is not None else None
 
 
 def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
@@ -113,7 +134,7 @@ def make_context(project: Project, report: Diagnostics) -> Context:
         match declaration:
             case StructType() | MessageType():
                 messages[interface_name(file, declaration.name)] = declaration.fields
-            case AliasType() | ServiceType() | ActionType():
+            case EnumType() | AliasType() | ServiceType() | ActionType():
                 pass
             case _:
                 continue

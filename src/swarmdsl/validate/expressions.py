@@ -8,7 +8,11 @@ from swarmdsl.syntax import (
     Assignment,
     Branch,
     Effect,
+    Entry,
     EventTrigger,
+    Exit,
+    MessageType,
+    MonitorTrigger,
     Param,
     Send,
     StateMachine,
@@ -32,11 +36,15 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
             case Transition():
-                events = [t for t in node.triggers if isinstance(t, EventTrigger)]
+                events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
                 all_events = events and len(events) == len(node.triggers)
                 typing = context.with_event(events) if all_events else context.typing
                 context.expect(node.guard, BOOL, typing)
                 _check_effects(node.effects, typing, context)
+            case MonitorTrigger():
+                context.check_kind(node.type, MessageType)
+            case Entry() | Exit():
+                _check_effects(node.effects, context.typing, context)
             case Branch():
                 context.expect(node.guard, BOOL, context.typing)
                 _check_effects(node.effects, context.typing, context)

@@ -6,6 +6,7 @@ from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.inheritance import lineage
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
@@ -13,14 +14,20 @@ from swarmdsl.syntax import (
     ActionType,
     Component,
     Declaration,
+    EnumType,
+    EnumValue,
     Event,
     Field,
+    Fitness,
+    FitnessInput,
     Function,
     Member,
     MessageType,
     Node,
+    Operation,
     Parallel,
     Param,
+    Parameter,
     Part,
     Port,
     Region,
@@ -36,7 +43,21 @@ from swarmdsl.syntax import (
     walk,
 )
 
-Named = Declaration | Field | Param | Port | Part | Variable | Vertex | Region | Role
+Named = (
+    Declaration
+    | Field
+    | EnumValue
+    | Operation
+    | Parameter
+    | FitnessInput
+    | Param
+    | Port
+    | Part
+    | Variable
+    | Vertex
+    | Region
+    | Role
+)
 
 N = TypeVar("N", bound=Named)
 
@@ -68,18 +89,24 @@ def check_names(project: Project, report: Diagnostics) -> None:
 def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
     """The groups of named things in a node whose names must differ."""
     match node:
-        case StructType(fields=fields) | MessageType(fields=fields):
+        case StructType(fields=fields):
             return (fields,)
+        case MessageType(fields=fields, constants=constants):
+            return ([*constants, *fields],)
         case ServiceType(request=request, response=response):
             return (request, response)
         case ActionType(goal=goal, result=result, feedback=feedback):
             return (goal, result, feedback)
         case Function(items=items):
             return ([item for item in items if isinstance(item, Param)],)
-        case Component(items=items):
-            return (items,)
-        case Member(items=items):
-            return ([item for item in items if isinstance(item, (Port, Param, Part))],)
+        case Component() | Member():
+            return (_items(node),)
+        case EnumType(values=values):
+            return (values,)
+        case Operation(parameters=parameters):
+            return (parameters,)
+        case Fitness(items=items):
+            return ([item for item in items if isinstance(item, (FitnessInput, Param))],)
         case Swarm(items=items):
             return ([item for item in items if isinstance(item, Role)],)
         case StateMachine(items=items):
@@ -92,6 +119,20 @@ def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
         case State() | Region():
             return (vertices(node),)
     return ()
+
+
+def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
+    """The named items, inherited ones first; an own param may replace an inherited one."""
+    kinds = (Port, Param, Operation, Part)
+    own = [item for item in owner.items if isinstance(item, kinds)]
+    params = {str(item.name) for item in own if isinstance(item, Param)}
+    inherited = [
+        item
+        for base in reversed(lineage(owner)[1:])
+        for item in base.items
+        if isinstance(item, kinds) and not (isinstance(item, Param) and str(item.name) in params)
+    ]
+    return [*inherited, *own]
 
 
 def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:

@@ -8,6 +8,7 @@ from swarmdsl.syntax import (
     Branch,
     Choice,
     Container,
+    History,
     Initial,
     Parallel,
     Region,
@@ -28,8 +29,9 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     container without initial state any may be the first, of two states with one name only one
     can be meant, and where a name was not resolved it may have meant any state.
     """
-    arrows = (Initial, Transition, Branch)
-    if any(isinstance(node, arrows) and node.target.target is None for node in walk(machine)):
+    arrows = (Initial, Transition, Branch, History)
+    named = [node.target for node in walk(machine) if isinstance(node, arrows)]
+    if any(target is not None and target.target is None for target in named):
         return
     around: dict[Vertex | Region, Container] = {}
     _collect(machine, around)
@@ -68,13 +70,15 @@ def _successors(state: Vertex | Region) -> list[Vertex | Region]:
         found += _initials(state)
     arrows = [
         *(state.branches if isinstance(state, Choice) else ()),
+        *([state] if isinstance(state, History) else ()),
         *(
             item
             for item in (state.items if isinstance(state, (State, Parallel)) else ())
             if isinstance(item, Transition)
         ),
     ]
-    return found + [arrow.target.target for arrow in arrows if arrow.target.target is not None]
+    targets = [arrow.target.target for arrow in arrows if arrow.target is not None]
+    return found + [target for target in targets if target is not None]
 
 
 def _report(container: Container, reached: set[Vertex | Region], context: Context) -> None:

@@ -8,11 +8,13 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.link_machines import content, regions, vertices
 from swarmdsl.load import Project
+from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
     Choice,
     Container,
     FinalState,
+    History,
     Initial,
     Parallel,
     Param,
@@ -20,6 +22,7 @@ from swarmdsl.syntax import (
     Region,
     State,
     StateMachine,
+    Transition,
     walk,
 )
 from swarmdsl.validate.context import Context
@@ -52,6 +55,7 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 _check_state(node, context)
             case Choice():
                 _check_choice(node, context)
+    _check_levels(machine, context)
 
 
 def check_submachine_cycles(project: Project, report: Diagnostics) -> None:
@@ -107,18 +111,60 @@ def _check_state(state: State, context: Context) -> None:
         _check_reuse(state, state.machine.target, context)
 
 
+def _check_levels(machine: StateMachine, context: Context) -> None:
+    """Check that an internal transition leads inward and a history has something to resume."""
+    for node in walk(machine):
+        if isinstance(node, StateMachine):
+            for state in vertices(node):
+                if isinstance(state, History):
+                    fault = "stands outside of any composite state"
+                    context.report.report(
+                        "misplaced-history", state.name.span, name=state.name, fault=fault
+                    )
+        if not isinstance(node, (State, Parallel)):
+            continue
+        inside = set(walk(node)) - {node}
+        for item in node.items:
+            if not isinstance(item, Transition) or not item.internal or item.target is None:
+                continue
+            target = item.target.target
+            if target is not None and target not in inside:
+                context.report.report(
+                    "misplaced-internal",
+                    item.target.span,
+                    state=node.name,
+                    target=target.name,
+                    help="it leads to a state inside the one that holds it",
+                )
+
+
 def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
-    """A reused machine cannot be given params yet: each needs a default."""
+    """Check that the params of a reused machine are given, or have a default."""
     assert state.machine is not None
-    for param in machine.items:
-        if isinstance(param, Param) and param.default is None:
+    params = {str(item.name): item for item in machine.items if isinstance(item, Param)}
+    context.check_repeated((binding.name for binding in state.bindings), "param")
+    given = {str(binding.name) for binding in state.bindings}
+    for binding in state.bindings:
+        param = params.get(str(binding.name))
+        if param is None:
+            context.report.report(
+                "unknown-param",
+                binding.name.span,
+                owner=f"state machine `{machine.name}`",
+                name=binding.name,
+                help=suggest(binding.name, params, "params"),
+            )
+        else:
+            context.expect(binding.value, param.type.type, context.typing)
+    for param in params.values():
+        if param.default is None and str(param.name) not in given:
             context.report.report(
                 "missing-value",
                 state.machine.span,
                 name=param.name,
                 machine=machine.name,
                 related=(Label(param.name.span, "declared here, without a default"),),
-                help=f"give it a default: `param {param.name} : {param.type.span.text} = ...`",
+                help=f"bind it: `{state.machine.name}({param.name} = ...)`",
             )
 
 

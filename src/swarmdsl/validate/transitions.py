@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 
 from swarmdsl.diagnostics import Label, listed
+from swarmdsl.graph import cycles
 from swarmdsl.inference import UNITS
 from swarmdsl.link_machines import regions
 from swarmdsl.scopes import bare, kind_of
@@ -15,8 +16,10 @@ from swarmdsl.syntax import (
     Container,
     DoneTrigger,
     EventTrigger,
+    MonitorTrigger,
     OutcomeTrigger,
     Parallel,
+    Ref,
     Region,
     State,
     StateMachine,
@@ -46,6 +49,7 @@ def check_transitions(machine: StateMachine, context: Context) -> None:
             case Choice():
                 _check_branches(node, context)
     _check_targets(machine, context)
+    _check_endless_steps(machine, context)
 
 
 def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) -> None:
@@ -68,17 +72,15 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
 def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
     """A state without content is never done, nor is content without a final state."""
     simple = isinstance(of, State) and of.machine is None and not _has_states(of)
-    if not simple and completes(of):
-        return
+    if completes(of) and not (simple and (_activities(of) or trigger.final is not None)):
+        return  # a state that does nothing is done at once
     help_ = "add a final state to it"
     if isinstance(of, Parallel):
         help_ = "a parallel state is done when each of its regions has reached a final state"
     elif isinstance(of, State) and of.machine is not None:
         help_ = f"state machine `{of.machine.name}` has no final state"
     elif simple:
-        help_ = "`done` is for states with states in them"
-        if _activities(of):
-            help_ += ", `succeeded` and `aborted` are the ends of an activity"
+        help_ = "`succeeded` and `aborted` are the ends of an activity"
     context.report.report(
         "done-without-content",
         trigger.span,
@@ -130,7 +132,7 @@ def _check_shadowed(transitions: list[Transition], context: Context) -> None:
                 blockers.append(earliest[1])
             else:
                 blockers += [taken[key] for key in _keys(trigger) if key in taken][:1]
-        if len(blockers) == len(transition.triggers):
+        if transition.triggers and len(blockers) == len(transition.triggers):
             advice = "give the first one a guard, or remove one of the two"
             _report_shadowed(transition.span, blockers[0].span, advice, context)
         elif transition.guard is None:
@@ -171,6 +173,8 @@ def _keys(trigger: Trigger) -> list[Hashable]:
             return [whole] if final is None else [(*whole[:2], final.name), whole]
         case TimeTrigger(delay=delay):
             return [("after", delay.span.text)]
+        case MonitorTrigger(topic=topic):
+            return [("monitor", str(topic))]
 
 
 def _constant_delay(trigger: Trigger) -> float | None:
@@ -179,6 +183,40 @@ def _constant_delay(trigger: Trigger) -> float | None:
         if isinstance(value.value, (int, float)):
             return value.value * UNITS.get(value.unit, 1)
     return None
+
+
+def _check_endless_steps(machine: StateMachine, context: Context) -> None:
+    """No circle of choices and of states that are left at once: it would never end."""
+
+    def steps(state: Vertex) -> Iterator[tuple[Ref[Vertex], Vertex]]:
+        match state:
+            case Choice(branches=branches):
+                refs = [branch.target for branch in branches]
+            case State(items=items) if not _activities(state) and not _has_states(state):
+                refs = [
+                    item.target
+                    for item in items
+                    if isinstance(item, Transition)
+                    and item.target is not None
+                    and item.guard is None
+                    and any(isinstance(t, DoneTrigger) for t in item.triggers)
+                ]
+            case _:
+                refs = []
+        for ref in refs:
+            if ref.target is not None:
+                yield ref, ref.target
+
+    states = [node for node in walk(machine) if isinstance(node, Vertex)]
+    for state, refs in cycles(states, steps):
+        *way, last = refs
+        context.report.report(
+            "endless-steps",
+            last.span,
+            name=state.name,
+            related=tuple(Label(ref.span, "by way of this transition") for ref in way),
+            help="let one of the states on the way wait for something",
+        )
 
 
 def _check_targets(machine: StateMachine, context: Context) -> None:
@@ -207,9 +245,10 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
         for region in regions(parallel)
     }
     for transition, source in arrows:
-        target = transition.target.target
+        target = transition.target.target if transition.target is not None else None
         if target is None:
             continue
+        assert transition.target is not None
         for here, there in zip(source, homes[target], strict=False):
             if here is not there and siblings[here] is siblings[there]:
                 context.report.report(

@@ -1,0 +1,132 @@
+"""Fitness and what may be changed to better it; constants and enums."""
+
+from __future__ import annotations
+
+from swarmdsl.enums import numbers, underlying
+from swarmdsl.inference import UNITS, constant, is_number
+from swarmdsl.ir.types import INT, INTEGERS, Primitive, Type
+from swarmdsl.syntax import (
+    Constant,
+    CountRange,
+    EnumType,
+    Expression,
+    Fitness,
+    Objective,
+    Optimization,
+    Param,
+    ParamRange,
+    Setting,
+    Value,
+)
+from swarmdsl.validate.context import Context
+
+
+def check_fitness(fitness: Fitness, context: Context) -> None:
+    """A fitness is one number to make as great or as small as possible."""
+    objectives = [item for item in fitness.items if isinstance(item, Objective)]
+    if not objectives:
+        context.report.report(
+            "missing-objective",
+            fitness.name.span,
+            name=fitness.name,
+            help="add `maximize ...` or `minimize ...`",
+        )
+    context.check_single([item.span for item in objectives], "the objective")
+    for item in fitness.items:
+        match item:
+            case Param():
+                context.check_default(item, item.default)
+            case Objective():
+                context.check_number(item.value)
+
+
+def check_optimization(optimization: Optimization, context: Context) -> None:
+    """The ranges hold values, and each thing is varied once."""
+    settings = [item for item in optimization.items if isinstance(item, Setting)]
+    for name in ("steps", "evaluations", "seed"):
+        places = [item.span for item in settings if item.name == name]
+        context.check_single(places, f"setting `{name}`")
+    for setting in settings:
+        context.check_constant(setting.value, INT)
+    varied: dict[str, list[ParamRange | CountRange]] = {}
+    for item in optimization.items:
+        match item:
+            case ParamRange():
+                varied.setdefault(f"the range of `{item.role.name}.{item.param.name}`", []).append(
+                    item
+                )
+                param = item.param.target
+                type_ = param.type.type if param is not None else None
+                _check_range(item.lower, item.upper, item.step, type_, context)
+            case CountRange():
+                varied.setdefault(f"the count of `{item.role.name}`", []).append(item)
+                _check_range(item.lower, item.upper, None, INT, context)
+    for what, items in varied.items():
+        context.check_single([item.span for item in items], what)
+
+
+def check_constant(declared: Constant, context: Context) -> None:
+    """The value of a constant is known and of its type."""
+    context.check_constant(declared.value, declared.type.type)
+
+
+def check_enum(enum: EnumType, context: Context) -> None:
+    """The values of an enum are whole numbers of its type, each once."""
+    written = enum.underlying.type if enum.underlying is not None else None
+    if written is not None and not (isinstance(written, Primitive) and written.name in INTEGERS):
+        assert enum.underlying is not None
+        context.report.report(
+            "interface-kind",
+            enum.underlying.span,
+            name=enum.underlying.span.text,
+            actual="no integer type",
+            expected="one: the values of an enum are whole numbers",
+        )
+        return
+    name = underlying(enum).name
+    bits = int(name.lstrip("uint"))
+    lowest, highest = (
+        (0, 2**bits - 1) if name[0] == "u" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    )
+    known = numbers(enum)
+    seen: dict[int, str] = {}
+    for value in enum.values:
+        number = known[str(value.name)]
+        fault = ""
+        if not lowest <= number <= highest:
+            fault = f"is {number}, which is no `{name}`"
+        elif number in seen:
+            fault = f"is {number}, like `{seen[number]}`"
+        if fault:
+            context.report.report(
+                "enum-value", value.name.span, name=value.name, enum=enum.name, fault=fault
+            )
+        seen.setdefault(number, str(value.name))
+
+
+def _check_range(
+    lower: Expression,
+    upper: Expression,
+    step: Expression | None,
+    type_: Type | None,
+    context: Context,
+) -> None:
+    if type_ is not None and not is_number(type_) and str(type_) != "duration":
+        context.report.report("empty-range", lower.span, fault=f"is of values of type `{type_}`")
+        return
+    for value in (lower, upper, step):
+        if value is not None:
+            context.check_constant(value, type_)
+    low, high = _number(lower), _number(upper)
+    if low is not None and high is not None and low > high:
+        context.report.report("empty-range", upper.span, fault="ends below its start")
+    width = _number(step) if step is not None else None
+    if step is not None and width is not None and width <= 0:
+        context.report.report("empty-range", step.span, fault="has a step of nothing")
+
+
+def _number(expression: Expression) -> float | None:
+    tree = expression.tree
+    if isinstance(tree, Value) and isinstance(tree.value, (int, float)) and constant(tree):
+        return tree.value * UNITS.get(tree.unit, 1)
+    return None
