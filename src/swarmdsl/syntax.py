@@ -90,7 +90,7 @@ class NameUse(Node):
     """The name of a variable or param; `event` is a name of its own."""
 
     name: str
-    target: Variable | Param | None = field(default=None, init=False)
+    target: Variable | Param | None = field(default=None, init=False, metadata={"elsewhere": True})
 
 
 @dataclass(slots=True, eq=False)
@@ -557,7 +557,11 @@ NODES: dict[str, type[Node]] = {
     for cls in list(globals().values())
     if isinstance(cls, type) and issubclass(cls, Node)
 }
-_ATTRIBUTES = {cls: [attribute.name for attribute in fields(cls)] for cls in NODES.values()}
+# Where the parts of a node are; a node that it only refers to is no part of it.
+_ATTRIBUTES = {
+    cls: [part.name for part in fields(cls) if "elsewhere" not in part.metadata]
+    for cls in NODES.values()
+}
 
 
 def children(node: Node) -> Iterator[Node]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable
 
 from swarmdsl.diagnostics import Label, listed
-from swarmdsl.inference import UNITS
+from swarmdsl.expressions import UNITS
 from swarmdsl.link_machines import regions
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.source import Span
