@@ -7,17 +7,25 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from math import isinf
 
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.resources import grammar
+from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Call, ExpressionTree, FieldUse, NameUse, OperatorUse, Value, Word
 
 _QUANTITY = re.compile(r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)[ \t]*([a-z]*)")
+# Nanoseconds in each unit of durations.
+UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
+# What a `uint64` holds at most, and a duration in nanoseconds.
+_LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
 _ESCAPE = re.compile(r"\\(.)")
+# More would take Python long to read, and nobody needs them.
+_MOST_DIGITS = 400
 _ESCAPED = {"n": "\n", "t": "\t"}
 
 
@@ -27,6 +35,20 @@ def parse_expression(span: Span, report: Diagnostics) -> ExpressionTree | None:
         tree = _parser().parse(span.text)
     except UnexpectedInput as error:
         _report_unexpected(error, span, report)
+        return None
+    if _depth(tree) > NESTING_LIMIT:
+        report.report(
+            "nested-too-deeply",
+            span,
+            limit=NESTING_LIMIT,
+            help="each operator is a level: store a part of the value in a variable first",
+        )
+        return None
+    large = next(tree.scan_values(_too_large), None)
+    if large is not None:
+        start = span.start + (large.start_pos or 0)
+        place = Span(span.source, start, start + len(large))
+        report.report("syntax-error", place, message="this number is too large")
         return None
     return _build(tree, span.source, span.start)
 
@@ -40,6 +62,15 @@ def unquoted(text: str) -> str:
 def _parser() -> Lark:
     text = (grammar() / "expression.lark").read_text(encoding="utf-8")
     return Lark(text, parser="lalr", propagate_positions=True, maybe_placeholders=False)
+
+
+def _depth(tree: Tree[Token]) -> int:
+    """How many operations and fields stand in each other, at most."""
+    depth, level = 0, [tree]
+    while level:
+        depth += 1
+        level = [child for inner in level for child in inner.children if isinstance(child, Tree)]
+    return depth
 
 
 def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
@@ -65,8 +96,24 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
             return Value(span, unquoted(words[0]))
         case "truth":
             return Value(span, words[0] == "true")
-    digits, unit = _QUANTITY.fullmatch(words[0]).groups()  # type: ignore[union-attr]
-    return Value(span, int(digits) if digits.isdigit() else float(digits), unit)
+    return Value(span, *_quantity(words[0]))
+
+
+def _quantity(text: str) -> tuple[int | float, str]:
+    """A number and its unit, which may be empty."""
+    digits, unit = _QUANTITY.fullmatch(text).groups()  # type: ignore[union-attr]
+    return (int(digits) if digits.isdigit() else float(digits)), unit
+
+
+def _too_large(token: object) -> bool:
+    if not isinstance(token, Token) or token.type != "QUANTITY":
+        return False
+    if len(token) > _MOST_DIGITS:
+        return True
+    value, unit = _quantity(token)
+    if unit:
+        return value * UNITS[unit] > _LONGEST
+    return value > _LARGEST if isinstance(value, int) else isinf(value)
 
 
 def _report_unexpected(error: UnexpectedInput, span: Span, report: Diagnostics) -> None:

@@ -43,7 +43,6 @@ from swarmdsl.syntax import (
     Word,
 )
 
-UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
 _NUMBERS = {*INTEGERS, *FLOATS, "byte", "char"}
 _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
 
@@ -104,7 +103,16 @@ class Typing:
         if tree is None:
             return
         found = self.infer(tree)
-        if not fits(found, wanted):
+        number, possible = _whole_number(tree), _range(wanted)
+        if number is not None and possible is not None and number not in possible:
+            self.report.report(
+                "type-mismatch",
+                tree.span,
+                expected=f"`{wanted}`",
+                found=f"`{number}`",
+                help=f"it is a number from {possible[0]} to {possible[-1]}",
+            )
+        elif not fits(found, wanted):
             help_ = None
             if wanted == DURATION and isinstance(tree, Value) and not tree.unit:
                 help_ = f"give it a unit: `{tree.span.text} s`"
@@ -272,6 +280,26 @@ def is_number(type_: Type | None) -> bool:
 
 
 _FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
+
+
+def _whole_number(tree: ExpressionTree) -> int | None:
+    """The value of an integer that is written out."""
+    sign = 1
+    if isinstance(tree, Operation) and tree.operator == "-" and len(tree.operands) == 1:
+        sign, tree = -1, tree.operands[0]
+    if isinstance(tree, Value) and type(tree.value) is int and not tree.unit:
+        return sign * tree.value
+    return None
+
+
+def _range(type_: Type | None) -> range | None:
+    """The numbers that an integer type can hold; None for other types."""
+    if not isinstance(type_, Primitive) or type_.name not in INTEGERS:
+        return None
+    bits = int(type_.name.lstrip("uint"))
+    return (
+        range(2**bits) if type_.name.startswith("u") else range(-(2 ** (bits - 1)), 2 ** (bits - 1))
+    )
 
 
 def _value_type(value: bool | int | float | str, unit: str) -> Type:

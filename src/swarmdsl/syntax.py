@@ -92,7 +92,7 @@ class NameUse(Node):
 
     name: str
     target: Variable | Param | Constant | EnumType | FitnessInput | None = field(
-        default=None, init=False
+        default=None, init=False, metadata={"elsewhere": True}
     )
 
 
@@ -742,7 +742,11 @@ NODES: dict[str, type[Node]] = {
     for cls in list(globals().values())
     if isinstance(cls, type) and issubclass(cls, Node)
 }
-_ATTRIBUTES = {cls: [attribute.name for attribute in fields(cls)] for cls in NODES.values()}
+# Where the parts of a node are; a node that it only refers to is no part of it.
+_ATTRIBUTES = {
+    cls: [part.name for part in fields(cls) if "elsewhere" not in part.metadata]
+    for cls in NODES.values()
+}
 
 
 def children(node: Node) -> Iterator[Node]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl import ir
 from swarmdsl.enums import numbers, underlying
-from swarmdsl.inference import UNITS
+from swarmdsl.expressions import UNITS
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
 from swarmdsl.syntax import (

@@ -40,7 +40,7 @@ def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
     if cell_len(before + marked + after) > width:
         before = _last_cells(before, max(_CONTEXT, width - cell_len(marked + after) - 1))
         marked = _first_cells(marked, width - cell_len(before))
-        after = _first_cells(after, width - cell_len(before + marked))
+        after = _first_cells(after, room) if (room := width - cell_len(before + marked)) else ""
     return Excerpt((before + marked + after).rstrip(), cell_len(before), max(cell_len(marked), 1))
 
 

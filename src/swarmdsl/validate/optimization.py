@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from swarmdsl.enums import numbers, underlying
-from swarmdsl.inference import UNITS, constant, is_number
+from swarmdsl.expressions import UNITS
+from swarmdsl.inference import constant, is_number
 from swarmdsl.ir.types import INT, INTEGERS, Primitive, Type
 from swarmdsl.syntax import (
     Constant,

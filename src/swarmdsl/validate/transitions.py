@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator
 
 from swarmdsl.diagnostics import Label, listed
+from swarmdsl.expressions import UNITS
 from swarmdsl.graph import cycles
-from swarmdsl.inference import UNITS
 from swarmdsl.link_machines import regions
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.source import Span

@@ -1,0 +1,39 @@
+"""What the tests of ROS interface types share."""
+
+from collections.abc import Callable
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ros.interface_file import InterfaceFile, Kind, parse_interface
+from swarmdsl.source import Source
+
+Read = Callable[..., InterfaceFile]
+
+
+@pytest.fixture
+def report() -> Diagnostics:
+    return Diagnostics()
+
+
+@pytest.fixture
+def read(report: Diagnostics) -> Read:
+    """Read the text of an interface file of the package `my_msgs`, called `Thing`."""
+
+    def read_text(text: str, kind: Kind = "msg") -> InterfaceFile:
+        return parse_interface(Source(f"Thing.{kind}", text), "my_msgs", "Thing", kind, report)
+
+    return read_text
+
+
+@pytest.fixture
+def read_well(read: Read, report: Diagnostics) -> Read:
+    """The same for a text without mistakes."""
+
+    def read_text(text: str, kind: Kind = "msg") -> InterfaceFile:
+        found = read(text, kind)
+        assert [diagnostic.message for diagnostic in report] == []
+        assert not found.damaged
+        return found
+
+    return read_text
