@@ -32,6 +32,7 @@ CODES: dict[str, Code] = {
     "empty-file": Code("SW0005", "error", "nothing is declared in this file"),
     "import-cycle": Code("SW0006", "error", "`{path}` imports itself"),
     "nothing-to-compile": Code("SW0007", "error", "no .swarm file in `{path}`"),
+    "unknown-package": Code("SW0008", "error", "no library has a package `{name}`"),
     # ---- syntax
     "syntax-error": Code("SW0101", "error", "{message}"),
     "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),
@@ -93,6 +94,7 @@ CODES: dict[str, Code] = {
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
+    "unknown-interface": Code("SW0609", "warning", "nothing is known of `{name}`"),
     "enum-value": Code("SW0608", "error", "value `{name}` of enum `{enum}` {fault}"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),

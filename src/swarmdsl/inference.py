@@ -285,7 +285,7 @@ _FLOAT_TYPES = tuple(Primitive(name) for name in FLOATS)
 def _whole_number(tree: ExpressionTree) -> int | None:
     """The value of an integer that is written out."""
     sign = 1
-    if isinstance(tree, Operation) and tree.operator == "-" and len(tree.operands) == 1:
+    if isinstance(tree, OperatorUse) and tree.operator == "-" and len(tree.operands) == 1:
         sign, tree = -1, tree.operands[0]
     if isinstance(tree, Value) and type(tree.value) is int and not tree.unit:
         return sign * tree.value

@@ -4,26 +4,41 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from swarmdsl import resources
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
+from swarmdsl.libraries import SUFFIX, find_package, place_of
 from swarmdsl.parse import Parsed, parse
+from swarmdsl.ros.interface_file import parse_interface
+from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import did_you_mean
-from swarmdsl.syntax import Declaration, Import, ImportFile, Model, Optimization
-
-SUFFIX = ".swarm"
+from swarmdsl.syntax import (
+    Declaration,
+    Import,
+    ImportFile,
+    ImportLibrary,
+    ImportRos,
+    Model,
+    Optimization,
+)
 
 
 @dataclass(eq=False)
 class File:
-    """A file of the project; `imports` are the files it imports, where they could be read."""
+    """A file of the project; `imports` are the files it imports, where they could be read.
+
+    One that only a library or a ROS package brings in is a `library` file: of what it
+    declares, only what is used belongs to the system.
+    """
 
     source: Source
     parsed: Parsed
+    library: bool = False
     imports: list[tuple[Import, File]] = field(default_factory=list)
 
     @property
@@ -61,32 +76,85 @@ class Project:
                 yield file, optimization
 
 
-def load(paths: Iterable[Path], report: Diagnostics) -> Project:
-    """Read the files, those in the folders, and everything they import."""
-    project = Project()
-    known: dict[Path, File | None] = {}
-    work: deque[tuple[Path, File | None, ImportFile | None]] = deque(
-        (path, None, None) for path in _expanded(paths, report)
-    )
-    while work:
-        path, importer, statement = work.popleft()
-        identity = path.resolve()
-        if identity not in known:
-            file = _read(path, statement.path.span if statement else None, report)
-            known[identity] = file
+def load(paths: Iterable[Path], report: Diagnostics, libraries: Sequence[Path] = ()) -> Project:
+    """Read the files, those in the folders, and everything they import.
+
+    `libraries` are the folders where packages are looked for, the shipped one after them.
+    """
+    return _Loader(report, (*libraries, resources.library())).load(paths)
+
+
+@dataclass
+class _Step:
+    """Something to read, and the import that asks for it (none for what the user named)."""
+
+    path: Path
+    importer: File | None = None
+    statement: Import | None = None
+    interface: InterfacePath | None = None
+
+    @property
+    def place(self) -> Span | None:
+        """Where to report what is wrong with it."""
+        return place_of(self.statement) if self.statement is not None else None
+
+    @property
+    def library(self) -> bool:
+        """Whether it comes from a library."""
+        if self.importer is None:
+            return False
+        return self.importer.library or not isinstance(self.statement, ImportFile)
+
+
+class _Loader:
+    def __init__(self, report: Diagnostics, libraries: Sequence[Path]) -> None:
+        self._report = report
+        self._libraries = libraries
+        self._known: dict[str, File | None] = {}
+        self._work: deque[_Step] = deque()
+
+    def load(self, paths: Iterable[Path]) -> Project:
+        self._work.extend(_Step(path) for path in _expanded(paths, self._report))
+        while self._work:
+            step = self._work.popleft()
+            file = self._file(step)
+            if file is None or step.importer is None or step.statement is None:
+                continue
+            step.importer.imports.append((step.statement, file))
+        files = [file for file in self._known.values() if file is not None]
+        _report_cycles(files, self._report)
+        return Project(_in_import_order(files))
+
+    def _file(self, step: _Step) -> File | None:
+        identity = os.path.realpath(step.path)
+        if identity not in self._known:
+            if step.interface is not None:
+                file = _read_interface(step.interface, step.place, self._report)
+            else:
+                file = _read(step.path, step.place, self._report)
+            self._known[identity] = file
             if file is not None:
-                project.files.append(file)
-                work.extend(
-                    (_relative(path, wanted.path), file, wanted)
-                    for wanted in file.model.imports
-                    if isinstance(wanted, ImportFile)
-                )
-        imported = known[identity]
-        if importer is not None and statement is not None and imported is not None:
-            importer.imports.append((statement, imported))
-    _report_cycles(project, report)
-    project.files = _in_import_order(project.files)
-    return project
+                file.library = step.library
+                for statement in file.model.imports:
+                    self._work.extend(self._imported(file, statement))
+        file = self._known[identity]
+        if file is not None and not step.library:
+            file.library = False
+        return file
+
+    def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
+        folder = Path(file.source.name).parent
+        match statement:
+            case ImportFile(path=path):
+                yield _Step(_relative(folder, path), file, statement)
+            case ImportRos(path=path):
+                found = find_interfaces(_relative(folder, path), path.span, self._report)
+                for interface in found:
+                    yield _Step(interface.path, file, statement, interface)
+            case ImportLibrary():
+                roots = (folder, *self._libraries)
+                for path in find_package(statement, roots, self._report):
+                    yield _Step(path, file, statement)
 
 
 def _in_import_order(files: list[File]) -> list[File]:
@@ -115,13 +183,44 @@ def _expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
         yield from found
 
 
-def _relative(importer: Path, wanted: str) -> Path:
+def _relative(folder: Path, wanted: str) -> Path:
     """Where an import leads, as a person would write it from here."""
-    return Path(os.path.normpath(importer.parent / wanted))
+    return Path(os.path.normpath(folder / wanted))
+
+
+def _read_interface(interface: InterfacePath, at: Span | None, report: Diagnostics) -> File | None:
+    """Read a ROS interface file as a file with one declaration."""
+    source = _source(interface.path, at, report)
+    if source is None:
+        return None
+    read = parse_interface(source, interface.package, interface.name, interface.kind, report)
+    whole = Span(source, 0, len(source.text))
+    parsed = Parsed(Model(whole, None, [], [read.declaration], []))
+    if read.damaged:
+        parsed.damaged.add(read.declaration)
+    return File(source, parsed)
 
 
 def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     """Read and parse a file; None when it cannot be read, which is reported at `at`."""
+    source = _source(path, at, report)
+    if source is None:
+        return None
+    before = len(report)
+    parsed = parse(source, report)
+    model = parsed.model
+    something = model.declarations or model.imports or model.optimizations
+    if not something and len(report) == before:
+        report.report(
+            "empty-file",
+            Span(source, 0, 0),
+            help="declare something, `event Start : ...` for instance",
+        )
+    return File(source, parsed)
+
+
+def _source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:
+    """Read the text of a file; None when it cannot be read, which is reported at `at`."""
     if path.is_dir():
         report.report("not-a-file", at, path=path, help="name a file in it")
         return None
@@ -142,18 +241,7 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     if "\0" in text:
         report.report("not-text", at, path=path, help="this looks like a binary file")
         return None
-    source = Source(str(path), _unified(text), path)
-    before = len(report)
-    parsed = parse(source, report)
-    model = parsed.model
-    something = model.declarations or model.imports or model.optimizations
-    if not something and len(report) == before:
-        report.report(
-            "empty-file",
-            Span(source, 0, 0),
-            help="declare something, `event Start : ...` for instance",
-        )
-    return File(source, parsed)
+    return Source(str(path), _unified(text), path)
 
 
 def _report_encoding(
@@ -189,13 +277,13 @@ def _similar_file(path: Path) -> str | None:
     return did_you_mean(path.name, names)
 
 
-def _report_cycles(project: Project, report: Diagnostics) -> None:
-    for file, imports in cycles(project.files, _imported):
+def _report_cycles(files: list[File], report: Diagnostics) -> None:
+    for file, imports in cycles(files, lambda file: file.imports):
         *way, last = imports
         report.report(
             "import-cycle",
-            last.path.span,
+            place_of(last),
             path=file.source.name,
-            related=tuple(Label(step.path.span, "by way of this import") for step in way),
+            related=tuple(Label(place_of(step), "by way of this import") for step in way),
             help="move what both files need to a third one" if way else "remove this import",
         )

@@ -13,6 +13,11 @@ def checkout_root() -> Path | None:
     return root if (root / "grammar" / "swarm.tx").is_file() else None
 
 
+def library() -> Path:
+    """The folder of the packages that come with swarmdsl."""
+    return _PACKAGE / "library"
+
+
 def grammar() -> Path:
     """The folder of the grammar files."""
     return (checkout_root() or _PACKAGE) / "grammar"

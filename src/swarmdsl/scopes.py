@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label, listed
+from swarmdsl.libraries import imported_names
 from swarmdsl.load import File, Project
 from swarmdsl.source import Span
 from swarmdsl.suggest import closest
@@ -110,12 +111,16 @@ class FileScope:
         self._project = project
         self.file = file
         self.own = _by_name(file)
-        self._imported = [(other, _by_name(other)) for _, other in file.imports]
+        self._imported = [
+            (other, _by_name(other, imported_names(statement)))
+            for statement, other in file.imports
+        ]
         # Whatever is missing may stand in text that could not be parsed or read.
         self.lost = file.parsed.lost_names.union(
             *(other.parsed.lost_names for other, _ in self._imported)
         )
-        self.complete = len(file.imports) == len(file.model.imports)
+        found = {statement for statement, _ in file.imports}
+        self.complete = all(statement in found for statement in file.model.imports)
 
     def find(self, name: str) -> list[tuple[str, Declaration]]:
         """All declarations `name` could mean, the nearest only, each with its package."""
@@ -244,8 +249,9 @@ def report_unresolved(
     )
 
 
-def _by_name(file: File) -> dict[str, Declaration]:
+def _by_name(file: File, only: str | None = None) -> dict[str, Declaration]:
     names: dict[str, Declaration] = {}
     for declaration in file.model.declarations:
-        names.setdefault(str(declaration.name), declaration)
+        if only in (None, str(declaration.name)):
+            names.setdefault(str(declaration.name), declaration)
     return names

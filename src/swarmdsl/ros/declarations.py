@@ -112,7 +112,9 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
         name = _SAME_TYPE[name]
     elif name not in _BUILT_IN and "/" not in name:
         name = f"{package}/{name}"
-    return TypeRef(span, name, array), int(bound) if bound is not None else None
+    return TypeRef(span, name, f"<={bound}" if bound is not None else "", array), (
+        int(bound) if bound is not None else None
+    )
 
 
 def _name(span: Span, type_: Span) -> Word:
