@@ -51,6 +51,7 @@ CODES: dict[str, Code] = {
     # ---- swarm composition
     "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
     "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),
+    "impossible-size": Code("SW0303", "error", "the size `{size}` {fault}"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(
@@ -74,6 +75,9 @@ CODES: dict[str, Code] = {
     "mixed-content": Code("SW0511", "error", "state `{state}` has {content}"),
     "missing-value": Code("SW0512", "error", "param `{name}` of `{machine}` has no value"),
     "too-few-regions": Code("SW0513", "error", "parallel state `{name}` has no region"),
+    "too-many-states": Code(
+        "SW0514", "error", "state machine `{name}` has more than {limit} states"
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),
@@ -84,6 +88,7 @@ CODES: dict[str, Code] = {
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
+    "impossible-array": Code("SW0608", "error", "an array cannot have {size} elements"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

@@ -58,13 +58,13 @@ class Project:
 def load(paths: Iterable[Path], report: Diagnostics) -> Project:
     """Read the files, those in the folders, and everything they import."""
     project = Project()
-    known: dict[Path, File | None] = {}
+    known: dict[str, File | None] = {}
     work: deque[tuple[Path, File | None, Import | None]] = deque(
         (path, None, None) for path in _expanded(paths, report)
     )
     while work:
         path, importer, statement = work.popleft()
-        identity = path.resolve()
+        identity = os.path.realpath(path)
         if identity not in known:
             file = _read(path, statement.path.span if statement else None, report)
             known[identity] = file
@@ -98,7 +98,7 @@ def _in_import_order(files: list[File]) -> list[File]:
 def _expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
     """Replace each folder by the .swarm files below it, in a stable order."""
     for path in paths:
-        if not path.is_dir():
+        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
             yield path
             continue
         found = sorted(inside for inside in path.rglob(f"*{SUFFIX}") if inside.is_file())
@@ -114,7 +114,7 @@ def _relative(importer: Path, wanted: str) -> Path:
 
 def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     """Read and parse a file; None when it cannot be read, which is reported at `at`."""
-    if path.is_dir():
+    if os.path.isdir(path):  # noqa: PTH112 - as above
         report.report("not-a-file", at, path=path, help="name a file in it")
         return None
     try:
