@@ -52,8 +52,9 @@ CODES: dict[str, Code] = {
     # ---- swarm composition
     "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
     "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),
-    "missing-objective": Code("SW0303", "error", "fitness `{name}` says not what to make best"),
-    "empty-range": Code("SW0304", "error", "this range {fault}"),
+    "impossible-size": Code("SW0303", "error", "the size `{size}` {fault}"),
+    "missing-objective": Code("SW0304", "error", "fitness `{name}` says not what to make best"),
+    "empty-range": Code("SW0305", "error", "this range {fault}"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(
@@ -79,11 +80,14 @@ CODES: dict[str, Code] = {
     "mixed-content": Code("SW0511", "error", "state `{state}` has {content}"),
     "missing-value": Code("SW0512", "error", "param `{name}` of `{machine}` has no value"),
     "too-few-regions": Code("SW0513", "error", "parallel state `{name}` has no region"),
-    "endless-steps": Code("SW0514", "error", "`{name}` leads back to itself without waiting"),
-    "misplaced-internal": Code(
-        "SW0515", "error", "an internal transition of `{state}` cannot lead to `{target}`"
+    "too-many-states": Code(
+        "SW0514", "error", "state machine `{name}` has more than {limit} states"
     ),
-    "misplaced-history": Code("SW0516", "error", "history `{name}` {fault}"),
+    "endless-steps": Code("SW0515", "error", "`{name}` leads back to itself without waiting"),
+    "misplaced-internal": Code(
+        "SW0516", "error", "an internal transition of `{state}` cannot lead to `{target}`"
+    ),
+    "misplaced-history": Code("SW0517", "error", "history `{name}` {fault}"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),
@@ -94,8 +98,9 @@ CODES: dict[str, Code] = {
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
-    "unknown-interface": Code("SW0609", "warning", "nothing is known of `{name}`"),
-    "enum-value": Code("SW0608", "error", "value `{name}` of enum `{enum}` {fault}"),
+    "impossible-array": Code("SW0608", "error", "an array cannot have {size} elements"),
+    "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
+    "enum-value": Code("SW0609", "error", "value `{name}` of enum `{enum}` {fault}"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

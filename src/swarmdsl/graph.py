@@ -1,4 +1,4 @@
-"""Cycles in graphs of any size, without recursion."""
+"""Cycles and order in graphs of any size, without recursion."""
 
 from __future__ import annotations
 
@@ -37,3 +37,19 @@ def cycles(
             elif target not in done:
                 way.append(edge)
                 chain[target] = iter(edges(target))
+
+
+def leaves_first(nodes: Iterable[N], edges: Callable[[N], Iterable[N]]) -> list[N]:
+    """Order the nodes of a graph without cycles so that each comes after those it leads to."""
+    done: dict[N, None] = {}
+    for root in nodes:
+        chain = [(root, iter(edges(root)))] if root not in done else []
+        while chain:
+            node, targets = chain[-1]
+            target = next((target for target in targets if target not in done), None)
+            if target is None:
+                done[node] = None
+                chain.pop()
+            else:
+                chain.append((target, iter(edges(target))))
+    return list(done)

@@ -39,6 +39,9 @@ _OTHER_NAMES = {
     "str": "string",
 }
 
+# No message has room for more elements than such a number counts.
+_MOST_DIGITS = 9
+
 
 def interface_name(file: File, name: str) -> Named:
     """The full name of an interface declared in a file."""
@@ -61,18 +64,36 @@ class TypeLinker:
             if isinstance(declaration, EnumType):
                 declaration.type = interface_name(file, declaration.name)
 
-    def link(self, ref: TypeRef, file: File, seen: tuple[AliasType, ...] = ()) -> None:
-        """Resolve a type named in a file; `seen` are the aliases on the way to it."""
-        if ref.type is not None:
-            return
-        scope = self._scopes[file]
-        element: Type | None = None
+    def link(self, ref: TypeRef, file: File) -> None:
+        """Resolve a type named in a file, and with it those that its aliases name."""
+        waiting: list[TypeRef] = []
+        aliases: list[AliasType] = []
+        found: Type | AliasType | None = ref.type
+        while ref.type is None:
+            waiting.append(ref)
+            found = self._named(ref, self._scopes[file])
+            if not isinstance(found, AliasType):
+                break
+            if found in aliases:
+                self._report_cycle(aliases[aliases.index(found) :])
+                self._endless.update(aliases)
+            if found in self._endless:
+                break
+            aliases.append(found)
+            ref, file = found.type, self._homes[found]
+            found = ref.type
+        element = None if isinstance(found, AliasType) else found
+        for ref in reversed(waiting):
+            element = ref.type = self._in_array(element, ref)
+
+    def _named(self, ref: TypeRef, scope: FileScope) -> Type | AliasType | None:
+        """What the name of a type means; None when it means nothing, which is reported."""
         if ref.name in PRIMITIVES:
-            element = Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
-        elif "/" in ref.name:
+            return Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
+        if "/" in ref.name:
             package, _, last = ref.name.partition("/")
-            element = Named(package, last)
-        elif ref.name in _OTHER_NAMES and not scope.find(ref.name):
+            return Named(package, last)
+        if ref.name in _OTHER_NAMES and not scope.find(ref.name):
             self._report.report(
                 "unresolved-name",
                 ref.span,
@@ -80,33 +101,30 @@ class TypeLinker:
                 name=ref.name,
                 help=f"write `{_OTHER_NAMES[ref.name]}`",
             )
-        else:
-            element = self._declared(ref, scope, seen)
-        if isinstance(element, Array) and ref.array:
-            self._report.report("nested-array", ref.span, help="put the inner array into a struct")
-        elif element is not None and ref.array:
-            size = ref.array.strip("[<=] \t\n")
-            element = Array(element, int(size) if size else None, "<=" in ref.array)
-        ref.type = element
+            return None
+        found = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
+        if found is None or isinstance(found, AliasType):
+            return found
+        return interface_name(self._homes[found], found.name)
 
-    def _declared(self, ref: TypeRef, scope: FileScope, seen: tuple[AliasType, ...]) -> Type | None:
-        declaration = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
-        if declaration is None:
+    def _in_array(self, element: Type | None, ref: TypeRef) -> Type | None:
+        """The type of a reference whose name, without the brackets behind it, means `element`."""
+        if element is None or not ref.array:
+            return element
+        if isinstance(element, Array):
+            self._report.report("nested-array", ref.span, help="put the inner array into a struct")
+            return element
+        size = ref.array.strip("[<=] \t\n")
+        if size and (len(size) > _MOST_DIGITS or int(size) == 0):
+            self._report.report("impossible-array", ref.span, size=size)
             return None
-        home = self._homes[declaration]
-        if not isinstance(declaration, AliasType):
-            return interface_name(home, declaration.name)
-        if declaration in self._endless:
-            return None
-        if declaration in seen:
-            self._endless.update(seen)
-            first, *others = seen[seen.index(declaration) :]
-            self._report.report(
-                "type-cycle",
-                first.type.span,
-                name=declaration.name,
-                related=tuple(Label(alias.type.span, "by way of this") for alias in others),
-            )
-            return None
-        self.link(declaration.type, home, (*seen, declaration))
-        return declaration.type.type
+        return Array(element, int(size) if size else None, "<=" in ref.array)
+
+    def _report_cycle(self, aliases: list[AliasType]) -> None:
+        first, *others = aliases
+        self._report.report(
+            "type-cycle",
+            first.type.span,
+            name=first.name,
+            related=tuple(Label(alias.type.span, "by way of this") for alias in others),
+        )

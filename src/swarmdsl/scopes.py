@@ -112,8 +112,7 @@ class FileScope:
         self.file = file
         self.own = _by_name(file)
         self._imported = [
-            (other, _by_name(other, imported_names(statement)))
-            for statement, other in file.imports
+            (other, _by_name(other, imported_names(statement))) for statement, other in file.imports
         ]
         # Whatever is missing may stand in text that could not be parsed or read.
         self.lost = file.parsed.lost_names.union(

@@ -1,6 +1,8 @@
 """What the tests of ROS interface types share."""
 
+import os
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -8,6 +10,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ros.interface_file import InterfaceFile, Kind, parse_interface
 from swarmdsl.source import Source
 
+ROOT = Path(__file__).resolve().parents[2]
 Read = Callable[..., InterfaceFile]
 
 
@@ -37,3 +40,12 @@ def read_well(read: Read, report: Diagnostics) -> Read:
         return found
 
     return read_text
+
+
+@pytest.fixture
+def corpus() -> Path:
+    """Files that projects of the field published; they are not part of this one."""
+    folder = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
+    if not folder.is_dir():
+        pytest.skip("no corpus here; SWARMDSL_CORPUS names its folder")
+    return folder

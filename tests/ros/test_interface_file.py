@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ros.declarations import Constant
-from swarmdsl.ros.interface_file import InterfaceFile
-from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType, Value
+from swarmdsl.ros.interface_file import KINDS, InterfaceFile, Kind, parse_interface
+from swarmdsl.source import Source
+from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType, Value, walk
 
 from .conftest import Read
 
@@ -340,7 +343,48 @@ def test_every_mistake_is_reported_and_the_rest_is_read(read: Read, report: Diag
     assert found.damaged
 
 
+@pytest.mark.parametrize("text", ["int32[{}] x", "string<={} x", "int32 X={}", "int32[] x [{}]"])
+def test_numbers_that_are_out_of_all_bounds(text: str, read: Read, report: Diagnostics) -> None:
+    read(text.format("9" * 5000))
+
+    assert len(report) == 1
+
+
 def test_a_file_of_something_else(read: Read, report: Diagnostics) -> None:
     read("From: A Person <a@b.c>\n" * 1000)
 
     assert 0 < len(report) <= 10
+
+
+PIECES = [
+    *("int32", "string", "bool", "float64", "time", "Pose", "a/B", "x", "X", "<=", "=", "3", "-1"),
+    *(
+        "[",
+        "]",
+        "[]",
+        ",",
+        '"',
+        "'",
+        "\\",
+        "#",
+        "# note",
+        "---",
+        " ",
+        "\t",
+        "\n",
+        "\r\n",
+        "\ufeff",
+        "é",
+    ),
+]
+
+
+@given(st.lists(st.sampled_from(PIECES) | st.text(max_size=3)).map("".join), st.sampled_from(KINDS))
+def test_any_text_is_read_or_reported(text: str, kind: Kind) -> None:
+    report = Diagnostics()
+    found = parse_interface(Source("Thing", text), "my_msgs", "Thing", kind, report)
+
+    spans = [node.span for node in walk(found.declaration)]
+    spans += [diagnostic.primary.span for diagnostic in report if diagnostic.primary]
+    assert all(0 <= span.start <= span.end <= len(text) for span in spans)
+    assert found.damaged <= (len(report) > 0)

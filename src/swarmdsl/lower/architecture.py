@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 
 from swarmdsl import ir
@@ -30,9 +29,8 @@ from swarmdsl.syntax import (
     Size,
     Swarm,
     World,
+    in_metres,
 )
-
-_METRES = {"mm": 0.001, "cm": 0.01, "m": 1.0, "km": 1000.0}
 
 
 def lower_component(component: Component, context: Context) -> ir.Component:
@@ -162,5 +160,4 @@ def _multiplicity(multiplicity: Multiplicity | None) -> ir.Multiplicity:
 
 def _size(size: Size) -> tuple[float, ...]:
     lengths = [size.width, size.depth, *([size.height] if size.height else [])]
-    found = [re.fullmatch(r"([\d.]+)\s*(\w+)", length) for length in lengths]
-    return tuple(float(f[1]) * _METRES[f[2]] for f in found if f is not None)
+    return tuple(map(in_metres, lengths))

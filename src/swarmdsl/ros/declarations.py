@@ -32,10 +32,10 @@ _DECLARATION = re.compile(
 )
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _TYPE = re.compile(
-    r"(?P<name>[A-Za-z]\w*(?:/[A-Za-z]\w*)?)(?:<=(?P<bound>\d+))?(?P<array>(?:\[[^\]]*\])*)",
+    r"(?P<name>[A-Za-z]\w*(?:/[A-Za-z]\w*)?)(?:<=(?P<bound>\d{1,9}))?(?P<array>(?:\[[^\]]*\])*)",
     re.ASCII,
 )
-_ARRAY = re.compile(r"\[(?:(?:<=)?0*[1-9]\d*)?\]", re.ASCII)
+_ARRAY = re.compile(r"\[(?:(?:<=)?(?!0+\])\d{1,9})?\]", re.ASCII)
 
 
 @dataclass(slots=True, eq=False)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.ros.declarations import Constant, read_line
@@ -32,9 +32,10 @@ from swarmdsl.syntax import (
 )
 
 Kind = Literal["msg", "srv", "action"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 Interface = MessageType | ServiceType | ActionType
 
-NODES: dict[Kind, type[Interface]] = {
+_NODES: dict[Kind, type[Interface]] = {
     "msg": MessageType,
     "srv": ServiceType,
     "action": ActionType,
@@ -79,7 +80,7 @@ def parse_interface(
     reader.read()
     word = Word(f"{package}/{name}", Span(source, 0, 0))
     whole = Span(source, 0, len(source.text))
-    declaration = NODES[kind](whole, word, *reader.fields.values())
+    declaration = _NODES[kind](whole, word, *reader.fields.values())
     declaration.doc = reader.doc
     return InterfaceFile(
         declaration, reader.constants, reader.defaults, reader.bounds, reader.damaged

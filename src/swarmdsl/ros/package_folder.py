@@ -7,14 +7,12 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import get_args
 from xml.etree import ElementTree
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.interface_file import Kind
+from swarmdsl.ros.interface_file import KINDS, Kind
 from swarmdsl.source import Span
 
-KINDS: tuple[Kind, ...] = get_args(Kind)
 _MANIFEST = "package.xml"
 # Files by which ROS's build tools know that a folder is none of their business.
 _IGNORED = {"AMENT_IGNORE", "CATKIN_IGNORE", "COLCON_IGNORE"}

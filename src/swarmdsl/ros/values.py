@@ -12,7 +12,9 @@ TEXTS = ("string", "wstring")
 Values = Value | tuple[Value, ...]
 
 # What may stand before a comment: a `#` in quotes begins none.
-BEFORE_COMMENT = re.compile(r""" (?: "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^#] )* """, re.X)
+BEFORE_COMMENT = re.compile(
+    r""" (?: "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^#"'] )* [^#]* """, re.X
+)
 QUOTED = re.compile(r""" "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' """, re.X)
 _ELEMENT = re.compile(
     r""" \s* (?P<text> "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^,]*? ) \s* (?P<comma>,|$) """, re.X

@@ -39,7 +39,7 @@ from swarmdsl.validate.optimization import (
     check_optimization,
 )
 from swarmdsl.validate.reachability import check_reachability
-from swarmdsl.validate.structure import check_structure, check_submachine_cycles
+from swarmdsl.validate.structure import check_structure, check_submachines
 from swarmdsl.validate.transitions import check_transitions
 
 
@@ -47,7 +47,7 @@ def validate(project: Project, report: Diagnostics) -> None:
     """Run all rules."""
     context = make_context(project, report)
     check_names(project, report)
-    check_submachine_cycles(project, report)
+    check_submachines(project, report)
     check_inheritance(project, report)
     check_message_cycles(context)
     for file, declaration in project.declarations():

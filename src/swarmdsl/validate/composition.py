@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import isinf
+
 from swarmdsl.syntax import (
     Environment,
     EnvironmentUse,
@@ -10,8 +12,12 @@ from swarmdsl.syntax import (
     Size,
     Swarm,
     World,
+    in_metres,
 )
 from swarmdsl.validate.context import Context
+
+# No swarm has more members than such a number counts.
+_MOST_DIGITS = 9
 
 
 def check_swarm(swarm: Swarm, context: Context) -> None:
@@ -36,12 +42,29 @@ def check_environment(environment: Environment, context: Context) -> None:
     for kind, what in ((World, "the world"), (Size, "the size")):
         places = [item.span for item in environment.items if isinstance(item, kind)]
         context.check_single(places, what)
+    for item in environment.items:
+        if isinstance(item, Size):
+            _check_size(item, context)
+
+
+def _check_size(size: Size, context: Context) -> None:
+    for length in filter(None, (size.width, size.depth, size.height)):
+        metres = in_metres(length)
+        if metres == 0 or isinf(metres):
+            context.report.report(
+                "impossible-size",
+                size.span,
+                size=length,
+                fault="leaves no room" if metres == 0 else "is too large",
+            )
 
 
 def _check_multiplicity(multiplicity: Multiplicity, context: Context) -> None:
     lower, upper = multiplicity.lower, multiplicity.upper or multiplicity.lower
     fault = ""
-    if lower == "*" and multiplicity.upper:
+    if max(len(lower), len(upper)) > _MOST_DIGITS:
+        fault = "is too large"
+    elif lower == "*" and multiplicity.upper:
         fault = "starts with `*`: a lower bound is a number"
     elif upper != "*" and int(upper) == 0:
         fault = "allows no member at all"

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.graph import cycles
+from swarmdsl.graph import cycles, leaves_first
 from swarmdsl.link_machines import content, regions, vertices
 from swarmdsl.load import Project
+from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
@@ -23,9 +24,13 @@ from swarmdsl.syntax import (
     State,
     StateMachine,
     Transition,
+    Vertex,
     walk,
 )
 from swarmdsl.validate.context import Context
+
+# More than anyone writes, and still generated in seconds.
+_MOST_STATES = 10_000
 
 
 def check_structure(machine: StateMachine, context: Context) -> None:
@@ -58,10 +63,12 @@ def check_structure(machine: StateMachine, context: Context) -> None:
     _check_levels(machine, context)
 
 
-def check_submachine_cycles(project: Project, report: Diagnostics) -> None:
-    """No machine contains itself, through however many others."""
+def check_submachines(project: Project, report: Diagnostics) -> None:
+    """No machine contains itself, through however many others, nor grows without bounds."""
     machines = [node for _, node in project.declarations() if isinstance(node, StateMachine)]
+    endless = False
     for machine, uses in cycles(machines, _reused):
+        endless = True
         *way, last = uses
         report.report(
             "submachine-cycle",
@@ -69,6 +76,47 @@ def check_submachine_cycles(project: Project, report: Diagnostics) -> None:
             name=machine.name,
             related=tuple(Label(use.span, "by way of this state") for use in way),
         )
+    if not endless:
+        _check_growth(machines, report)
+
+
+def _check_growth(machines: list[StateMachine], report: Diagnostics) -> None:
+    """Check how deep and how many the states of each machine are, those it reuses in place.
+
+    A machine that is too large is reported, those that reuse it are not.
+    """
+    levels: dict[StateMachine, int] = {}
+    sizes: dict[StateMachine, int] = {}
+    for machine in leaves_first(machines, lambda machine: [inner for _, inner in _reused(machine)]):
+        uses = list(_reused(machine))
+        if any(inner not in sizes for _, inner in uses):
+            continue
+        levels[machine] = _levels(machine, levels) - 1
+        own = sum(isinstance(node, (Vertex, Region)) for node in walk(machine))
+        sizes[machine] = own + sum(sizes[inner] for _, inner in uses)
+        if levels[machine] > NESTING_LIMIT:
+            deepest, _ = max(uses, key=lambda use: levels[use[1]])
+            report.report("nested-too-deeply", deepest.span, limit=NESTING_LIMIT)
+            del sizes[machine]
+        elif sizes[machine] > _MOST_STATES:
+            report.report(
+                "too-many-states",
+                machine.name.span,
+                name=machine.name,
+                limit=_MOST_STATES,
+                notes=("the states of a machine that it reuses count each time",),
+            )
+            del sizes[machine]
+
+
+def _levels(state: Vertex | Container, known: Mapping[StateMachine, int]) -> int:
+    """How deep states stand in each other, the outermost included."""
+    if isinstance(state, State) and state.machine is not None and state.machine.target is not None:
+        return 1 + known[state.machine.target]
+    if isinstance(state, (Choice, FinalState)):
+        return 1
+    inside = (*vertices(state), *regions(state))
+    return 1 + max((_levels(inner, known) for inner in inside), default=0)
 
 
 def _reused(machine: StateMachine) -> Iterator[tuple[Ref[StateMachine], StateMachine]]:
