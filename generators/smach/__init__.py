@@ -1,6 +1,6 @@
 """ROS 1: a catkin package whose nodes run the state machines with SMACH."""
 
-from swarmdsl.generator import Generator
+from swarmdsl.generator import ALL_FEATURES, Feature, Generator
 
 from .options import Options
 from .render import emit
@@ -10,4 +10,13 @@ generator = Generator(
     summary="ROS 1 (noetic): a catkin package that runs the state machines with SMACH",
     emit=emit,
     options_type=Options,
+    supports=ALL_FEATURES
+    - {
+        Feature.HISTORY,
+        Feature.ENTRY,
+        Feature.EXIT,
+        Feature.INTERNAL,
+        Feature.TARGETLESS,
+        Feature.EVENTLESS,
+    },
 )

@@ -13,6 +13,7 @@ from swarmdsl.ir import (
     Assignment,
     Binary,
     Call,
+    Effect,
     EventData,
     Expression,
     FieldAccess,
@@ -61,8 +62,14 @@ def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
         yield _KINDS[state.kind], state.origin
     if state.activity is not None:
         yield from _in_activity(state.activity)
+    for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
+        for effect in effects:
+            yield feature, effect.origin
+            yield from _in_effect(effect)
     for transition in state.transitions:
         yield from _in_transition(transition)
+        if not transition.triggers and state.kind not in (StateKind.CHOICE, StateKind.HISTORY):
+            yield Feature.EVENTLESS, transition.origin
         target = transition.target
         if target is not None and parents[target] != parents[state.id]:
             yield Feature.CROSS_LEVEL, transition.origin
@@ -78,6 +85,10 @@ def _in_activity(activity: Activity) -> Iterator[Use]:
 
 
 def _in_transition(transition: Transition) -> Iterator[Use]:
+    if transition.internal:
+        yield Feature.INTERNAL, transition.origin
+    if transition.target is None:
+        yield Feature.TARGETLESS, transition.origin
     for trigger in transition.triggers:
         if isinstance(trigger, TimeTrigger):
             yield Feature.TIMEOUT, trigger.origin
@@ -86,14 +97,18 @@ def _in_transition(transition: Transition) -> Iterator[Use]:
         yield Feature.GUARD, transition.guard.origin
         yield from _in_expression(transition.guard)
     for effect in transition.effects:
-        match effect:
-            case Assignment(value=value):
-                yield Feature.ASSIGNMENT, effect.origin
+        yield from _in_effect(effect)
+
+
+def _in_effect(effect: Effect) -> Iterator[Use]:
+    match effect:
+        case Assignment(value=value):
+            yield Feature.ASSIGNMENT, effect.origin
+            yield from _in_expression(value)
+        case Send(arguments=arguments):
+            yield Feature.SEND, effect.origin
+            for _, value in arguments:
                 yield from _in_expression(value)
-            case Send(arguments=arguments):
-                yield Feature.SEND, effect.origin
-                for _, value in arguments:
-                    yield from _in_expression(value)
 
 
 def _in_expression(expression: Expression) -> Iterator[Use]:

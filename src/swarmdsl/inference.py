@@ -6,10 +6,11 @@ was not resolved) is None and fits everywhere: one mistake is reported once.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import (
     BOOL,
     DURATION,
@@ -49,13 +50,13 @@ _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
 
 @dataclass(frozen=True)
 class Typing:
-    """Infers types; `interfaces` are the fields of the messages the model describes.
+    """Infers types; `interfaces` say which fields messages have.
 
     `event` is the type of the triggering event's message: absent where no event is at
     hand (`has_event` False), None where it is not known.
     """
 
-    interfaces: Mapping[Named, list[Field]]
+    interfaces: Interfaces
     report: Diagnostics = field(default_factory=Diagnostics)
     has_event: bool = False
     event: Type | None = None
@@ -123,7 +124,7 @@ class Typing:
     def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
         """The type of a field of a message."""
         if isinstance(owner, Named):
-            fields = self.interfaces.get(owner)
+            fields = self.interfaces.fields(owner)
             if fields is None:
                 return None
             found = next((known for known in fields if known.name == name), None)

@@ -49,6 +49,28 @@ def interface_name(file: File, name: str) -> Named:
     return Named(package or file.package.replace(".", "_"), last)
 
 
+def written_type(ref: TypeRef) -> Type | None:
+    """The type that stands there in full, None for a name that must be looked up."""
+    element = _written_element(ref)
+    return _in_array(element, ref) if element is not None and ref.array else element
+
+
+def _written_element(ref: TypeRef) -> Type | None:
+    if ref.name in PRIMITIVES:
+        return Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
+    package, slash, name = ref.name.partition("/")
+    return Named(package, name) if slash else None
+
+
+def _in_array(element: Type, ref: TypeRef) -> Array:
+    size = _size(ref)
+    return Array(element, int(size) if size else None, "<=" in ref.array)
+
+
+def _size(ref: TypeRef) -> str:
+    return ref.array.strip("[<=] \t\n")
+
+
 class TypeLinker:
     """Sets `TypeRef.type`, following aliases across files."""
 
@@ -88,11 +110,9 @@ class TypeLinker:
 
     def _named(self, ref: TypeRef, scope: FileScope) -> Type | AliasType | None:
         """What the name of a type means; None when it means nothing, which is reported."""
-        if ref.name in PRIMITIVES:
-            return Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
-        if "/" in ref.name:
-            package, _, last = ref.name.partition("/")
-            return Named(package, last)
+        written = _written_element(ref)
+        if written is not None:
+            return written
         if ref.name in _OTHER_NAMES and not scope.find(ref.name):
             self._report.report(
                 "unresolved-name",
@@ -114,11 +134,11 @@ class TypeLinker:
         if isinstance(element, Array):
             self._report.report("nested-array", ref.span, help="put the inner array into a struct")
             return element
-        size = ref.array.strip("[<=] \t\n")
+        size = _size(ref)
         if size and (len(size) > _MOST_DIGITS or int(size) == 0):
             self._report.report("impossible-array", ref.span, size=size)
             return None
-        return Array(element, int(size) if size else None, "<=" in ref.array)
+        return _in_array(element, ref)
 
     def _report_cycle(self, aliases: list[AliasType]) -> None:
         first, *others = aliases

@@ -145,10 +145,10 @@ class _Loader:
     def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
         folder = Path(file.source.name).parent
         match statement:
-            case ImportFile(path=path):
-                yield _Step(_relative(folder, path), file, statement)
-            case ImportRos(path=path):
-                found = find_interfaces(_relative(folder, path), path.span, self._report)
+            case ImportFile(path=wanted):
+                yield _Step(_relative(folder, wanted), file, statement)
+            case ImportRos(path=wanted):
+                found = find_interfaces(_relative(folder, wanted), wanted.span, self._report)
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
             case ImportLibrary():

@@ -47,7 +47,7 @@ Type = Primitive | Named | Array
 
 INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u"))
 FLOATS = ("float32", "float64")
-PRIMITIVES = ("bool", "byte", "char", *INTEGERS, *FLOATS, "string", "time", "duration")
+PRIMITIVES = ("bool", "byte", "char", *INTEGERS, *FLOATS, "string", "wstring", "time", "duration")
 
 BOOL = Primitive("bool")
 STRING = Primitive("string")

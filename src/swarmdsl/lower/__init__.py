@@ -23,6 +23,7 @@ from swarmdsl.lower.interfaces import (
 )
 from swarmdsl.lower.machines import lower_machine
 from swarmdsl.lower.optimization import lower_fitness, lower_optimization
+from swarmdsl.lower.used import used_declarations
 from swarmdsl.syntax import (
     ActionType,
     Component,
@@ -42,7 +43,8 @@ from swarmdsl.syntax import (
 
 def lower(project: Project) -> ir.System:
     """The whole project as one system, in the order of files and text."""
-    context = make_context(project)
+    used = used_declarations(project)
+    context = make_context(project, used)
     interfaces: list[ir.Interface] = []
     events: list[ir.Event] = []
     functions: list[ir.Function] = []
@@ -52,7 +54,7 @@ def lower(project: Project) -> ir.System:
     environments: list[ir.Environment] = []
     swarms: list[ir.Swarm] = []
     fitness: list[ir.Fitness] = []
-    for file, declaration in project.declarations():
+    for file, declaration in used:
         match declaration:
             case StructType() | EnumType() | MessageType() | ServiceType() | ActionType():
                 interfaces.append(lower_interface(declaration, file, context))

@@ -12,7 +12,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.enums import underlying
 from swarmdsl.inference import Typing
 from swarmdsl.inheritance import all_items
-from swarmdsl.link_types import interface_name
+from swarmdsl.interfaces import Interfaces
 from swarmdsl.load import File, Project
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.syntax import (
@@ -21,13 +21,11 @@ from swarmdsl.syntax import (
     Declaration,
     EnumType,
     Member,
-    MessageType,
     MonitorTrigger,
     Operation,
     Param,
     Ref,
     StateMachine,
-    StructType,
     TypeRef,
     Variable,
     walk,
@@ -90,21 +88,17 @@ class Context:
         return self.enums.get(type_, type_) if isinstance(type_, ir.Named) else type_
 
 
-def make_context(project: Project) -> Context:
-    """Name everything and gather what the project says about types and behaviours."""
-    pairs = list(project.declarations())
+def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Context:
+    """Name what belongs to the system and gather what is known of types and behaviours."""
     count = Counter(str(declaration.name) for _, declaration in pairs)
     names: dict[Declaration, str] = {}
     behaving: dict[StateMachine, list[Member | Component]] = {}
-    fields = {}
     enums: dict[ir.Named, ir.Primitive] = {}
     for file, declaration in pairs:
         name = str(declaration.name)
         if count[name] > 1:
             name = f"{file.package.replace('.', '_')}_{name}"
         names[declaration] = name
-        if isinstance(declaration, (StructType, MessageType)):
-            fields[interface_name(file, declaration.name)] = declaration.fields
         if isinstance(declaration, EnumType) and declaration.type is not None:
             enums[declaration.type] = underlying(declaration)
         if isinstance(declaration, (Member, Component)):
@@ -119,7 +113,7 @@ def make_context(project: Project) -> Context:
         if isinstance(item, Operation)
     }
     monitors = _monitors(pairs, set(names.values()))
-    typing = Typing(fields, Diagnostics())
+    typing = Typing(Interfaces(project.declarations()), Diagnostics())
     return Context(names, operations, monitors, typing, behaving, enums=enums)
 
 

@@ -16,7 +16,7 @@ from swarmdsl.ros.values import (
     read_values,
 )
 from swarmdsl.source import Span
-from swarmdsl.syntax import Documented, Field, TypeRef, Value, Word
+from swarmdsl.syntax import Constant, Expression, Field, TypeRef, Value, Word
 
 _BUILT_IN = frozenset({*PRIMITIVES, "wstring"})
 # Built-in types with values that a file can state.
@@ -36,15 +36,6 @@ _TYPE = re.compile(
     re.ASCII,
 )
 _ARRAY = re.compile(r"\[(?:(?:<=)?(?!0+\])\d{1,9})?\]", re.ASCII)
-
-
-@dataclass(slots=True, eq=False)
-class Constant(Documented):
-    """`uint8 NAME=1`."""
-
-    name: Word
-    type: TypeRef
-    value: Value
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +136,9 @@ def _constant(name: Word, type_: TypeRef, bound: int | None, rest: Span) -> Line
     else:
         raise InterfaceError(name.span, f"constant `{name}` has no value")
     whole = Span(rest.source, type_.span.start, value.span.end)
-    return Line(Constant(whole, name, type_, value), comment, bound)
+    written = Expression(value.span)
+    written.tree = value
+    return Line(Constant(whole, name, type_, written), comment, bound)
 
 
 def _default(value: Span, type_: TypeRef, bound: int | None) -> Values:

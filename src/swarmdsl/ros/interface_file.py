@@ -17,12 +17,13 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.ros.declarations import Constant, read_line
+from swarmdsl.ros.declarations import read_line
 from swarmdsl.ros.fault import InterfaceError
 from swarmdsl.ros.values import Values
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
     ActionType,
+    Constant,
     Documented,
     Field,
     MessageType,
@@ -35,11 +36,6 @@ Kind = Literal["msg", "srv", "action"]
 KINDS: tuple[Kind, ...] = get_args(Kind)
 Interface = MessageType | ServiceType | ActionType
 
-_NODES: dict[Kind, type[Interface]] = {
-    "msg": MessageType,
-    "srv": ServiceType,
-    "action": ActionType,
-}
 # The parts between the `---` of a file, as the attributes of its node are called.
 _PARTS: dict[Kind, tuple[str, ...]] = {
     "msg": ("fields",),
@@ -80,7 +76,13 @@ def parse_interface(
     reader.read()
     word = Word(f"{package}/{name}", Span(source, 0, 0))
     whole = Span(source, 0, len(source.text))
-    declaration = _NODES[kind](whole, word, *reader.fields.values())
+    declaration: Interface
+    if kind == "msg":
+        fields = reader.fields["fields"]
+        declaration = MessageType(whole, word, reader.constants["fields"], fields)
+    else:
+        parts = reader.fields.values()
+        declaration = (ServiceType if kind == "srv" else ActionType)(whole, word, *parts)
     declaration.doc = reader.doc
     return InterfaceFile(
         declaration, reader.constants, reader.defaults, reader.bounds, reader.damaged

@@ -28,6 +28,7 @@ from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.interfaces import (
     check_event,
     check_function,
+    check_known,
     check_message_cycles,
     check_values,
 )
@@ -51,9 +52,10 @@ def validate(project: Project, report: Diagnostics) -> None:
     check_inheritance(project, report)
     check_message_cycles(context)
     for file, declaration in project.declarations():
-        if declaration in file.parsed.damaged:
+        if file.library or declaration in file.parsed.damaged:
             continue
         check_values(declaration, context)
+        check_known(declaration, context)
         match declaration:
             case Event():
                 check_event(declaration, context)

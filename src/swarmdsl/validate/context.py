@@ -7,24 +7,17 @@ from dataclasses import dataclass, replace
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.inference import Typing, constant, fits, is_number
+from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import Array, Named, Type
-from swarmdsl.link_types import interface_name
 from swarmdsl.load import Project
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
-    ActionType,
-    AliasType,
-    EnumType,
     EventTrigger,
     Expression,
-    Field,
     Interface,
-    MessageType,
     MonitorTrigger,
     Param,
-    ServiceType,
-    StructType,
     TypeRef,
     Variable,
     Word,
@@ -36,7 +29,7 @@ class Context:
     """Passed to every rule."""
 
     report: Diagnostics
-    interfaces: dict[Named, Interface]
+    interfaces: Interfaces
     typing: Typing
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
@@ -128,15 +121,5 @@ def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
 
 def make_context(project: Project, report: Diagnostics) -> Context:
     """Gather the interfaces of all files."""
-    interfaces: dict[Named, Interface] = {}
-    messages: dict[Named, list[Field]] = {}
-    for file, declaration in project.declarations():
-        match declaration:
-            case StructType() | MessageType():
-                messages[interface_name(file, declaration.name)] = declaration.fields
-            case EnumType() | AliasType() | ServiceType() | ActionType():
-                pass
-            case _:
-                continue
-        interfaces[interface_name(file, declaration.name)] = declaration
-    return Context(report, interfaces, Typing(messages, report))
+    interfaces = Interfaces(project.declarations())
+    return Context(report, interfaces, Typing(interfaces, report))

@@ -59,7 +59,7 @@ def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> N
                 context.check_repeated((argument.name for argument in effect.arguments), "field")
                 event = effect.event.target
                 type_ = event.type.type if event is not None else None
-                fields = typing.interfaces.get(type_) if isinstance(type_, Named) else None
+                fields = typing.interfaces.fields(type_) if isinstance(type_, Named) else None
                 check_arguments(effect.arguments, fields, f"`{type_}`", typing)
 
 

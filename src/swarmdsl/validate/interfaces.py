@@ -19,6 +19,8 @@ from swarmdsl.syntax import (
     Param,
     Port,
     ServiceType,
+    StructType,
+    TypeRef,
     Variable,
     walk,
 )
@@ -27,7 +29,11 @@ from swarmdsl.validate.context import Context
 
 def check_message_cycles(context: Context) -> None:
     """No message contains itself, in an array or through others: ROS cannot send it."""
-    messages = context.typing.interfaces
+    messages = {
+        type_: node.fields
+        for type_, node in context.interfaces.declared.items()
+        if isinstance(node, (StructType, MessageType))
+    }
 
     def inside(type_: Named) -> Iterator[tuple[Field, Named]]:
         for field in messages[type_]:
@@ -56,6 +62,21 @@ def check_values(declaration: Declaration, context: Context) -> None:
             known = context.interfaces.get(element) if isinstance(element, Named) else None
             if isinstance(known, (ServiceType, ActionType)):
                 context.check_kind(node.type, MessageType)
+
+
+def check_known(declaration: Declaration, context: Context) -> None:
+    """An interface of a package that ROS comes with exists; nearly its name is a slip."""
+    for node in walk(declaration):
+        if not isinstance(node, TypeRef):
+            continue
+        element = node.type.element if isinstance(node.type, Array) else node.type
+        if not isinstance(element, Named) or context.interfaces.get(element) is not None:
+            continue
+        similar = context.interfaces.similar(element)
+        if similar is not None:
+            context.report.report(
+                "unknown-interface", node.span, name=element, help=f"did you mean `{similar}`?"
+            )
 
 
 def check_event(event: Event, context: Context) -> None:

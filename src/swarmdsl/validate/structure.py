@@ -113,7 +113,7 @@ def _levels(state: Vertex | Container, known: Mapping[StateMachine, int]) -> int
     """How deep states stand in each other, the outermost included."""
     if isinstance(state, State) and state.machine is not None and state.machine.target is not None:
         return 1 + known[state.machine.target]
-    if isinstance(state, (Choice, FinalState)):
+    if isinstance(state, (Choice, History, FinalState)):
         return 1
     inside = (*vertices(state), *regions(state))
     return 1 + max((_levels(inner, known) for inner in inside), default=0)

@@ -37,6 +37,12 @@ _UNSUPPORTED = {
     Feature.ASSIGNMENT,
     Feature.SEND,
     Feature.TIMEOUT,
+    Feature.HISTORY,
+    Feature.ENTRY,
+    Feature.EXIT,
+    Feature.INTERNAL,
+    Feature.TARGETLESS,
+    Feature.EVENTLESS,
 }
 
 

@@ -176,7 +176,8 @@ class _StateWriter:
             "transition",
             event=" ".join(dict.fromkeys(events)) or None,
             cond=translate(guard, self.dialect) if guard is not None else None,
-            target=self.ids[transition.target],
+            type="internal" if transition.internal else None,
+            target=self.ids[transition.target] if transition.target is not None else None,
         )
 
     def _add_results(self, element: etree._Element, state: State) -> None:

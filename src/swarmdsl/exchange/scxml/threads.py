@@ -174,6 +174,8 @@ class _Shaper:
         around = self._around(state.id)
         signals: dict[str, _Signal] = {}
         for transition in state.transitions:
+            if transition.target is None:
+                continue  # refused before: the dialect has no transition without a target
             if self.parents[transition.target] not in around:
                 self._refuse(Feature.CROSS_LEVEL.value, transition.origin)
             for trigger in transition.triggers:
