@@ -132,8 +132,11 @@ def _parse_piece(
     from textx import TextXSyntaxError
 
     text = source.text[start:end]
-    if any(source.text[fault] in "{([" for fault in faults):
+    brackets = {source.text[fault] for fault in faults} & {"{", "(", "["}
+    if "{" in brackets:
         return None, text  # where the blocks end is anyone's guess
+    if brackets:
+        report = Diagnostics()  # what follows may well be inside the bracket
     lost = ""
     wrong = [fault - start for fault in faults]
     for _ in range(_ERRORS_PER_DECLARATION):

@@ -24,6 +24,8 @@ _TOKEN = re.compile(
     r"|(?P<open_block>/\*)"
     r"|(?P<bracket>[{}()\[\]])"
 )
+_ESCAPE = re.compile(r"\\[^\n]")
+_ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 _OPENER = {"}": "{", ")": "(", "]": "["}
 
 
@@ -57,6 +59,15 @@ def scan(source: Source, report: Diagnostics) -> Scan:
                 brackets.append(start)
             case "line" if _DOC_LINE.match(token[0]) and _starts_line(text, start):
                 doc_lines.append((start, end))
+            case "text":
+                for escape in _ESCAPE.finditer(text, start + 1, end - 1):
+                    if escape[0] not in _ESCAPES:
+                        report.report(
+                            "syntax-error",
+                            Span(source, *escape.span()),
+                            message=f"`{escape[0]}` means nothing in a text",
+                            help="write `\\\\` for `\\`",
+                        )
             case "open_text":
                 end -= len(token[0]) - len(token[0].rstrip())
                 report.report(
@@ -115,7 +126,9 @@ def _match(source: Source, brackets: list[int], *, trust_indentation: bool) -> l
         if trust_indentation and _starts_line(text, at):
             while len(opened) > 1 and _indentation(source, at) < _indentation(source, opened[-1]):
                 unclosed.append(opened.pop())
-        if opened and text[opened[-1]] == opener:
+        if any(text[other] == opener for other in opened):
+            while text[opened[-1]] != opener:
+                unclosed.append(opened.pop())
             opened.pop()
     return unclosed + opened
 

@@ -8,10 +8,10 @@ from difflib import get_close_matches
 from swarmdsl.diagnostics import listed
 
 
-def closest(word: str, known: Iterable[str]) -> str | None:
-    """The known word most like another, None when nothing comes close."""
+def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
+    """The known word most like another, None when none is that like (1 is the same)."""
     by_lower = {name.lower(): name for name in known}
-    close = get_close_matches(word.lower(), by_lower, n=1)
+    close = get_close_matches(word.lower(), by_lower, n=1, cutoff=likeness)
     return by_lower[close[0]] if close else None
 
 

@@ -3,21 +3,20 @@
 from __future__ import annotations
 
 import re
-from functools import cache
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.resources import grammar
 from swarmdsl.source import Source, Span
+from swarmdsl.syntax_advice import advice, keywords, strange_character
 
 # How terminals of the grammar are called when one of them is missing.
-_WORDS = {
+_PHRASES = {
     "IDENT": "a name",
     "QNAME": "a name",
     "WORD": "a name",
     "INTERFACE": "the name of an interface",
     "TYPENAME": "a type",
-    "QUOTED": 'text in `"`',
+    "QUOTED": "a text in double quotes",
     "ARRAY": "`[`",
     "MINUS": "`-`",
     "BOUND": "a number or `*`",
@@ -28,30 +27,26 @@ _WORDS = {
     "PRIMARY": "a value",
     "EOF": "the end of the file",
 }
-_DECLARATIONS = {
-    f"`{word}`"
-    for word in (
-        *(
-            "struct",
-            "enum",
-            "type",
-            "const",
-            "message",
-            "service",
-            "action",
-            "swarm",
-            "event",
-            "function",
-        ),
-        *("sensor", "actuator", "controller", "virtual", "member"),
-        *("endless", "statemachine", "environment", "fitness", "optimize"),
-    )
+# What to call several possibilities, where all of them are there; the first that fits.
+_GROUPS = {
+    "a declaration": "struct enum type const message service action swarm event function "
+    "sensor actuator controller virtual member endless statemachine environment fitness optimize",
+    "an item of a state": "do entry exit on after monitor internal initial state parallel choice history final",
+    "an item of a state machine": "param var initial state parallel choice deep history final",
+    "an item of a region": "initial state parallel choice deep history final",
+    "an item of a member": "behavior communication inout in out param connect",
+}
+# Left out when these are possible: they say it all.
+_IMPLIED = {
+    "a declaration": {"the end of the file", "`package`"},
+    "an item of a member": {"a name"},
+    "a value": {"a name", "a text in double quotes", "`true`", "`false`", "`event`", "`(`"},
 }
 # Left out of a list of what is possible when something more specific is there.
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
 _MOST_SHOWN = 8
 
-_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[A-Za-z_]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
+_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
 
 
 def report_syntax_error(
@@ -62,21 +57,30 @@ def report_syntax_error(
     The place is an offset in the source, that of the first token that does not fit.
     """
     at = error.__cause__.position
-    expected = _expected(error.expected_rules)
+    words = _words(error.expected_rules)
+    expected = _grouped(words)
     found = _TOKEN.match(text, at)
     span = Span(source, offset + at, offset + (found.end() if found else at))
     before = _token_before(text, at)
-    wants_name = "a name" in expected
-    if found and wants_name and found[0] in keywords() and not _new_line(text, at, before):
+    wants_name = "a name" in words
+    new_line = before is not None and "\n" in text[before.end() : at]
+    if strange := strange_character(text[at : at + 1]):
+        report.report(
+            "syntax-error",
+            Span(source, span.start, span.start + 1),
+            message=f"the character {strange} cannot stand here",
+            help="write a plain space" if text[at].isspace() else "delete it",
+        )
+    elif found and wants_name and found[0] in keywords() and not new_line:
         report.report(
             "keyword-as-name",
             span,
             word=found[0],
-            help=f"choose another name, `{found[0]}_` for instance",
+            help="write `after` without `on`"
+            if before and (before[0], found[0]) == ("on", "after")
+            else f"choose another name, `{found[0]}_` for instance",
         )
-    elif before and (
-        found is None or (_new_line(text, at, before) and not _may_begin_anew(expected))
-    ):
+    elif before and (found is None or (new_line and not _may_begin_anew(words))):
         # The mistake is where something is missing, not at the line that follows.
         place = Span(source, offset + before.start(), offset + before.end())
         report.report(
@@ -85,46 +89,51 @@ def report_syntax_error(
         return place.start
     else:
         what = f"`{found[0]}`" if found else "the end of the file"
-        report.report("syntax-error", span, message=f"expected {_either(expected)}, found {what}")
+        report.report(
+            "syntax-error",
+            span,
+            message=f"expected {_either(expected)}, found {what}",
+            help=advice(words, before, found) if found else None,
+        )
     return span.start
 
 
-@cache
-def keywords() -> frozenset[str]:
-    """The reserved words, as `grammar/lexical.tx` lists them."""
-    text = (grammar() / "lexical.tx").read_text(encoding="utf-8")
-    found = re.search(r"^IDENT: /\(\?!\(\?:([a-z|]+)\)", text, re.MULTILINE)
-    assert found is not None
-    return frozenset(found[1].split("|"))
-
-
-def _may_begin_anew(expected: list[str]) -> bool:
+def _may_begin_anew(words: set[str]) -> bool:
     """Whether a new statement may begin here, so that the next line is to blame itself."""
-    return "`}`" in expected or "the end of the file" in expected
+    return "`}`" in words or "the end of the file" in words
 
 
-def _expected(rules: list[Any]) -> list[str]:
-    """What could have stood here, each once, phrases before keywords."""
-    words: dict[str, None] = {}
-    for rule in rules:
-        name, literal = rule.rule_name, getattr(rule, "to_match", "")
-        if name in _WORDS:
-            words.setdefault(_WORDS[name])
-        elif name != "Comment":
-            words.setdefault(f"`{literal}`")
-    if words.keys() >= _DECLARATIONS:
-        words = {"a declaration": None} | {w: None for w in words if w not in _DECLARATIONS}
-    specific = [word for word in words if word.strip("`") not in _OPERATORS]
-    return sorted(specific or words, key=lambda word: word.startswith("`"))
+def _words(rules: list[Any]) -> set[str]:
+    """What could have stood here: phrases, and keywords in backquotes."""
+    return {
+        _PHRASES.get(rule.rule_name, f"`{getattr(rule, 'to_match', '')}`")
+        for rule in rules
+        if rule.rule_name != "Comment"
+    }
+
+
+def _grouped(words: set[str]) -> list[str]:
+    """The same in few words, the most general ones last."""
+    general = []
+    for phrase, members in _GROUPS.items():
+        group = {f"`{word}`" for word in members.split()}
+        if group <= words:
+            words = words - group
+            general.append(phrase)
+    for phrase in (*general, "a value"):
+        if phrase in words or phrase in general:
+            words = words - _IMPLIED.get(phrase, set())
+    specific = {word for word in words if word.strip("`") not in _OPERATORS}
+    shown = (specific or words) if not general else specific
+    return [*sorted(shown, key=lambda word: (not word.startswith("`"), word)), *general]
 
 
 def _either(expected: list[str]) -> str:
     if not expected:
         return "something else"
-    shown = expected if len(expected) <= _MOST_SHOWN else [*expected[: _MOST_SHOWN - 1], "..."]
-    if len(shown) == 1:
-        return shown[0]
-    return f"{', '.join(shown[:-1])} or {shown[-1]}" if shown[-1] != "..." else ", ".join(shown)
+    if len(expected) > _MOST_SHOWN:
+        return ", ".join([*expected[: _MOST_SHOWN - 1], "..."])
+    return " or ".join(filter(None, (", ".join(expected[:-1]), expected[-1])))
 
 
 def _token_before(text: str, at: int) -> re.Match[str] | None:
@@ -132,7 +141,3 @@ def _token_before(text: str, at: int) -> re.Match[str] | None:
     code = re.sub(r"//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/", lambda c: " " * len(c[0]), text[:at])
     tokens = list(_TOKEN.finditer(code, max(code.rstrip().rfind("\n"), 0)))
     return tokens[-1] if tokens else None
-
-
-def _new_line(text: str, at: int, before: re.Match[str] | None) -> bool:
-    return before is not None and "\n" in text[before.end() : at]

@@ -9,7 +9,7 @@ import pytest
 from swarmdsl import plugins
 from swarmdsl.cli import cli
 from swarmdsl.codes import CODES
-from swarmdsl.syntax_errors import keywords
+from swarmdsl.syntax_advice import keywords
 
 from .pages import LANGUAGE, PAGES, ROOT, Page
 

@@ -1,0 +1,80 @@
+"""What a person may have meant who wrote what the grammar does not have."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from functools import cache
+
+from swarmdsl.resources import grammar
+from swarmdsl.suggest import closest
+
+_NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
+_COMMENTS = "a comment starts with `//`"
+# What other languages write, and what is written here.
+_OTHERWISE = {
+    ";": "no `;` is needed: a line break ends a statement",
+    ",": "no `,` is needed here",
+    "&": "write `and`",
+    "|": "write `or`",
+    "!": "write `not`",
+    "'": "texts stand in double quotes",
+    "#": _COMMENTS,
+}
+_ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
+# How like a keyword a word must be: `Start` is not meant to be `state`.
+_SLIP = 0.85
+_UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
+
+
+def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str]) -> str | None:
+    """A way out for the token `found`, which stands after `before`; None if none is known."""
+    token, text, at = found[0], found.string, found.start()
+    last = before[0] if before is not None else ""
+    joined = before is not None and before.end() == at
+    for arrow in ("->", "=>"):
+        if f"`{arrow}`" in expected and token in _ARROWS:
+            return f"write `{arrow}`"
+    if "`=`" in expected and text.startswith(_UPDATES, at):
+        return "write a variable, `=` and its new value: `x = x + 1`"
+    if token == "=" and joined and last == "=":
+        return "write one `=` to assign"
+    if token == "=" and "`]`" in expected:
+        return "write `==` to compare"
+    if token == "-" and text.startswith("--", at):
+        return _COMMENTS
+    if token == "-" and joined and last[0].isalpha():
+        return _NAMES
+    if "a name" in expected and re.fullmatch(r"\w+", token):
+        return _NAMES
+    if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:
+        return "the units of time are `us`, `ms`, `s`, `min` and `h`"
+    if token in "})]" and "`struct`" in expected:
+        return "nothing is open here that it could close"
+    if token in _OTHERWISE:
+        return _OTHERWISE[token]
+    # A keyword with a slip in it was taken for the name of a part or field.
+    slip, meant = (last, keywords()) if "`:`" in expected else (token, _literals(expected))
+    keyword = closest(slip, meant, _SLIP)
+    return f"did you mean `{keyword}`?" if keyword and keyword != slip else None
+
+
+def _literals(expected: set[str]) -> list[str]:
+    return [word.strip("`") for word in expected if re.fullmatch(r"`[a-z]+`", word)]
+
+
+@cache
+def keywords() -> frozenset[str]:
+    """The reserved words, as `grammar/lexical.tx` lists them."""
+    text = (grammar() / "lexical.tx").read_text(encoding="utf-8")
+    found = re.search(r"^IDENT: /\(\?!\(\?:([a-z|]+)\)", text, re.MULTILINE)
+    assert found is not None
+    return frozenset(found[1].split("|"))
+
+
+def strange_character(character: str) -> str | None:
+    """The name of a character that looks like nothing, or like a space; None for others."""
+    if not character or character in " \t\r\n" or character.isprintable():
+        return None
+    name = unicodedata.name(character, "")
+    return f"U+{ord(character):04X}" + (f" ({name.lower()})" if name else "")
