@@ -11,7 +11,7 @@ from swarmdsl.syntax import NODES
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
-EXPRESSIONS = {"Expression", "Operand"}
+EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 

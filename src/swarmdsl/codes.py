@@ -33,6 +33,7 @@ CODES: dict[str, Code] = {
     "import-cycle": Code("SW0006", "error", "`{path}` imports itself"),
     "nothing-to-compile": Code("SW0007", "error", "no .swarm file in `{path}`"),
     "unknown-package": Code("SW0008", "error", "no library has a package `{name}`"),
+    "control-character": Code("SW0009", "error", "there is a control character, {code}, here"),
     # ---- syntax
     "syntax-error": Code("SW0101", "error", "{message}"),
     "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),
@@ -88,6 +89,7 @@ CODES: dict[str, Code] = {
         "SW0516", "error", "an internal transition of `{state}` cannot lead to `{target}`"
     ),
     "misplaced-history": Code("SW0517", "error", "history `{name}` {fault}"),
+    "negative-delay": Code("SW0518", "error", "a time cannot be over before it begins"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),
@@ -101,6 +103,8 @@ CODES: dict[str, Code] = {
     "impossible-array": Code("SW0608", "error", "an array cannot have {size} elements"),
     "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
     "enum-value": Code("SW0609", "error", "value `{name}` of enum `{enum}` {fault}"),
+    "bad-topic": Code("SW0611", "error", "`{name}` cannot be the name of {what} in ROS"),
+    "topic-types": Code("SW0612", "error", "topic `{topic}` carries `{first}`, not `{second}`"),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

@@ -16,7 +16,7 @@ from swarmdsl.output_path import clash_key, stays_inside
 from swarmdsl.suggest import suggest
 
 # What a target cannot do, whatever it is asked for.
-_UNABLE = frozenset({"unsupported-construct", "generator-failed"})
+_UNABLE = frozenset({"unsupported-construct", "bad-identifier", "generator-failed"})
 
 Output = dict[str, list[OutputFile]]
 """The files of each target, in the order of the requests."""

@@ -135,6 +135,9 @@ class Typing:
             self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
         return None
 
+    def _is_enum(self, type_: Named) -> bool:
+        return isinstance(self.interfaces.get(type_), EnumType)
+
     def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
         values = [str(value.name) for value in enum.values]
         if str(name) not in values:
@@ -191,7 +194,9 @@ class Typing:
             self._require(tree, operator, types, lambda t: t == BOOL)
             return BOOL
         if operator in ("==", "!="):
-            if not (fits(left, right) or fits(right, left)):
+            compared = any(isinstance(known, (Named, Array)) for known in types)
+            enums = left == right and isinstance(left, Named) and self._is_enum(left)
+            if (compared and not enums) or not (fits(left, right) or fits(right, left)):
                 self._bad_operands(tree, operator, types)
             return BOOL
         if operator in ("<", "<=", ">", ">="):

@@ -8,6 +8,7 @@ from swarmdsl.ir.types import Named
 from swarmdsl.link_types import interface_name, written_type
 from swarmdsl.load import File
 from swarmdsl.ros import standard
+from swarmdsl.ros.interface_file import Kind
 from swarmdsl.suggest import closest
 from swarmdsl.syntax import (
     ActionType,
@@ -22,6 +23,8 @@ from swarmdsl.syntax import (
     TypeRef,
     walk,
 )
+
+_KINDS: dict[type[Interface], Kind] = {ServiceType: "srv", ActionType: "action"}
 
 
 class Interfaces:
@@ -38,11 +41,14 @@ class Interfaces:
                 self.declared.setdefault(name, node)
                 self._packages.setdefault(name.package, []).append(name.name)
 
-    def get(self, type_: Named) -> Interface | None:
-        """The interface of that name, None when nothing is known of it."""
+    def get(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
+        """The interface of that name, None when nothing is known of it.
+
+        Where ROS has several of one name (`nav_msgs/GetMap`) it is the `wanted` one.
+        """
         found = self.declared.get(type_)
         if found is None:
-            found = standard.lookup(type_)
+            found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
             for ref in walk(found) if found is not None else ():
                 if isinstance(ref, TypeRef) and ref.type is None:
                     ref.type = written_type(ref)

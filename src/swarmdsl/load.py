@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
@@ -26,6 +27,9 @@ from swarmdsl.syntax import (
     Model,
     Optimization,
 )
+
+# No format can carry them: all but tab and line end (XML 1.0, 2.2).
+_CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 
 @dataclass(eq=False)
@@ -207,6 +211,9 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     if source is None:
         return None
     before = len(report)
+    for found in _CONTROL.finditer(source.text):
+        place = Span(source, found.start(), found.end())
+        report.report("control-character", place, code=f"U+{ord(found[0]):04X}", help="remove it")
     parsed = parse(source, report)
     model = parsed.model
     something = model.declarations or model.imports or model.optimizations

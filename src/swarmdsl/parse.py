@@ -190,6 +190,8 @@ def _tree(source: Source, text: str, offset: int) -> Model:
     return model
 
 
+# Rules that find where an expression ends.
+_EXPRESSIONS = frozenset({"Expression", "Operand", "Delay"})
 # Rules whose object is one word with its place.
 _WORDS = frozenset({"Name", "FieldName", "InterfaceName", "PackageName", "Text"})
 
@@ -208,7 +210,7 @@ def _converted(made: Any, source: Source, offset: int) -> Any:
     rule = type(made).__name__
     if rule in _WORDS:
         return Word(unquoted(made.text) if rule == "Text" else made.text, span)
-    if rule in ("Expression", "Operand"):
+    if rule in _EXPRESSIONS:
         return Expression(span)
     node = NODES[rule]
     attributes = {

@@ -94,10 +94,14 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
     names: dict[Declaration, str] = {}
     behaving: dict[StateMachine, list[Member | Component]] = {}
     enums: dict[ir.Named, ir.Primitive] = {}
+    taken = set(count)
     for file, declaration in pairs:
         name = str(declaration.name)
         if count[name] > 1:
             name = f"{file.package.replace('.', '_')}_{name}"
+            while name in taken:
+                name += "_"
+            taken.add(name)
         names[declaration] = name
         if isinstance(declaration, EnumType) and declaration.type is not None:
             enums[declaration.type] = underlying(declaration)

@@ -48,7 +48,8 @@ from swarmdsl.syntax import (
 
 def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
     """A machine as a behaviour of its own, the machines it reuses in place."""
-    builder = _Builder()
+    params = _params(machine, context)
+    builder = _Builder({param.name for param in params})
     frame = _Frame(_ids(machine, ""), context)
     initial = frame.ids[_initial(machine)]
     builder.add_variables(machine, "", context)
@@ -58,7 +59,7 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
         initial=initial,
         states=states,
         variables=tuple(builder.variables),
-        params=_params(machine, context),
+        params=params,
         endless=machine.endless,
         doc=machine.doc,
         origin=machine.name.span,
@@ -76,20 +77,21 @@ class _Frame:
 class _Builder:
     """Builds the states of one machine and gathers the variables of those it reuses."""
 
-    def __init__(self) -> None:
+    def __init__(self, taken: set[str]) -> None:
         self.variables: list[ir.Variable] = []
+        self._taken = taken
 
     def add_variables(
         self, machine: StateMachine, prefix: str, context: Context
     ) -> dict[Variable, str]:
         """Add a machine's variables, named after the state that reuses it; return the names."""
-        taken = {variable.name for variable in self.variables}
         names: dict[Variable, str] = {}
         for item in machine.items:
             if isinstance(item, Variable):
                 name = prefix + item.name
-                while name in taken:
+                while name in self._taken:
                     name += "_"
+                self._taken.add(name)
                 names[item] = name
                 self.variables.append(
                     ir.Variable(

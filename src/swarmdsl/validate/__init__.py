@@ -30,6 +30,7 @@ from swarmdsl.validate.interfaces import (
     check_function,
     check_known,
     check_message_cycles,
+    check_topics,
     check_values,
 )
 from swarmdsl.validate.names import check_names
@@ -51,6 +52,7 @@ def validate(project: Project, report: Diagnostics) -> None:
     check_submachines(project, report)
     check_inheritance(project, report)
     check_message_cycles(context)
+    check_topics(project, report)
     for file, declaration in project.declarations():
         if file.library or declaration in file.parsed.damaged:
             continue

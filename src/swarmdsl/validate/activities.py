@@ -48,7 +48,9 @@ def _check_activity(activity: Activity, context: Context) -> None:
         else None
     )
     known = (
-        context.interfaces.get(call.type.type)
+        context.interfaces.get(
+            call.type.type, ActionType if call.paradigm == "action" else ServiceType
+        )
         if call and isinstance(call.type.type, Named)
         else None
     )

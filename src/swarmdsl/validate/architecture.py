@@ -25,6 +25,7 @@ from swarmdsl.syntax import (
     PortRef,
 )
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.interfaces import check_graph_name
 
 # What can be said of the technology that members reach each other with.
 _SETTINGS = ("ifname", "port", "name", "device_class")
@@ -42,6 +43,7 @@ def check_component(component: Component, context: Context) -> None:
             expected=f"a {component.kind}".replace("a actuator", "an actuator"),
             related=(Label(base.name.span, "declared here"),),
         )
+    check_ports(component, context)
     behaviors = [item for item in component.items if isinstance(item, BehaviorUse)]
     context.check_single([item.span for item in behaviors], "the behavior")
     for item in component.items:
@@ -50,6 +52,13 @@ def check_component(component: Component, context: Context) -> None:
                 context.check_default(item, item.default)
             case BehaviorUse():
                 _check_params_given(component, item, context)
+
+
+def check_ports(owner: Component | Member, context: Context) -> None:
+    """The topic behind a port has a name that ROS takes."""
+    for item in owner.items:
+        if isinstance(item, Port) and item.topic is not None:
+            check_graph_name(item.topic, "a topic", context)
 
 
 def check_inheritance(project: Project, report: Diagnostics) -> None:
@@ -74,6 +83,7 @@ def check_member(member: Member, context: Context) -> None:
     """Check behaviour, params, parts and connectors of a member."""
     behaviors = [item for item in member.items if isinstance(item, BehaviorUse)]
     context.check_single([item.span for item in behaviors], "the behavior")
+    check_ports(member, context)
     settings = [item for item in member.items if isinstance(item, CommunicationSettings)]
     context.check_single([item.span for item in settings], "the communication")
     for use in all_items(member, BehaviorUse):

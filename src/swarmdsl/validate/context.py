@@ -66,11 +66,10 @@ class Context:
     def check_kind(self, ref: TypeRef, wanted: type[Interface]) -> None:
         """Check that a type names a message (or an action, a service), where that is known."""
         element = ref.type.element if isinstance(ref.type, Array) else ref.type
-        known = self.interfaces.get(element) if isinstance(element, Named) else None
-        fine = known is None if isinstance(element, Named) or ref.type is None else False
-        if isinstance(known, wanted) and element is ref.type:
-            fine = True
-        if not fine:
+        known = self.interfaces.get(element, wanted) if isinstance(element, Named) else None
+        unknown = isinstance(element, Named) and known is None
+        fine = element is ref.type and (unknown or isinstance(known, wanted))
+        if ref.type is not None and not fine:
             self.report.report(
                 "interface-kind",
                 ref.span,

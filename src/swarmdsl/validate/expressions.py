@@ -13,6 +13,7 @@ from swarmdsl.syntax import (
     Exit,
     MessageType,
     MonitorTrigger,
+    OperatorUse,
     Param,
     Send,
     StateMachine,
@@ -23,6 +24,7 @@ from swarmdsl.syntax import (
 )
 from swarmdsl.validate.activities import check_arguments
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.interfaces import check_graph_name
 
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
@@ -35,6 +37,13 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 context.check_default(node, node.initial)
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
+                tree = node.delay.tree
+                if (
+                    isinstance(tree, OperatorUse)
+                    and tree.operator == "-"
+                    and len(tree.operands) == 1
+                ):
+                    context.report.report("negative-delay", node.delay.span)
             case Transition():
                 events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
                 all_events = events and len(events) == len(node.triggers)
@@ -42,6 +51,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 context.expect(node.guard, BOOL, typing)
                 _check_effects(node.effects, typing, context)
             case MonitorTrigger():
+                check_graph_name(node.topic, "a topic", context)
                 context.check_kind(node.type, MessageType)
             case Entry() | Exit():
                 _check_effects(node.effects, context.typing, context)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
-from swarmdsl.diagnostics import Label
+from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.ir.types import Array, Named
+from swarmdsl.load import Project
+from swarmdsl.naming import snake_case
 from swarmdsl.syntax import (
     ActionType,
     Communication,
@@ -22,9 +25,13 @@ from swarmdsl.syntax import (
     StructType,
     TypeRef,
     Variable,
+    Word,
     walk,
 )
 from swarmdsl.validate.context import Context
+
+# Relative, absolute or private; parts with a letter (ROS 2: or `_`) first.
+_GRAPH_NAME = re.compile(r"[~/]?/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
 
 
 def check_message_cycles(context: Context) -> None:
@@ -80,8 +87,42 @@ def check_known(declaration: Declaration, context: Context) -> None:
 
 
 def check_event(event: Event, context: Context) -> None:
-    """An event comes with a message."""
+    """An event comes with a message, on a topic."""
     context.check_kind(event.type, MessageType)
+    if event.topic is not None:
+        check_graph_name(event.topic, "a topic", context)
+
+
+def check_graph_name(name: Word, what: str, context: Context) -> None:
+    """A topic, an action or a service has a name that ROS takes (REP 144 and its successors)."""
+    if not _GRAPH_NAME.fullmatch(name):
+        context.report.report(
+            "bad-topic",
+            name.span,
+            name=name,
+            what=what,
+            help="letters, digits and `_`, in parts divided by `/`, each with a letter first",
+        )
+
+
+def check_topics(project: Project, report: Diagnostics) -> None:
+    """Two events on one topic carry one type of message."""
+    first: dict[tuple[str, bool], Event] = {}
+    for file, event in project.declarations():
+        if not isinstance(event, Event) or file.library:
+            continue
+        topic = str(event.topic) if event.topic is not None else snake_case(event.name)
+        known = first.setdefault((topic, event.swarm), event)
+        if None not in (known.type.type, event.type.type) and known.type.type != event.type.type:
+            report.report(
+                "topic-types",
+                event.type.span,
+                topic=topic,
+                first=known.type.type,
+                second=event.type.type,
+                related=(Label(known.type.span, "declared here"),),
+                help='give one of the events another topic: `on "name"`',
+            )
 
 
 def check_function(function: Function, context: Context) -> None:
@@ -98,9 +139,15 @@ def check_function(function: Function, context: Context) -> None:
     for item in function.items:
         match item:
             case Communication():
+                check_graph_name(
+                    item.name,
+                    f"{'an' if item.paradigm == 'action' else 'a'} {item.paradigm}",
+                    context,
+                )
                 wanted = ActionType if item.paradigm == "action" else ServiceType
                 context.check_kind(item.type, wanted)
             case FunctionPort():
+                check_graph_name(item.topic, "a topic", context)
                 context.check_kind(item.type, MessageType)
             case Param():
                 context.check_default(item, item.default)

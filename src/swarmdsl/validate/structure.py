@@ -17,6 +17,7 @@ from swarmdsl.syntax import (
     FinalState,
     History,
     Initial,
+    NameUse,
     Parallel,
     Param,
     Ref,
@@ -204,6 +205,18 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
             )
         else:
             context.expect(binding.value, param.type.type, context.typing)
+    for use in walk(machine):
+        if isinstance(use, NameUse) and isinstance(use.target, Param):
+            if use.target not in params.values():
+                context.report.report(
+                    "missing-value",
+                    state.machine.span,
+                    name=use.name,
+                    machine=machine.name,
+                    related=(Label(use.span, "this is a param of a member"),),
+                    help=f"declare `param {use.name}` in `{machine.name}` and bind it here",
+                )
+                break
     for param in params.values():
         if param.default is None and str(param.name) not in given:
             context.report.report(

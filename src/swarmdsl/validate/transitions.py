@@ -12,6 +12,7 @@ from swarmdsl.scopes import bare, kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Activity,
+    Branch,
     Choice,
     Container,
     DoneTrigger,
@@ -222,7 +223,7 @@ def _check_endless_steps(machine: StateMachine, context: Context) -> None:
 def _check_targets(machine: StateMachine, context: Context) -> None:
     """A transition cannot lead from one region into another of the same parallel state."""
     homes: dict[Vertex, tuple[Region, ...]] = {}
-    arrows: list[tuple[Transition, tuple[Region, ...]]] = []
+    arrows: list[tuple[Transition | Branch, tuple[Region, ...]]] = []
 
     def visit(container: Container, inside: tuple[Region, ...]) -> None:
         for item in container.items:
@@ -234,6 +235,9 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
                     visit(item, inside)
                 case Transition():
                     arrows.append((item, inside))
+                case Choice():
+                    homes[item] = inside
+                    arrows.extend((branch, inside) for branch in item.branches)
                 case _ if isinstance(item, Vertex):
                     homes[item] = inside
 
