@@ -38,11 +38,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
                 tree = node.delay.tree
-                if (
-                    isinstance(tree, OperatorUse)
-                    and tree.operator == "-"
-                    and len(tree.operands) == 1
-                ):
+                if isinstance(tree, OperatorUse) and len(tree.operands) == 1:
                     context.report.report("negative-delay", node.delay.span)
             case Transition():
                 events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]

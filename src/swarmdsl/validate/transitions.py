@@ -73,8 +73,10 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
 def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
     """A state without content is never done, nor is content without a final state."""
     simple = isinstance(of, State) and of.machine is None and not _has_states(of)
-    if completes(of) and not (simple and (_activities(of) or trigger.final is not None)):
+    if simple and not _activities(of) and trigger.final is None:
         return  # a state that does nothing is done at once
+    if completes(of) and not simple:
+        return
     help_ = "add a final state to it"
     if isinstance(of, Parallel):
         help_ = "a parallel state is done when each of its regions has reached a final state"
