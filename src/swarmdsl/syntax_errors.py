@@ -31,7 +31,8 @@ _PHRASES = {
 _GROUPS = {
     "a declaration": "struct enum type const message service action swarm event function "
     "sensor actuator controller virtual member endless statemachine environment fitness optimize",
-    "an item of a state": "do entry exit on after monitor internal initial state parallel choice history final",
+    "an item of a state": "do entry exit on after monitor internal initial state parallel choice "
+    "deep history final",
     "an item of a state machine": "param var initial state parallel choice deep history final",
     "an item of a region": "initial state parallel choice deep history final",
     "an item of a member": "behavior communication inout in out param connect",

@@ -10,6 +10,7 @@ from swarmdsl.graph import cycles
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.load import Project
 from swarmdsl.naming import snake_case
+from swarmdsl.scopes import kind_of
 from swarmdsl.syntax import (
     ActionType,
     Communication,
@@ -139,12 +140,8 @@ def check_function(function: Function, context: Context) -> None:
     for item in function.items:
         match item:
             case Communication():
-                check_graph_name(
-                    item.name,
-                    f"{'an' if item.paradigm == 'action' else 'a'} {item.paradigm}",
-                    context,
-                )
                 wanted = ActionType if item.paradigm == "action" else ServiceType
+                check_graph_name(item.name, kind_of(wanted), context)
                 context.check_kind(item.type, wanted)
             case FunctionPort():
                 check_graph_name(item.topic, "a topic", context)

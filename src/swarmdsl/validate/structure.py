@@ -205,18 +205,7 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
             )
         else:
             context.expect(binding.value, param.type.type, context.typing)
-    for use in walk(machine):
-        if isinstance(use, NameUse) and isinstance(use.target, Param):
-            if use.target not in params.values():
-                context.report.report(
-                    "missing-value",
-                    state.machine.span,
-                    name=use.name,
-                    machine=machine.name,
-                    related=(Label(use.span, "this is a param of a member"),),
-                    help=f"declare `param {use.name}` in `{machine.name}` and bind it here",
-                )
-                break
+    _check_foreign_params(state.machine, machine, context)
     for param in params.values():
         if param.default is None and str(param.name) not in given:
             context.report.report(
@@ -227,6 +216,24 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
                 related=(Label(param.name.span, "declared here, without a default"),),
                 help=f"bind it: `{state.machine.name}({param.name} = ...)`",
             )
+
+
+def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context: Context) -> None:
+    """Check that a reused machine reads no param of a member: the one around has no such."""
+    own = [item for item in machine.items if isinstance(item, Param)]
+    for use in walk(machine):
+        if not isinstance(use, NameUse) or not isinstance(use.target, Param):
+            continue
+        if use.target not in own:
+            context.report.report(
+                "missing-value",
+                ref.span,
+                name=use.name,
+                machine=machine.name,
+                related=(Label(use.span, "this is a param of a member"),),
+                help=f"declare `param {use.name}` in `{machine.name}` and bind it here",
+            )
+            return
 
 
 def _check_initial(container: Container, owner: str, context: Context) -> None:
