@@ -54,7 +54,7 @@ CODES: dict[str, Code] = {
     "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
     "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),
     "impossible-size": Code("SW0303", "error", "the size `{size}` {fault}"),
-    "missing-objective": Code("SW0304", "error", "fitness `{name}` says not what to make best"),
+    "missing-objective": Code("SW0304", "error", "fitness `{name}` has no objective"),
     "empty-range": Code("SW0305", "error", "this range {fault}"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
@@ -65,6 +65,7 @@ CODES: dict[str, Code] = {
     "repeated-item": Code("SW0404", "error", "{item} is given twice"),
     "inheritance-cycle": Code("SW0405", "error", "`{name}` extends itself"),
     "unknown-setting": Code("SW0406", "error", "there is no setting `{name}`"),
+    "unconnected-port": Code("SW0407", "warning", "nothing is connected to `{port}`"),
     # ---- state machines
     "missing-initial": Code("SW0501", "error", "{owner} has no initial state"),
     "missing-final": Code("SW0502", "error", "{owner} has no final state"),
@@ -89,7 +90,13 @@ CODES: dict[str, Code] = {
         "SW0516", "error", "an internal transition of `{state}` cannot lead to `{target}`"
     ),
     "misplaced-history": Code("SW0517", "error", "history `{name}` {fault}"),
-    "negative-delay": Code("SW0518", "error", "a time cannot be over before it begins"),
+    "negative-delay": Code("SW0518", "error", "a delay cannot be negative"),
+    "constant-guard": Code("SW0519", "warning", "this guard {held} holds"),
+    "idle-variable": Code("SW0520", "warning", "variable `{name}` {fault}"),
+    "unhandled-event": Code("SW0521", "warning", "nothing waits for event `{name}`"),
+    "conflicting-regions": Code(
+        "SW0522", "warning", "event `{event}` leads out of `{state}` in two ways"
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),
@@ -101,8 +108,8 @@ CODES: dict[str, Code] = {
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
     "impossible-array": Code("SW0608", "error", "an array cannot have {size} elements"),
-    "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
     "enum-value": Code("SW0609", "error", "value `{name}` of enum `{enum}` {fault}"),
+    "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
     "bad-topic": Code("SW0611", "error", "`{name}` cannot be the name of {what} in ROS"),
     "topic-types": Code("SW0612", "error", "topic `{topic}` carries `{first}`, not `{second}`"),
     # ---- expressions

@@ -23,8 +23,11 @@ from swarmdsl.syntax import (
 from swarmdsl.validate.activities import check_activities
 from swarmdsl.validate.architecture import check_component, check_inheritance, check_member
 from swarmdsl.validate.composition import check_environment, check_swarm
+from swarmdsl.validate.conflicts import check_conflicts
 from swarmdsl.validate.context import make_context
+from swarmdsl.validate.dataflow import check_events, check_variables
 from swarmdsl.validate.expressions import check_expressions
+from swarmdsl.validate.guards import check_guards
 from swarmdsl.validate.interfaces import (
     check_event,
     check_function,
@@ -73,6 +76,9 @@ def validate(project: Project, report: Diagnostics) -> None:
                 check_reachability(declaration, context)
                 check_activities(declaration, context)
                 check_expressions(declaration, context)
+                check_guards(declaration, context)
+                check_variables(declaration, context)
+                check_conflicts(declaration, context)
             case Constant():
                 check_constant(declaration, context)
             case EnumType():
@@ -83,6 +89,7 @@ def validate(project: Project, report: Diagnostics) -> None:
                 check_swarm(declaration, context)
             case Environment():
                 check_environment(declaration, context)
+    check_events(project, context)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
 

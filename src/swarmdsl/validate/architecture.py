@@ -86,6 +86,7 @@ def check_member(member: Member, context: Context) -> None:
     check_ports(member, context)
     settings = [item for item in member.items if isinstance(item, CommunicationSettings)]
     context.check_single([item.span for item in settings], "the communication")
+    _check_connected(member, context)
     for use in all_items(member, BehaviorUse):
         _check_params_given(member, use, context)
     for item in member.items:
@@ -98,6 +99,24 @@ def check_member(member: Member, context: Context) -> None:
                 _check_part(item, context)
             case Connector():
                 _check_connector(item, context)
+
+
+def _check_connected(member: Member, context: Context) -> None:
+    """Check that something is connected to each `in` port of a part without a topic of its own."""
+    connectors = all_items(member, Connector)
+    driven = {(c.target.part.target, c.target.port.target) for c in connectors if c.target.part}
+    for part in (item for item in member.items if isinstance(item, Part)):
+        if part.component.target is None:
+            continue
+        for port in all_items(part.component.target, Port):
+            if port.direction == "in" and port.topic is None and (part, port) not in driven:
+                context.report.report(
+                    "unconnected-port",
+                    part.name.span,
+                    port=f"{part.name}.{port.name}",
+                    related=(Label(port.name.span, "declared here"),),
+                    help=f"add `connect ... -> {part.name}.{port.name}`, or give the port a topic",
+                )
 
 
 def _check_settings(settings: CommunicationSettings, context: Context) -> None:

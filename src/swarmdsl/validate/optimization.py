@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.enums import numbers, underlying
 from swarmdsl.expressions import UNITS
-from swarmdsl.inference import constant, is_number
+from swarmdsl.inference import is_number
 from swarmdsl.ir.types import INT, INTEGERS, Primitive, Type
 from swarmdsl.syntax import (
     Constant,
@@ -13,6 +13,7 @@ from swarmdsl.syntax import (
     Expression,
     Fitness,
     Objective,
+    OperatorUse,
     Optimization,
     Param,
     ParamRange,
@@ -100,7 +101,14 @@ def check_enum(enum: EnumType, context: Context) -> None:
             fault = f"is {number}, like `{seen[number]}`"
         if fault:
             context.report.report(
-                "enum-value", value.name.span, name=value.name, enum=enum.name, fault=fault
+                "enum-value",
+                value.name.span,
+                name=value.name,
+                enum=enum.name,
+                fault=fault,
+                help=f"a value of type `{name}` is from {lowest} to {highest}"
+                if not lowest <= number <= highest
+                else "give each value a number of its own",
             )
         seen.setdefault(number, str(value.name))
 
@@ -113,7 +121,12 @@ def _check_range(
     context: Context,
 ) -> None:
     if type_ is not None and not is_number(type_) and str(type_) != "duration":
-        context.report.report("empty-range", lower.span, fault=f"is of values of type `{type_}`")
+        context.report.report(
+            "empty-range",
+            lower.span,
+            fault=f"is of values of type `{type_}`",
+            help="a range is one of numbers or durations",
+        )
         return
     for value in (lower, upper, step):
         if value is not None:
@@ -123,11 +136,14 @@ def _check_range(
         context.report.report("empty-range", upper.span, fault="ends below its start")
     width = _number(step) if step is not None else None
     if step is not None and width is not None and width <= 0:
-        context.report.report("empty-range", step.span, fault="has a step of nothing")
+        context.report.report("empty-range", step.span, fault="has a step that is not positive")
 
 
 def _number(expression: Expression) -> float | None:
-    tree = expression.tree
-    if isinstance(tree, Value) and isinstance(tree.value, (int, float)) and constant(tree):
-        return tree.value * UNITS.get(tree.unit, 1)
+    """The value of a number or duration that is written out."""
+    sign, tree = 1, expression.tree
+    if isinstance(tree, OperatorUse) and tree.operator == "-" and len(tree.operands) == 1:
+        sign, tree = -1, tree.operands[0]
+    if isinstance(tree, Value) and isinstance(tree.value, (int, float)):
+        return sign * tree.value * UNITS.get(tree.unit, 1)
     return None

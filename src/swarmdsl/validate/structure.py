@@ -168,7 +168,11 @@ def _check_levels(machine: StateMachine, context: Context) -> None:
                 if isinstance(state, History):
                     fault = "stands outside of any composite state"
                     context.report.report(
-                        "misplaced-history", state.name.span, name=state.name, fault=fault
+                        "misplaced-history",
+                        state.name.span,
+                        name=state.name,
+                        fault=fault,
+                        help="put it into the state that it leads back into",
                     )
         if not isinstance(node, (State, Parallel)):
             continue
@@ -183,7 +187,7 @@ def _check_levels(machine: StateMachine, context: Context) -> None:
                     item.target.span,
                     state=node.name,
                     target=target.name,
-                    help="it leads to a state inside the one that holds it",
+                    help="it leads to a state inside its own, or has no target at all",
                 )
 
 

@@ -1,0 +1,75 @@
+"""Variables and events that lead nowhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.ir.types import Named
+from swarmdsl.load import Project
+from swarmdsl.syntax import (
+    Assignment,
+    Event,
+    EventTrigger,
+    FieldUse,
+    NameUse,
+    ResultMapping,
+    Send,
+    StateMachine,
+    Variable,
+    walk,
+)
+from swarmdsl.validate.context import Context
+
+
+def check_variables(machine: StateMachine, context: Context) -> None:
+    """A variable is written before it is of use, and read to be of use."""
+    stores = set(_stores(machine))
+    uses = [node for node in walk(machine) if isinstance(node, NameUse)]
+    written = {use.target for use in stores}
+    read = {use.target for use in uses if use not in stores}
+    for item in machine.items:
+        if not isinstance(item, Variable):
+            continue
+        if item not in read and item not in written:
+            fault = "is never used"
+        elif item not in read:
+            fault = "is written and never read"
+        elif item not in written and item.initial is None and not isinstance(item.type.type, Named):
+            fault = "is read and never written"
+        else:
+            continue
+        context.report.report("idle-variable", item.name.span, name=item.name, fault=fault)
+
+
+def check_events(project: Project, context: Context) -> None:
+    """A swarm event that is sent is waited for by some machine."""
+    sent: dict[Event, Send] = {}
+    awaited: set[Event] = set()
+    for _, machine in project.declarations():
+        if not isinstance(machine, StateMachine):
+            continue
+        for node in walk(machine):
+            match node:
+                case Send(event=ref) if ref.target is not None:
+                    sent.setdefault(ref.target, node)
+                case EventTrigger(event=ref) if ref.target is not None:
+                    awaited.add(ref.target)
+    for event, send in sent.items():
+        if event not in awaited:
+            context.report.report(
+                "unhandled-event",
+                send.event.span,
+                name=event.name,
+                help=f"add `on {event.name} -> ...` to a state of a machine that should react",
+            )
+
+
+def _stores(machine: StateMachine) -> Iterator[NameUse]:
+    """The names that stand where a value is stored: the variable is written there, not read."""
+    for node in walk(machine):
+        if isinstance(node, (Assignment, ResultMapping)):
+            tree = node.target.tree
+            while isinstance(tree, FieldUse):
+                tree = tree.base
+            if isinstance(tree, NameUse):
+                yield tree
