@@ -6,7 +6,7 @@ import os
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from swarmdsl import resources
@@ -214,6 +214,8 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     for found in _CONTROL.finditer(source.text):
         place = Span(source, found.start(), found.end())
         report.report("control-character", place, code=f"U+{ord(found[0]):04X}", help="remove it")
+    if len(report) > before:  # reported once: the parser sees spaces in their place
+        source = replace(source, text=_CONTROL.sub(" ", source.text))
     parsed = parse(source, report)
     model = parsed.model
     something = model.declarations or model.imports or model.optimizations

@@ -97,7 +97,7 @@ def check_enum(enum: EnumType, context: Context) -> None:
         fault = ""
         if not lowest <= number <= highest:
             fault = f"is {number}, which is no `{name}`"
-        elif number in seen:
+        elif seen.get(number, value.name) != value.name:
             fault = f"is {number}, like `{seen[number]}`"
         if fault:
             context.report.report(
