@@ -44,11 +44,12 @@ class Targets:
         for state in module.machine.walk():
             self.parent.update((child.id, state.id) for child in state.states)
 
-    def bind(self, scope: Scope, target: str) -> str:
+    def bind(self, scope: Scope, target: str | None) -> str:
         """What a state in this scope is bound to so that `target` comes next.
 
         That is a label, or an outcome of the scope's container.
         """
+        assert target is not None  # one without a target is not supported
         state = self.states[target]
         if self.parent[target] == scope.owner:
             if state.kind is StateKind.FINAL:
@@ -64,6 +65,7 @@ class Targets:
 
     def check(self, state: State, transition: Transition) -> None:
         """Report a target that is neither beside the state nor beside one that it is in."""
+        assert transition.target is not None
         target, inside = self.states[transition.target], self.parent[state.id]
         around = {inside}
         while inside:
