@@ -12,6 +12,7 @@ generator = Generator(
     options_type=Options,
     supports=ALL_FEATURES
     - {
+        Feature.INTO_STATE,
         Feature.HISTORY,
         Feature.ENTRY,
         Feature.EXIT,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from swarmdsl.ir import State, StateKind, Transition
+from swarmdsl.ir import State, StateKind
 
 from .module import PREEMPTED, Entry, Module, fresh
 
@@ -62,18 +62,3 @@ class Targets:
         outcome = fresh(f"to_{target}", names)
         scope.exits[outcome] = target
         return outcome
-
-    def check(self, state: State, transition: Transition) -> None:
-        """Report a target that is neither beside the state nor beside one that it is in."""
-        assert transition.target is not None
-        target, inside = self.states[transition.target], self.parent[state.id]
-        around = {inside}
-        while inside:
-            inside = self.parent[inside]
-            around.add(inside)
-        if self.parent[target.id] not in around or target.kind is StateKind.REGION:
-            self._module.unsupported(
-                f"a transition into the inside of another state (`{target.id}`)",
-                transition.origin,
-                "lead the transition to the state around it",
-            )

@@ -64,10 +64,8 @@ class _Structure:
 
     def initial(self, initial: str | None, scope: Scope, at: Span | None) -> str | None:
         """The label of the state entered first."""
-        found = self.targets.states[initial] if initial is not None else None
-        if found is None or self.targets.parent[found.id] != scope.owner:
-            self.module.unsupported("an initial state inside another state", at)
-            return None
+        assert initial is not None
+        found = self.targets.states[initial]
         if found.kind is StateKind.FINAL:
             self.module.unsupported("an initial state that is final", at)
             return None
@@ -182,8 +180,6 @@ class _Structure:
     # ---- states
 
     def _add_state(self, scope: Scope, state: State) -> None:
-        for transition in state.transitions:
-            self.targets.check(state, transition)
         if state.kind is StateKind.FINAL:
             return
         if state.kind is StateKind.CHOICE:

@@ -53,6 +53,8 @@ def _in_machine(machine: StateMachine) -> Iterator[Use]:
     parents: dict[str, str | None] = {state.id: None for state in machine.states}
     for state in machine.walk():
         parents.update((child.id, state.id) for child in state.states)
+    if parents[machine.initial] is not None:
+        yield Feature.INTO_STATE, machine.origin
     for state in machine.walk():
         yield from _in_state(state, parents)
 
@@ -60,6 +62,8 @@ def _in_machine(machine: StateMachine) -> Iterator[Use]:
 def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
     if state.kind in _KINDS:
         yield _KINDS[state.kind], state.origin
+    if state.initial is not None and parents[state.initial] != state.id:
+        yield Feature.INTO_STATE, state.origin
     if state.activity is not None:
         yield from _in_activity(state.activity)
     for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
@@ -70,9 +74,20 @@ def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
         yield from _in_transition(transition)
         if not transition.triggers and state.kind not in (StateKind.CHOICE, StateKind.HISTORY):
             yield Feature.EVENTLESS, transition.origin
-        target = transition.target
-        if target is not None and parents[target] != parents[state.id]:
-            yield Feature.CROSS_LEVEL, transition.origin
+        if transition.target is not None:
+            here, there = _around(state.id, parents), _around(transition.target, parents)
+            if here[0] not in there:
+                yield Feature.CROSS_LEVEL, transition.origin
+            if there[0] not in here:
+                yield Feature.INTO_STATE, transition.origin
+
+
+def _around(state: str, parents: dict[str, str | None]) -> list[str | None]:
+    """The states that one is in, the nearest first; last the machine, as None."""
+    found: list[str | None] = [parents[state]]
+    while found[-1] is not None:
+        found.append(parents[found[-1]])
+    return found
 
 
 def _in_activity(activity: Activity) -> Iterator[Use]:

@@ -354,7 +354,7 @@ UNSUPPORTED = {
     "an assignment": "state A { on Found / n = event.level -> B }",
     "the sending of an event": 'state A { on Start / send Found(id = "", level = 1) -> B }',
     "a transition after a time": "state A { on Start -> B after 2 s -> B }",
-    "a transition to another level": """
+    "a transition into the inside of a state": """
         state A { on Start -> W.I }
         state W { initial I state I { on Abort -> E } final E on done -> B }
     """,

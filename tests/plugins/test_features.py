@@ -36,6 +36,12 @@ statemachine M {
     state In {
       on Low -> End
     }
+    history Back -> In
+    entry / got = 2.0
+    exit / got = 3.0
+    internal on Low -> In
+    on Low / got = 4.0
+    [got > 9.0] -> Both
   }
   parallel state Both {
     region A {
@@ -71,14 +77,24 @@ def found(compiled) -> dict[Feature, list[str]]:
         (Feature.COMPOSITE, ["Box"]),
         (Feature.PARALLEL, ["Both"]),
         (Feature.CHOICE, ["Decide"]),
-        (Feature.GUARD, ["event.level < 2.0", "got < 1.0"]),
-        (Feature.ASSIGNMENT, ["got = event.level"]),
+        (Feature.GUARD, ["event.level < 2.0", "got < 1.0", "got > 9.0"]),
+        (
+            Feature.ASSIGNMENT,
+            ["got = event.level", "got = 2.0", "got = 3.0", "got = 4.0"],
+        ),
         (Feature.SEND, ["send Low"]),
         (Feature.TIMEOUT, ["after 3 s"]),
         (Feature.RESULT, ["distance => got"]),
         (Feature.CALLBACK, ["do work(by make_goal) gives by take_result"]),
         (Feature.EVENT_DATA, ["event", "event"]),
         (Feature.CROSS_LEVEL, ["on Low -> End"]),
+        (Feature.INTO_STATE, ["internal on Low -> In"]),
+        (Feature.HISTORY, ["Back"]),
+        (Feature.ENTRY, ["got = 2.0"]),
+        (Feature.EXIT, ["got = 3.0"]),
+        (Feature.INTERNAL, ["internal on Low -> In"]),
+        (Feature.TARGETLESS, ["on Low / got = 4.0"]),
+        (Feature.EVENTLESS, ["[got > 9.0] -> Both"]),
     ],
 )
 def test_every_use_is_found(found, feature, starts):

@@ -14,8 +14,6 @@ def _machine(body: str, name: str = "M") -> str:
 
 
 SMALL = "initial A state A { on E -> B } final B"
-INTO = "initial A state A { on E -> B.C } state B { initial C state C { on E -> End } } final End"
-INSIDE = "initial A state A { initial B state B { on E -> A } on E -> A.B }"
 GUARDED = """
 var n : int32
 initial P
@@ -30,8 +28,6 @@ final End
 @pytest.mark.parametrize(
     ("body", "place", "construct"),
     [
-        (INTO, "on E -> B.C", "a transition into the inside of another state (`B.C`)"),
-        (INSIDE, "on E -> A.B", "a transition into the inside of another state (`A.B`)"),
         (
             GUARDED,
             "on R.done [n > 1] -> End",

@@ -103,7 +103,7 @@ class _Shaper:
         """What is in a container, and what ends it."""
         inside = [state for state in states if state.kind is not StateKind.FINAL]
         if initial not in [state.id for state in inside]:
-            self._refuse(Feature.CROSS_LEVEL.value, origin)
+            self._refuse(Feature.INTO_STATE.value, origin)
         # SMACH starts with the state that was added first.
         inside.sort(key=lambda state: state.id != initial)
         shaped = [self._vertex(state) for state in inside]
@@ -177,7 +177,7 @@ class _Shaper:
             if transition.target is None:
                 continue  # refused before: the dialect has no transition without a target
             if self.parents[transition.target] not in around:
-                self._refuse(Feature.CROSS_LEVEL.value, transition.origin)
+                self._refuse(Feature.INTO_STATE.value, transition.origin)
             for trigger in transition.triggers:
                 origin = trigger.origin or transition.origin
                 match trigger:
