@@ -41,8 +41,11 @@ from swarmdsl.syntax import (
 )
 
 
-def lower(project: Project) -> ir.System:
-    """The whole project as one system, in the order of files and text."""
+def lower(project: Project, name: str | None = None) -> ir.System:
+    """The whole project as one system, in the order of files and text.
+
+    Its name is that of the first package if none is given.
+    """
     used = used_declarations(project)
     context = make_context(project, used)
     interfaces: list[ir.Interface] = []
@@ -79,7 +82,7 @@ def lower(project: Project) -> ir.System:
                 swarms.append(lower_swarm(declaration, context))
     first = project.files[0]
     return ir.System(
-        name=first.package,
+        name=name or first.package,
         interfaces=tuple(interfaces),
         events=(*events, *context.monitored()),
         functions=tuple(functions),

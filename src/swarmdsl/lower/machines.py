@@ -189,8 +189,17 @@ class _Builder:
             kind=ir.StateKind.COMPOSITE,
             initial=inner.ids[_initial(machine)],
             states=self.states(machine, inner),
+            # Its variables start anew each time: a counter of tries, for instance.
+            entry=(*_first_values(names, frame.context), *made.entry),
             submachine=frame.context.names[machine],
         )
+
+
+def _first_values(names: Mapping[Variable, str], context: Context) -> Iterator[ir.Assignment]:
+    for variable, name in names.items():
+        if variable.initial is not None:
+            value = lower_expression(variable.initial, context)
+            yield ir.Assignment(name, (), value, variable.name.span)
 
 
 def _ids(container: Container, prefix: str) -> dict[Vertex | Region, str]:
