@@ -24,7 +24,7 @@ NAMES = {entry.code: name for name, entry in CODES.items()}
 PAGES = {code: Page(page_path(code)) for code in NAMES}
 # No text of a model is behind these: the file system is, the command line or a generator.
 NO_MODEL = {
-    *("unreadable-file", "not-text", "nothing-to-compile"),
+    *("unreadable-file", "not-text", "nothing-to-compile", "control-character"),
     *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
     *("cannot-write", "target-left-out", "generator-failed"),
 }

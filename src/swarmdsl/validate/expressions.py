@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.folding import fold
 from swarmdsl.inference import Typing, assignable
 from swarmdsl.ir.types import BOOL, DURATION, Named
 from swarmdsl.syntax import (
@@ -11,6 +12,7 @@ from swarmdsl.syntax import (
     Entry,
     EventTrigger,
     Exit,
+    ExpressionTree,
     MessageType,
     MonitorTrigger,
     OperatorUse,
@@ -37,8 +39,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 context.check_default(node, node.initial)
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
-                tree = node.delay.tree
-                if isinstance(tree, OperatorUse) and len(tree.operands) == 1:
+                if node.delay.tree is not None and _negative(node.delay.tree):
                     context.report.report("negative-delay", node.delay.span)
             case Transition():
                 events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
@@ -54,6 +55,14 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
             case Branch():
                 context.expect(node.guard, BOOL, context.typing)
                 _check_effects(node.effects, context.typing, context)
+
+
+def _negative(delay: ExpressionTree) -> bool:
+    """Whether a delay is below zero, also that of a param: params of delays are not."""
+    value = fold(delay)
+    if isinstance(value, (int, float)):
+        return value < 0
+    return isinstance(delay, OperatorUse) and delay.operator == "-" and len(delay.operands) == 1
 
 
 def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> None:

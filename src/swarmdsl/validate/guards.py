@@ -43,7 +43,7 @@ def _check_alternatives(items: Sequence[Transition | Branch], context: Context) 
                 "constant-guard",
                 guard.span,
                 held=held,
-                help="remove it" if value else "remove the transition",
+                help="remove the guard" if value else "remove the transition",
             )
             continue
         triggers = getattr(item, "triggers", [])

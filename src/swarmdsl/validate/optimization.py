@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.enums import numbers, underlying
-from swarmdsl.expressions import UNITS
+from swarmdsl.folding import fold
 from swarmdsl.inference import is_number
 from swarmdsl.ir.types import INT, INTEGERS, Primitive, Type
 from swarmdsl.syntax import (
@@ -13,12 +13,10 @@ from swarmdsl.syntax import (
     Expression,
     Fitness,
     Objective,
-    OperatorUse,
     Optimization,
     Param,
     ParamRange,
     Setting,
-    Value,
 )
 from swarmdsl.validate.context import Context
 
@@ -140,10 +138,5 @@ def _check_range(
 
 
 def _number(expression: Expression) -> float | None:
-    """The value of a number or duration that is written out."""
-    sign, tree = 1, expression.tree
-    if isinstance(tree, OperatorUse) and tree.operator == "-" and len(tree.operands) == 1:
-        sign, tree = -1, tree.operands[0]
-    if isinstance(tree, Value) and isinstance(tree.value, (int, float)):
-        return sign * tree.value * UNITS.get(tree.unit, 1)
-    return None
+    value = fold(expression.tree) if expression.tree is not None else None
+    return value if isinstance(value, (int, float)) else None

@@ -1,0 +1,47 @@
+"""Files that the operating system does not let swarmc read."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+
+
+@pytest.fixture
+def locked(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Refuse to read `locked.swarm`, also to a user who may read everything."""
+    read = Path.read_bytes
+
+    def refuse(path: Path) -> bytes:
+        if path.name == "locked.swarm":
+            raise PermissionError(13, "Permission denied", str(path))
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", refuse)
+
+
+@pytest.mark.usefixtures("locked")
+def test_an_unreadable_file(tmp_path: Path) -> None:
+    model = tmp_path / "locked.swarm"
+    model.write_text("event Start : std_msgs/Empty\n", encoding="utf-8")
+
+    (found,) = compiler.check([model]).report
+
+    assert found.code == "SW0003"
+    assert found.message == f"cannot read `{model}`: permission denied"
+    assert found.primary is None
+
+
+@pytest.mark.usefixtures("locked")
+def test_an_unreadable_file_that_is_imported(tmp_path: Path) -> None:
+    (tmp_path / "locked.swarm").write_text("event Start : std_msgs/Empty\n", encoding="utf-8")
+    model = tmp_path / "model.swarm"
+    model.write_text('import "locked.swarm"\n\nevent Stop : std_msgs/Empty\n', encoding="utf-8")
+
+    (found,) = compiler.check([model]).report
+
+    assert found.code == "SW0003"
+    assert found.primary is not None
+    assert found.primary.span.text == '"locked.swarm"'
