@@ -118,6 +118,7 @@ CODES: dict[str, Code] = {
     "not-assignable": Code("SW0703", "error", "`{text}` cannot be assigned to"),
     "not-constant": Code("SW0704", "error", "the value must be known when the model is compiled"),
     "no-event-data": Code("SW0705", "error", "`event` has no data here"),
+    "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined by itself"),
     # ---- generators and output
     "unknown-target": Code("SW0901", "error", "no target called `{name}`"),
     "broken-generator": Code(

@@ -257,12 +257,12 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
 
 
 def constant(tree: ExpressionTree) -> bool:
-    """Whether the value is known without running anything."""
+    """Whether the value is known without running anything, as far as its names mean something."""
     match tree:
-        case Value() | NameUse(target=Constant()):
+        case Value() | NameUse(target=Constant() | EnumType() | None):
             return True
-        case FieldUse(base=NameUse(target=EnumType())):
-            return True
+        case FieldUse(base=base):
+            return constant(base)
         case OperatorUse(operands=operands):
             return all(constant(operand) for operand in operands)
         case Call(arguments=arguments):

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.inheritance import all_items
+from swarmdsl.link_constants import open_cycles
 from swarmdsl.link_machines import link_machine
 from swarmdsl.link_types import TypeLinker
 from swarmdsl.load import Project
@@ -89,6 +90,7 @@ def link(project: Project, report: Diagnostics) -> None:
             case Optimization():
                 _link_optimization(owner, scope, report)
         link_values(owner, values, scope, report)
+    open_cycles(project, report)
 
 
 def link_values(owner: Node, values: Values, scope: FileScope, report: Diagnostics) -> None:

@@ -7,6 +7,7 @@ from math import isinf
 from swarmdsl.syntax import (
     Environment,
     EnvironmentUse,
+    FitnessUse,
     Multiplicity,
     Role,
     Size,
@@ -35,6 +36,8 @@ def check_swarm(swarm: Swarm, context: Context) -> None:
             _check_multiplicity(role.multiplicity, context)
     uses = [item.span for item in swarm.items if isinstance(item, EnvironmentUse)]
     context.check_single(uses, "the environment")
+    goals = [item.span for item in swarm.items if isinstance(item, FitnessUse)]
+    context.check_single(goals, "the fitness")
 
 
 def check_environment(environment: Environment, context: Context) -> None:

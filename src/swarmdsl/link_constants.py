@@ -1,0 +1,31 @@
+"""Constants that are defined by themselves: the circle is reported and opened."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.graph import cycles
+from swarmdsl.load import Project
+from swarmdsl.syntax import Constant, NameUse, walk
+
+
+def open_cycles(project: Project, report: Diagnostics) -> None:
+    """Report each circle of constants; the use that closes it means nothing from then on."""
+    constants = [node for _, node in project.declarations() if isinstance(node, Constant)]
+
+    def used(constant: Constant) -> Iterator[tuple[NameUse, Constant]]:
+        for node in walk(constant):
+            if isinstance(node, NameUse) and isinstance(node.target, Constant):
+                yield node, node.target
+
+    for constant, uses in cycles(constants, used):
+        *way, last = uses
+        report.report(
+            "constant-cycle",
+            last.span,
+            name=constant.name,
+            related=tuple(Label(use.span, "by way of this") for use in way),
+            help="write the value of one of them" if way else "write its value",
+        )
+        last.target = None
