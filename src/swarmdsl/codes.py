@@ -145,6 +145,6 @@ CODES: dict[str, Code] = {
         "SW0914", "warning", "the code generated from `{path}` needs a line by hand: {what}"
     ),
     "value-not-a-number": Code(
-        "SW0915", "warning", "the CPSwarm code generator cannot read the value of param `{name}`"
+        "SW0915", "warning", "the CPSwarm code generator cannot read the value of {item}"
     ),
 }

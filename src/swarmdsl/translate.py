@@ -43,6 +43,7 @@ class Dialect:
     `operators` renames those the target spells otherwise; `literal`, `variable` and
     `param` print a leaf; `event` is the message of the triggering event; `functions`
     renames the built-in functions, to `.name` where the target has a property instead.
+    `modulo` prints `%`, whose result has the sign of the divisor in the language.
     """
 
     literal: Callable[[Literal], str]
@@ -51,6 +52,7 @@ class Dialect:
     event: str
     operators: Mapping[str, str]
     functions: Mapping[str, str]
+    modulo: Callable[[str, str], str] = "{} % {}".format
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
@@ -90,6 +92,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             comparison = level == _PRECEDENCE["=="]
             first = _operand(left, level + 1 if comparison else level, dialect)
             second = _operand(right, level + 1, dialect)
+            if operator == "%":
+                return dialect.modulo(first, second), level
             return f"{first} {dialect.operators.get(operator, operator)} {second}", level
 
 

@@ -348,12 +348,26 @@ def canonical(text: str | bytes) -> str:
     return str(etree.canonicalize(stripped, strip_text=True))
 
 
+WAY_OUT = "`--option scxml.profile=portable` asks for SCXML without it"
+
 UNSUPPORTED = {
     "a guard": "state A { on Found [event.level > 3] -> B }",
     "a choice": "state A { on Start -> C } choice C { else -> B }",
     "an assignment": "state A { on Found / n = event.level -> B }",
     "the sending of an event": 'state A { on Start / send Found(id = "", level = 1) -> B }',
     "a transition after a time": "state A { on Start -> B after 2 s -> B }",
+    "a history": """
+        state A { initial I state I { on Start -> J } state J { on Start -> I }
+                  history H -> I  on Abort -> B  on Low -> Away }
+        state Away { on Start -> A.H }
+    """,
+    "an effect on entry": "state A { entry / n = 1 on Start -> B }",
+    "an effect on exit": "state A { exit / n = 1 on Start -> B }",
+    "an internal transition": """
+        state A { initial I state I { on Start -> E } final E internal on Low -> I on done -> B }
+    """,
+    "a transition without a target": "state A { on Low / n = 1 on Start -> B }",
+    "a transition without a trigger": "state A { [n > 3] -> B on Start -> B }",
     "a transition into the inside of a state": """
         state A { on Start -> W.I }
         state W { initial I state I { on Abort -> E } final E on done -> B }
@@ -414,9 +428,33 @@ def test_what_the_dialect_cannot_say(
     )
     found = findings(system, "cpswarm")
 
-    assert f"target `scxml` cannot express {construct}" in [each.message for each in found]
+    message = f"the CPSwarm profile of target `scxml` cannot express {construct}"
+    assert message in [each.message for each in found]
+    assert {each.help for each in found} == {WAY_OUT}
     assert all(each.primary is not None for each in found)
     assert list(emit(system, "both", ["profile-left-out"])) == ["M.scxml"]
+
+
+def test_by_way_of_which_state_a_construct_comes_in(compiled: Compile, findings: Findings) -> None:
+    system = compiled(
+        """
+        statemachine Inner { initial A state A { after 1 s -> B } final B }
+        statemachine M {
+          initial First
+          state First { on Start -> Second }
+          state Second = Inner { on done -> Stop }
+          final Stop
+        }
+        """
+    )
+    of_inner, of_m = findings(system, "cpswarm")
+
+    assert of_inner.message == of_m.message
+    assert of_inner.related == ()
+    ((place, message),) = [(label.span.text, label.message) for label in of_m.related]
+    assert (place, message) == ("Second", "comes into `M` as part of this state")
+    left_out = [each for each in findings(system, "both") if "`M.c" in each.message]
+    assert [each.related for each in left_out] == [of_m.related]
 
 
 def test_a_machine_that_waits_for_nothing(compiled: Compile, findings: Findings) -> None:
@@ -437,9 +475,10 @@ def test_one_warning_for_a_file_that_is_left_out(compiled: Compile, findings: Fi
 
     assert found.name == "profile-left-out"
     assert found.notes == (
-        "target `scxml` cannot express a transition after a time",
+        "the CPSwarm profile of target `scxml` cannot express a transition after a time",
         "this is the first of 2 such places",
     )
+    assert found.help == WAY_OUT
     assert findings(system, "portable") == []
 
 
@@ -499,7 +538,6 @@ def test_what_a_person_has_to_add(
     [
         ("event Aborted : swarmros/SimpleEvent", "Aborted"),
         ("event start : swarmros/SimpleEvent", "start, Start"),
-        ('event Odd : swarmros/SimpleEvent on "it\'s"', "Odd"),
     ],
 )
 def test_names_that_the_dialect_cannot_take(

@@ -54,7 +54,9 @@ def test_a_machine_without_data_needs_no_data_model(parsed: Any) -> None:
     assert tree.get("datamodel") == "null"
     assert tree.get("initial") == "A"
     assert tree.find(f"{S}datamodel") is None
-    assert transitions(by_id(tree, "A")) == [("do.A.succeeded do.A.aborted", None, "B")]
+    assert transitions(by_id(tree, "A")) == [
+        ("do.A.succeeded do.A.aborted do.A.preempted", None, "B")
+    ]
     assert by_id(tree, "B").tag == f"{S}final"
 
 
@@ -426,7 +428,7 @@ def test_a_guard_sees_the_result(parsed: Any, written: Any, walk: Walk) -> None:
     assert transitions(by_id(parsed(body), "A")) == [
         ("do.A.succeeded", None, None),
         ("gives.A.succeeded", "n > 3", "B"),
-        ("gives.A.succeeded do.A.aborted", None, "C"),
+        ("gives.A.succeeded do.A.aborted do.A.preempted", None, "C"),
     ]
     document = written(body)
     assert walk(document, [("do.A.succeeded", {"count": 5})])[-1] == {"B"}

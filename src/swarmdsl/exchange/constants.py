@@ -9,12 +9,11 @@ from typing import Any
 
 from swarmdsl.ir import Binary, Call, Expression, Literal, Param, ParamRef, Unary
 from swarmdsl.ir.types import DURATION
+from swarmdsl.source import Span
 
 Value = bool | int | float | str
 
-_OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
-    "or": lambda left, right: left or right,
-    "and": lambda left, right: left and right,
+_OPERATIONS: dict[str, Callable[..., Any]] = {
     "==": operator.eq,
     "!=": operator.ne,
     "<": operator.lt,
@@ -26,8 +25,6 @@ _OPERATORS: dict[str, Callable[[Any, Any], Any]] = {
     "*": operator.mul,
     "/": operator.truediv,
     "%": operator.mod,
-}
-_FUNCTIONS: dict[str, Callable[..., Any]] = {
     "min": min,
     "max": max,
     "abs": abs,
@@ -36,18 +33,35 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
-def constant(expression: Expression, params: Mapping[str, Param]) -> Value | None:
-    """The value of an expression of literals and of params with a default; None for others.
+class UnknownValueError(Exception):
+    """The value depends on what is not known yet."""
 
-    Durations are in seconds, as rospy takes them.
-    """
+
+class UndefinedValueError(Exception):
+    """An operation has no result, or none that is a finite number."""
+
+    def __init__(self, operator: str, operands: list[str], origin: Span | None) -> None:
+        super().__init__(operator, operands, origin)
+        self.operator = operator
+        self.operands = operands
+        self.origin = origin
+
+
+def constant(expression: Expression, params: Mapping[str, Param]) -> Value | None:
+    """The value of an expression, as `evaluate` gives it; None where there is none."""
     try:
-        value: Value = _value(expression, params)
-    except (LookupError, ArithmeticError, ValueError):
+        return evaluate(expression, params)
+    except (UnknownValueError, UndefinedValueError):
         return None
-    if expression.type == DURATION and isinstance(value, int):
-        return value / 1_000_000_000
-    return value
+
+
+def evaluate(expression: Expression, params: Mapping[str, Param]) -> Value:
+    """The value of an expression of literals and of params with a default.
+
+    Durations are in seconds, as rospy takes them. Raises UnknownValueError or UndefinedValueError.
+    """
+    value: Value = _value(expression, params)
+    return value / 1_000_000_000 if expression.type == DURATION else value  # type: ignore[operator]
 
 
 def params_by_name(params: tuple[Param, ...]) -> dict[str, Param]:
@@ -56,20 +70,42 @@ def params_by_name(params: tuple[Param, ...]) -> dict[str, Param]:
 
 
 def _value(expression: Expression, params: Mapping[str, Param]) -> Any:
+    """The value; durations in nanoseconds."""
     match expression:
         case Literal(value=value):
             return value
         case ParamRef(name=name):
-            default = params[name].default
+            default = params[name].default if name in params else None
             if default is None:
-                raise LookupError(name)
+                raise UnknownValueError
             return _value(default, params)
         case Unary(operator="not", operand=operand):
             return not _value(operand, params)
         case Unary(operand=operand):
             return -_value(operand, params)
+        case Binary(operator="or", left=left, right=right):
+            return _value(left, params) or _value(right, params)
+        case Binary(operator="and", left=left, right=right):
+            return _value(left, params) and _value(right, params)
         case Binary(operator=symbol, left=left, right=right):
-            return _OPERATORS[symbol](_value(left, params), _value(right, params))
+            return _apply(symbol, (left, right), params, expression.origin)
         case Call(function=function, arguments=arguments):
-            return _FUNCTIONS[function](*(_value(argument, params) for argument in arguments))
-    raise LookupError(expression)
+            return _apply(function, arguments, params, expression.origin)
+    raise UnknownValueError
+
+
+def _apply(
+    operation: str,
+    operands: tuple[Expression, ...],
+    params: Mapping[str, Param],
+    origin: Span | None,
+) -> Any:
+    values = [_value(operand, params) for operand in operands]
+    try:
+        result = _OPERATIONS[operation](*values)
+        if not isinstance(result, float) or math.isfinite(result):
+            return result
+    except (ArithmeticError, ValueError):
+        pass
+    texts = [each.origin.text if each.origin else repr(each) for each in operands]
+    raise UndefinedValueError(operation, texts, origin)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
 from swarmdsl.exchange.scxml.portable import portable
+from swarmdsl.exchange.scxml.profile import HELP
 from swarmdsl.exchange.scxml.xml import document
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
@@ -57,8 +58,9 @@ def _report_left_out(machine: StateMachine, found: Diagnostics, report: Diagnost
     report.report(
         "profile-left-out",
         first.primary.span if first.primary is not None else machine.origin,
+        related=first.related,
         notes=tuple(notes),
-        help="option `profile` of the target says which files are wanted",
+        help=HELP,
         path=file_name(machine),
     )
 

@@ -14,6 +14,7 @@ from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.scxml.calls import Call, call_of
+from swarmdsl.exchange.scxml.profile import in_profile
 from swarmdsl.exchange.scxml.threads import (
     OUTCOMES,
     TARGET,
@@ -54,7 +55,7 @@ def cpswarm(machine: StateMachine, system: System, report: Diagnostics) -> etree
             _refuse(found, feature.value, origin)
     if not found.has_errors:
         document = _document(machine, system, found)
-    report.include(found)
+    report.include(in_profile(machine, found))
     return None if found.has_errors else document
 
 

@@ -5,8 +5,25 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from swarmdsl.ir import Array, Message, Primitive, System, Type
-from swarmdsl.translate import Dialect, ecmascript_literal
+from swarmdsl.exchange.scxml.effects import effects_of
+from swarmdsl.ir import (
+    Array,
+    Assignment,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    Message,
+    ParamRef,
+    Primitive,
+    StateMachine,
+    System,
+    TimeTrigger,
+    Trigger,
+    Type,
+    VariableRef,
+)
+from swarmdsl.translate import Dialect, ecmascript_literal, translate
 
 
 def dialect(data: Mapping[str, str]) -> Dialect:
@@ -24,7 +41,45 @@ def dialect(data: Mapping[str, str]) -> Dialect:
             "abs": "Math.abs",
             "len": ".length",
         },
+        modulo=_modulo,
     )
+
+
+def _modulo(left: str, right: str) -> str:
+    """The remainder with the sign of the divisor; that of `%` has the sign of the dividend."""
+    if "(" in right:
+        # Once only: the text of divisors in divisors would grow beyond all bounds.
+        return f"(function (a, b) {{ return ((a % b) + b) % b; }})({left}, {right})"
+    return f"(({left} % {right}) + {right}) % {right}"
+
+
+def stored(expression: Expression, words: Dialect) -> str:
+    """A value that is assigned or sent: of a message or an array, a copy, as ROS has it."""
+    text = translate(expression, words)
+    kept = isinstance(expression, (VariableRef, ParamRef, EventData, FieldAccess))
+    return copied(text) if kept and not isinstance(expression.type, Primitive) else text
+
+
+def copied(text: str) -> str:
+    """A copy of an object."""
+    return f"JSON.parse(JSON.stringify({text}))"
+
+
+def needs_data(machine: StateMachine) -> bool:
+    """Whether the machine is more than SCXML's null data model can say."""
+    if machine.variables or machine.params:
+        return True
+    if any(isinstance(effect, Assignment) or effect.arguments for effect in effects_of(machine)):
+        return True
+    return any(
+        transition.guard is not None or any(map(_is_computed, transition.triggers))
+        for state in machine.walk()
+        for transition in state.transitions
+    )
+
+
+def _is_computed(trigger: Trigger) -> bool:
+    return isinstance(trigger, TimeTrigger) and not isinstance(trigger.delay, Literal)
 
 
 def first_value(type_: Type, system: System) -> str:
@@ -36,14 +91,14 @@ def first_value(type_: Type, system: System) -> str:
 
 def _default(type_: Type, system: System) -> object:
     match type_:
-        case Primitive(name="string"):
+        case Primitive(name="string" | "wstring"):
             return ""
         case Primitive(name="bool"):
             return False
         case Primitive():
             return 0
-        case Array(element=element, size=size):
-            return [_default(element, system)] * (size or 0)
+        case Array(element=element, size=size, bounded=bounded):
+            return [] if bounded else [_default(element, system)] * (size or 0)
     described = system.interface(type_)
     if not isinstance(described, Message):
         return {}

@@ -12,6 +12,7 @@ from lxml import etree
 
 from swarmdsl.exchange.constants import params_by_name
 from swarmdsl.exchange.policy import goal_policy, result_policy
+from swarmdsl.exchange.scxml.effects import effects_of
 from swarmdsl.exchange.scxml.xml import add_payload, legal
 from swarmdsl.ir import (
     Activity,
@@ -19,6 +20,7 @@ from swarmdsl.ir import (
     Param,
     Send,
     State,
+    StateKind,
     StateMachine,
     System,
 )
@@ -70,6 +72,11 @@ def describe_state(
 ) -> None:
     """Say of a state what SCXML cannot."""
     _doc(element, state.doc)
+    name = state.name if state.name != element.get("id") else None
+    kind = state.kind.value if state.kind is StateKind.CHOICE else None
+    if name or kind:
+        # Not called `state`: there are engines that do not look at namespaces.
+        add_payload(element, "vertex", name=name, kind=kind)
     if state.submachine is not None:
         add_payload(element, "submachine", name=state.submachine)
     if state.activity is not None:
@@ -105,9 +112,9 @@ def _events(machine: StateMachine) -> Iterator[str]:
             for trigger in transition.triggers:
                 if isinstance(trigger, EventTrigger):
                     yield trigger.event
-            for effect in transition.effects:
-                if isinstance(effect, Send):
-                    yield effect.event
+    for effect in effects_of(machine):
+        if isinstance(effect, Send):
+            yield effect.event
 
 
 def _doc(parent: etree._Element, text: str) -> None:

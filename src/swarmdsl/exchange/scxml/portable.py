@@ -1,31 +1,28 @@
 """The portable profile: a state machine as W3C SCXML that any engine can run.
 
-Events that the machine itself makes begin with a keyword of the language, so they differ
-from every event of the model:
-
-    do.<state>.<outcome>     the activity of a state ended; its data are the result
-    gives.<state>.succeeded  the same, once the result is stored
-    after.<state>.<n>        the n-th delay of a state has passed
-    final.<final state>      a final state was entered; comes before done.state.<state>
+The effects of entering a state come before its delays start and its activity does: both may
+use what the effects store. Each group is an element of its own, because an effect that fails
+keeps those after it in the same element from being done.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import reduce
 
 from lxml import etree
 
-from swarmdsl.exchange.scxml.ecmascript import dialect, first_value
+from swarmdsl.exchange.scxml.ecmascript import copied, dialect, first_value, needs_data, stored
+from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
 from swarmdsl.ir import (
     Assignment,
-    DoneTrigger,
+    Binary,
     Effect,
-    EventTrigger,
     Expression,
     Literal,
     OutcomeTrigger,
@@ -34,16 +31,20 @@ from swarmdsl.ir import (
     StateKind,
     StateMachine,
     System,
-    TimeTrigger,
     Transition,
-    Trigger,
+    Unary,
 )
+from swarmdsl.ir.types import BOOL
 from swarmdsl.translate import Dialect, translate
 
 # The type of a <send> that leaves the machine: it is the business of the host.
 SEND_TYPE = "urn:swarmdsl:swarm"
 
-_TAGS = {StateKind.PARALLEL: "parallel", StateKind.FINAL: "final"}
+_TAGS = {
+    StateKind.PARALLEL: "parallel",
+    StateKind.FINAL: "final",
+    StateKind.HISTORY: "history",
+}
 
 
 def portable(machine: StateMachine, system: System) -> etree._Element:
@@ -54,12 +55,12 @@ def portable(machine: StateMachine, system: System) -> etree._Element:
         {None: SCXML, "sw": PAYLOAD},
         name=machine.name,
         version="1.0",
-        datamodel="ecmascript" if _needs_data(machine) else "null",
+        datamodel="ecmascript" if needs_data(machine) else "null",
         initial=ids[machine.initial],
     )
     describe_machine(document, machine, system, data)
     _add_data(document, machine, system, data)
-    writer = _StateWriter(machine, ids, dialect(data), _told_apart(machine))
+    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids))
     for state in machine.states:
         writer.add_state(document, state)
     return document
@@ -83,61 +84,49 @@ def _add_data(
         add(model, "data", id=data[variable.name], expr=first)
 
 
-def _needs_data(machine: StateMachine) -> bool:
-    """Whether the machine is more than SCXML's null data model can say."""
-    if machine.variables or machine.params:
-        return True
-    return any(
-        transition.guard is not None
-        or any(isinstance(effect, Assignment) or effect.arguments for effect in transition.effects)
-        for state in machine.walk()
-        for transition in state.transitions
-    )
-
-
-def _told_apart(machine: StateMachine) -> frozenset[str]:
-    """States of which some transition wants to know in which final state they are."""
-    return frozenset(
-        trigger.state
-        for state in machine.walk()
-        for transition in state.transitions
-        for trigger in transition.triggers
-        if isinstance(trigger, DoneTrigger) and trigger.final is not None
-    )
-
-
 @dataclass(frozen=True)
 class _StateWriter:
     machine: StateMachine
     ids: Mapping[str, str]
     dialect: Dialect
-    told_apart: frozenset[str]
+    events: Events
 
-    def add_state(self, parent: etree._Element, state: State, raises: bool = False) -> None:
-        """Add a state and what is in it; a final state that `raises` says which one it is."""
+    def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
+        """Add a state and what is in it."""
+        depth = ("deep" if state.deep else "shallow") if state.kind is StateKind.HISTORY else None
         element = add(
             parent,
             _TAGS.get(state.kind, "state"),
             id=self.ids[state.id],
             initial=self.ids[state.initial] if state.initial is not None else None,
+            type=depth,
         )
         describe_state(element, state, self.machine, self.dialect)
-        if raises:
-            add(add(element, "onentry"), "raise", event=f"final.{self.ids[state.id]}")
+        if (
+            state.kind is StateKind.FINAL
+            and around is not None
+            and around.id in self.events.told_apart
+        ):
+            add(add(element, "onentry"), "raise", event=self.events.final(state.id))
+        if state.entry:
+            self._add_effects(add(element, "onentry"), state.entry)
         self._add_timers(element, state)
+        if state.exit:
+            self._add_effects(add(element, "onexit"), state.exit)
         self._add_transitions(element, state)
+        if around is not None and around.kind is StateKind.PARALLEL:
+            self._add_inward(element, state, around)
         for child in state.states:
-            is_final = child.kind is StateKind.FINAL
-            self.add_state(element, child, is_final and state.id in self.told_apart)
+            self.add_state(element, child, state)
 
     def _add_timers(self, element: etree._Element, state: State) -> None:
-        delays = _delays(state)
-        if not delays:
+        waiting = delays(state)
+        if not waiting:
             return
         entry = add(element, "onentry")
         leave = add(element, "onexit")
-        for delay in delays:
-            event = self._event(TimeTrigger(delay), state)
+        for delay in waiting:
+            event = self.events.timer(state, delay)
             given = {"delayexpr": f'Math.ceil({translate(delay, self.dialect)}) + "ms"'}
             if isinstance(delay, Literal):
                 # Some engines take whole numbers only; none may fire too early.
@@ -151,84 +140,106 @@ class _StateWriter:
         taken = [each for each in state.transitions if end in each.triggers]
         # A guard must see the result already; other triggers of a transition bring none.
         first = any(each.guard is not None or len(each.triggers) > 1 for each in taken)
-        stored = f"gives.{self.ids[state.id]}.succeeded"
+        done = self.events.stored(state)
         if results and (first or not taken):
-            storing = add(element, "transition", event=self._event(end, state))
-            add(storing, "raise", event=stored)
+            storing = add(element, "transition", event=self.events.outcome(state, "succeeded"))
+            add(storing, "raise", event=done)
             self._add_results(storing, state)
         for transition in state.transitions:
             events = [
-                stored if results and first and trigger == end else self._event(trigger, state)
+                done if results and first and trigger == end else event
                 for trigger in transition.triggers
+                for event in self.events.of_trigger(trigger, state)
             ]
-            added = self._add_transition(element, transition, events)
+            if _region_entered(transition, state) is not None:
+                # What it does stands in the region. Here it keeps those after it from being taken.
+                self._add_transition(element, events, transition.guard)
+                continue
+            added = self._add_transition(
+                element, events, transition.guard, transition.internal, transition.target
+            )
             if results and not first and end in transition.triggers:
                 self._add_results(added, state)
-            for effect in transition.effects:
-                self._add_effect(added, effect)
+            self._add_effects(added, transition.effects)
+
+    def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
+        """Add the internal transitions of a parallel state that lead into this region.
+
+        SCXML has internal transitions of compound states only. A region takes its own before
+        those of the parallel state: the earlier ones there must not be enabled.
+        """
+        for index, transition in enumerate(around.transitions):
+            if _region_entered(transition, around) is not region:
+                continue
+            for event in self.events.of_transition(transition, around):
+                guards = [
+                    earlier.guard
+                    for earlier in around.transitions[:index]
+                    if event in self.events.of_transition(earlier, around)
+                ]
+                if None not in guards:
+                    guard = _all([*(_not(each) for each in guards if each)], transition.guard)
+                    events = [event] if event else []
+                    added = self._add_transition(element, events, guard, True, transition.target)
+                    self._add_effects(added, transition.effects)
 
     def _add_transition(
-        self, element: etree._Element, transition: Transition, events: list[str]
+        self,
+        element: etree._Element,
+        events: list[str],
+        guard: Expression | None,
+        internal: bool = False,
+        target: str | None = None,
     ) -> etree._Element:
-        guard = transition.guard
         return add(
             element,
             "transition",
             event=" ".join(dict.fromkeys(events)) or None,
             cond=translate(guard, self.dialect) if guard is not None else None,
-            type="internal" if transition.internal else None,
-            target=self.ids[transition.target] if transition.target is not None else None,
+            type="internal" if internal else None,
+            target=self.ids[target] if target is not None else None,
         )
 
     def _add_results(self, element: etree._Element, state: State) -> None:
         assert state.activity is not None
+        kept = set()
         for mapping in state.activity.results:
             location = self._location(mapping.variable, mapping.path)
-            add(element, "assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
+            value = f"{self.dialect.event}.{mapping.field}"
+            if mapping.field in kept:
+                # A result is nobody else's, until a second variable gets it.
+                value = copied(value)
+            add(element, "assign", location=location, expr=value)
+            kept.add(mapping.field)
 
-    def _add_effect(self, element: etree._Element, effect: Effect) -> None:
-        match effect:
-            case Assignment(variable=variable, path=path, value=value):
-                location = self._location(variable, path)
-                add(element, "assign", location=location, expr=translate(value, self.dialect))
-            case Send(event=event, arguments=arguments):
-                sending = add(element, "send", event=event, type=SEND_TYPE)
-                for name, value in arguments:
-                    add(sending, "param", name=name, expr=translate(value, self.dialect))
+    def _add_effects(self, element: etree._Element, effects: Iterable[Effect]) -> None:
+        for effect in effects:
+            match effect:
+                case Assignment(variable=variable, path=path, value=value):
+                    location = self._location(variable, path)
+                    add(element, "assign", location=location, expr=stored(value, self.dialect))
+                case Send(event=event, arguments=arguments):
+                    sending = add(element, "send", event=event, type=SEND_TYPE)
+                    for name, value in arguments:
+                        add(sending, "param", name=name, expr=stored(value, self.dialect))
 
     def _location(self, variable: str, path: tuple[str, ...]) -> str:
         return ".".join((self.dialect.variable(variable), *path))
 
-    def _event(self, trigger: Trigger, state: State) -> str:
-        """The event, or the events, that a trigger of this state means."""
-        match trigger:
-            case EventTrigger(event=event):
-                return event
-            case OutcomeTrigger(state=owner, outcome=outcome):
-                return f"do.{self.ids[owner]}.{outcome}"
-            case TimeTrigger(delay=delay):
-                return f"after.{self.ids[state.id]}.{_delays(state).index(delay) + 1}"
-            case DoneTrigger(state=owner, final=final):
-                if final is not None:
-                    return f"final.{self.ids[final]}"
-                return self._done(owner)
 
-    def _done(self, owner: str) -> str:
-        if owner not in self.told_apart:
-            return f"done.state.{self.ids[owner]}"
-        # `done.state` would come second, when what the first event led to is over already.
-        completed = next(each for each in self.machine.walk() if each.id == owner)
-        finals = [each.id for each in completed.states if each.kind is StateKind.FINAL]
-        return " ".join(f"final.{self.ids[final]}" for final in finals)
+def _region_entered(transition: Transition, state: State) -> State | None:
+    """The region that an internal transition of a parallel state leads into."""
+    if state.kind is not StateKind.PARALLEL or not transition.internal:
+        return None
+    target = f"{transition.target}."
+    return next((region for region in state.states if target.startswith(f"{region.id}.")), None)
 
 
-def _delays(state: State) -> list[Expression]:
-    """The different delays of a state: transitions after the same time share a timer."""
-    return list(
-        dict.fromkeys(
-            trigger.delay
-            for transition in state.transitions
-            for trigger in transition.triggers
-            if isinstance(trigger, TimeTrigger)
-        )
-    )
+def _not(guard: Expression) -> Expression:
+    return Unary("not", guard, BOOL)
+
+
+def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:
+    """The conjunction of guards; None when there is none."""
+    given = [*guards, *([last] if last is not None else [])]
+    return reduce(lambda left, right: Binary("and", left, right, BOOL), given) if given else None
