@@ -91,13 +91,18 @@ class Typing:
                 return self._enum_value(enum, name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
-            case Call():
-                return self._call(tree)
-            case OperatorUse(operands=(operand,)):
-                return self._unary(tree, self.infer(operand))
-            case OperatorUse(operands=(left, right)):
-                return self._binary(tree, self.infer(left), self.infer(right))
+            case Call(arguments=operands) | OperatorUse(operands=operands):
+                return self.result(tree, [self.infer(operand) for operand in operands])
         raise AssertionError(tree)
+
+    def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
+        """The type of an operation on operands of these types."""
+        if isinstance(tree, Call):
+            return self._call(tree, types)
+        if len(types) == 1:
+            return self._unary(tree, types[0])
+        left, right = types
+        return self._binary(tree, left, right)
 
     def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> None:
         """Report an expression whose value cannot be used as a `wanted`."""
@@ -147,8 +152,7 @@ class Typing:
             return None
         return enum.type
 
-    def _call(self, call: Call) -> Type | None:
-        types = [self.infer(argument) for argument in call.arguments]
+    def _call(self, call: Call, types: list[Type | None]) -> Type | None:
         count = _FUNCTIONS.get(call.function)
         if count is None:
             report_unresolved(

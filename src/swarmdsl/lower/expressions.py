@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from swarmdsl import ir
-from swarmdsl.enums import numbers, underlying
+from swarmdsl.enums import numbers
 from swarmdsl.expressions import UNITS
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
@@ -47,51 +49,72 @@ def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str
 
 
 def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
-    type_ = context.typing.infer(tree)
-    type_ = context.plain(type_) if type_ is not None else None
+    """An expression; its type follows from its parts, which may stand for other values here."""
     match tree:
         case Value():
-            return _literal(tree)
-        case NameUse(name="event"):
-            assert type_ is not None
-            return ir.EventData(type_, tree.span)
-        case NameUse(target=Variable() as variable):
-            assert type_ is not None
-            return ir.VariableRef(context.variables.get(variable, tree.name), type_, tree.span)
-        case NameUse(target=Param() as param):
-            assert type_ is not None
-            if param in context.values:
-                return context.values[param]
-            return ir.ParamRef(tree.name, type_, tree.span)
+            return _literal(tree, 1)
+        case OperatorUse(operator="-", operands=(Value(value=int() | float()) as value,)):
+            return _literal(value, -1)
+        case NameUse(target=Param() as param) if param in context.values:
+            return context.values[param]
         case NameUse(target=Constant() as constant):
             return lower_expression(constant.value, context)
-        case NameUse(target=FitnessInput()):
-            assert type_ is not None
-            return ir.VariableRef(tree.name, type_, tree.span)
+        case NameUse():
+            return _name(tree, context)
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-            return ir.Literal(numbers(enum)[str(name)], underlying(enum), tree.span)
+            return ir.Literal(numbers(enum)[str(name)], INT, tree.span)
         case FieldUse(base=base, name=name):
-            return ir.FieldAccess(_lower(base, context), str(name), type_, tree.span)
+            owner = _lower(base, context)
+            type_ = context.typing.field(owner.type, name, name.span)
+            type_ = context.plain(type_) if type_ is not None else None
+            return ir.FieldAccess(owner, str(name), type_, tree.span)
         case Call(function=function, arguments=arguments):
             values = tuple(_lower(argument, context) for argument in arguments)
-            return ir.Call(str(function), values, type_, tree.span)
-        case OperatorUse(operator=operator, operands=(operand,)):
-            return ir.Unary(str(operator), _lower(operand, context), type_, tree.span)
-        case OperatorUse(operator=operator, operands=(left, right)):
-            return ir.Binary(
-                str(operator), _lower(left, context), _lower(right, context), type_, tree.span
-            )
+            return ir.Call(str(function), values, _result(tree, values, context), tree.span)
+        case OperatorUse(operator=operator, operands=operands):
+            values = tuple(_lower(operand, context) for operand in operands)
+            type_ = _result(tree, values, context)
+            if len(values) == 1:
+                return ir.Unary(str(operator), values[0], type_, tree.span)
+            return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
     raise AssertionError(tree)
 
 
-def _literal(value: Value) -> ir.Literal:
+def _name(use: NameUse, context: Context) -> ir.Expression:
+    type_ = context.typing.infer(use)
+    assert type_ is not None
+    type_ = context.plain(type_)
+    match use.target:
+        case Param():
+            return ir.ParamRef(use.name, type_, use.span)
+        case Variable() as variable:
+            return ir.VariableRef(context.variables.get(variable, use.name), type_, use.span)
+        case FitnessInput():
+            return ir.VariableRef(use.name, type_, use.span)
+    assert use.name == "event"
+    return ir.EventData(type_, use.span)
+
+
+def _result(
+    tree: Call | OperatorUse, operands: tuple[ir.Expression, ...], context: Context
+) -> ir.Type | None:
+    return context.typing.result(tree, [operand.type for operand in operands])
+
+
+def _literal(value: Value, sign: int) -> ir.Literal:
     match value.value:
-        case int() | float() if value.unit:
-            return ir.Literal(round(value.value * UNITS[value.unit]), DURATION, value.span)
         case bool():
             return ir.Literal(value.value, BOOL, value.span)
+        case int() | float() if value.unit:
+            return ir.Literal(sign * _nanoseconds(value), DURATION, value.span)
         case int():
-            return ir.Literal(value.value, INT, value.span)
+            return ir.Literal(sign * value.value, INT, value.span)
         case float():
-            return ir.Literal(value.value, FLOAT, value.span)
+            return ir.Literal(sign * value.value, FLOAT, value.span)
     return ir.Literal(value.value, STRING, value.span)
+
+
+def _nanoseconds(duration: Value) -> int:
+    """The length of a duration: exactly as written, which a float may not be."""
+    number = duration.span.text.removesuffix(duration.unit).rstrip()
+    return round(Fraction(number) * UNITS[duration.unit])

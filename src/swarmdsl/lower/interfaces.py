@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl import ir
 from swarmdsl.enums import numbers, underlying
+from swarmdsl.ir.types import INT
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File
 from swarmdsl.lower.context import Context
@@ -69,7 +70,7 @@ def _values(enum: EnumType) -> tuple[ir.Constant, ...]:
         ir.Constant(
             str(value.name),
             type_,
-            ir.Literal(known[str(value.name)], type_, value.span),
+            ir.Literal(known[str(value.name)], INT, value.span),
             value.doc,
             value.name.span,
         )
@@ -93,10 +94,11 @@ def lower_operations(
     """The operations of a component: functions called as services of its own package."""
     services = []
     functions = []
+    owner = context.names[component]
     for operation in component.items:
         if not isinstance(operation, Operation):
             continue
-        type_ = interface_name(file, f"{component.name}{camel_case(operation.name)}")
+        type_ = interface_name(file, f"{owner}{camel_case(operation.name)}")
         fields = {
             direction: tuple(
                 ir.Field(str(p.name), context.type_of(p.type), p.doc, p.name.span)
@@ -109,7 +111,7 @@ def lower_operations(
         services.append(
             ir.Service(type_, fields["in"], fields["out"], False, operation.doc, origin)
         )
-        server = f"{snake_case(component.name)}/{operation.name}"
+        server = f"{snake_case(owner)}/{operation.name}"
         call = ir.Communication("service", server, type_, "", origin)
         name = context.operations[operation]
         functions.append(ir.Function(name, "abstraction", call, (), (), operation.doc, origin))
