@@ -133,7 +133,9 @@ def _monitors(
             topic, type_ = str(node.topic), node.type.type
             if (topic, type_) in found:
                 continue
-            name = camel_case(topic) or "Topic"
+            name = camel_case(topic)
+            if not name[:1].isalpha():
+                name = f"Topic{name}"
             while name in taken:
                 name += "_"
             taken.add(name)

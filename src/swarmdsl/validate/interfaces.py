@@ -20,6 +20,7 @@ from swarmdsl.syntax import (
     Function,
     FunctionPort,
     MessageType,
+    MonitorTrigger,
     Param,
     Port,
     ServiceType,
@@ -107,23 +108,30 @@ def check_graph_name(name: Word, what: str, context: Context) -> None:
 
 
 def check_topics(project: Project, report: Diagnostics) -> None:
-    """Two events on one topic carry one type of message."""
-    first: dict[tuple[str, bool], Event] = {}
-    for file, event in project.declarations():
-        if not isinstance(event, Event) or file.library:
-            continue
-        topic = str(event.topic) if event.topic is not None else snake_case(event.name)
-        known = first.setdefault((topic, event.swarm), event)
-        if None not in (known.type.type, event.type.type) and known.type.type != event.type.type:
-            report.report(
-                "topic-types",
-                event.type.span,
-                topic=topic,
-                first=known.type.type,
-                second=event.type.type,
-                related=(Label(known.type.span, "declared here"),),
-                help='give one of the events another topic: `on "name"`',
-            )
+    """Two events on one topic, declared or monitored, carry one type of message."""
+    first: dict[tuple[str, bool], TypeRef] = {}
+    for file, declaration in project.declarations():
+        for node in () if file.library else walk(declaration):
+            match node:
+                case Event(topic=None, swarm=swarm, type=type_):
+                    topic = snake_case(node.name)
+                case Event(topic=Word() as topic, swarm=swarm, type=type_):
+                    pass
+                case MonitorTrigger(topic=topic, type=type_):
+                    swarm = False
+                case _:
+                    continue
+            known = first.setdefault((str(topic), swarm), type_)
+            if None not in (known.type, type_.type) and known.type != type_.type:
+                report.report(
+                    "topic-types",
+                    type_.span,
+                    topic=topic,
+                    first=known.type,
+                    second=type_.type,
+                    related=(Label(known.span, "declared here"),),
+                    help='give one of the events another topic: `on "name"`',
+                )
 
 
 def check_function(function: Function, context: Context) -> None:
