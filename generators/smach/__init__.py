@@ -10,14 +10,5 @@ generator = Generator(
     summary="ROS 1 (noetic): a catkin package that runs the state machines with SMACH",
     emit=emit,
     options_type=Options,
-    supports=ALL_FEATURES
-    - {
-        Feature.INTO_STATE,
-        Feature.HISTORY,
-        Feature.ENTRY,
-        Feature.EXIT,
-        Feature.INTERNAL,
-        Feature.TARGETLESS,
-        Feature.EVENTLESS,
-    },
+    supports=ALL_FEATURES - {Feature.INTO_STATE, Feature.HISTORY, Feature.INTERNAL},
 )

@@ -77,7 +77,7 @@ def _fill(
     """Where the content of the goal or request comes from."""
     if activity.goal_callback is not None:
         name = _callback(activity, activity.goal_callback, f"userdata, {word}", interface, module)
-        interface.keywords.append((f"{word}_cb", Source(name)))
+        interface.keywords.append((f"{word}_cb", _step(name, module)))
         return
     if not activity.arguments:
         return
@@ -99,7 +99,7 @@ def _fill(
         [layout(message, 1, f"{STEP}return ")],
         place(activity.origin),
     )
-    interface.keywords.append((f"{word}_cb", Source(name)))
+    interface.keywords.append((f"{word}_cb", _step(name, module)))
     interface.inputs += [key for _, value in activity.arguments for key in keys(value)]
 
 
@@ -120,7 +120,7 @@ def _store_response(
         )
     else:
         return
-    interface.keywords.append(("response_cb", Source(name)))
+    interface.keywords.append(("response_cb", _step(name, module)))
 
 
 def _store_result(
@@ -147,7 +147,13 @@ def _store_result(
         module.imports.name("actionlib_msgs.msg", "GoalStatus")
     name = module.add_function((state.id, "result"), parameters, body, place(activity.origin))
     by_user = activity.result_callback is not None
-    interface.keywords.append(("result_cb", _aborting(name, module) if by_user else Source(name)))
+    interface.keywords.append(
+        ("result_cb", _aborting(name, module) if by_user else _step(name, module))
+    )
+
+
+def _step(callback: str, module: Module) -> Call:
+    return Call(module.own("states", "step"), (Source(callback),))
 
 
 def _aborting(callback: str, module: Module) -> Call:

@@ -73,9 +73,9 @@ def field_name(name: str) -> str:
 def default_value(type_: Type, imports: Imports) -> str:
     """The value of a variable that the model gives none."""
     match type_:
-        case Array(element=Primitive(name="uint8" | "char"), size=size):
-            return "b''" if size is None else f"bytes({size})"
-        case Array(size=None):
+        case Array(element=Primitive(name="uint8" | "char"), size=size, bounded=bounded):
+            return "b''" if size is None or bounded else f"bytes({size})"
+        case Array(size=None) | Array(bounded=True):
             return "[]"
         case Array(element=element, size=size):
             return f"[{default_value(element, imports)} for _ in range({size})]"
@@ -83,7 +83,7 @@ def default_value(type_: Type, imports: Imports) -> str:
             return f"{imports.interface(type_, 'msg')}()"
         case Primitive(name="bool"):
             return "False"
-        case Primitive(name="string"):
+        case Primitive(name="string" | "wstring"):
             return "''"
         case Primitive(name="time" | "duration" as name):
             imports.module("rospy")

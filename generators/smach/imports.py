@@ -10,38 +10,59 @@ from swarmdsl.ir import Named
 from .python import WIDTH
 
 # Names that generated modules use for something else.
-_TAKEN = ("Concurrence", "Decision", "Event", "GoalStatus", "Monitor", "StateMachine", "Timer")
+_TAKEN = (
+    "Concurrence",
+    "Condition",
+    "Decision",
+    "Event",
+    "GoalStatus",
+    "Monitor",
+    "STAYS",
+    "StateMachine",
+    "Timer",
+    "Wait",
+    "aborting",
+    "build",
+    "callbacks",
+    "concurrence",
+    "copy",
+    "event",
+    "events",
+    "initial_userdata",
+    "machine",
+    "math",
+    "result",
+    "rospy",
+    "smach",
+    "smach_ros",
+    "status",
+    "step",
+    "userdata",
+)
 _TAKEN_MODULE = "this module"
-_STANDARD = ("copy", "math", "sys", "threading")
+_STANDARD = ("copy", "math")
 
 
 @dataclass(frozen=True)
 class RosTypes:
-    """The interfaces a package uses, and which of them it defines itself.
+    """The package that is generated, and which names of interfaces are not enough in it.
 
-    Where two of them have one name, both are called by their modules.
+    Such an interface is called by its module.
     """
 
     package: str
-    own: frozenset[Named]
     ambiguous: frozenset[str]
 
-    def ros_package(self, type_: Named) -> str:
-        """The ROS package that defines it."""
-        return self.package if type_ in self.own else type_.package
 
-
-def ros_types(package: str, own: Iterable[Named], used: Iterable[tuple[Named, str]]) -> RosTypes:
+def ros_types(package: str, taken: Iterable[str], used: Iterable[tuple[Named, str]]) -> RosTypes:
     """Find the ambiguous names; a type is used as `msg`, `srv` or `action`."""
-    types = RosTypes(package, frozenset(own), frozenset())
-    owners = {name: {_TAKEN_MODULE} for name in _TAKEN}
+    owners = {name: {_TAKEN_MODULE} for name in (*_TAKEN, *taken)}
     for type_, kind in used:
-        module = f"{types.ros_package(type_)}.{'srv' if kind == 'srv' else 'msg'}"
+        module = f"{type_.package}.{'srv' if kind == 'srv' else 'msg'}"
         suffixes = {"srv": ("", "Request"), "action": ("Action", "Goal")}.get(kind, ("",))
         for suffix in suffixes:
             owners.setdefault(type_.name + suffix, set()).add(module)
-    ambiguous = frozenset(name for name, modules in owners.items() if len(modules) > 1)
-    return RosTypes(package, types.own, ambiguous)
+    return RosTypes(package, frozenset(name for name, known in owners.items() if len(known) > 1))
 
 
 class Imports:
@@ -63,7 +84,7 @@ class Imports:
 
     def interface(self, type_: Named, kind: str, suffix: str = "") -> str:
         """Need a type of `pkg.msg` or `pkg.srv`; return how to write it."""
-        module, name = f"{self.types.ros_package(type_)}.{kind}", type_.name + suffix
+        module, name = f"{type_.package}.{kind}", type_.name + suffix
         if name not in self.types.ambiguous:
             return self.name(module, name)
         self.module(module)

@@ -3,27 +3,45 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.ir import Param, StateMachine, System, Variable
+from swarmdsl.ir import (
+    Constant,
+    Event,
+    Field,
+    Interface,
+    Message,
+    Param,
+    StateMachine,
+    System,
+    Variable,
+)
 from swarmdsl.naming import is_python_name, is_ros_package_name, snake_case
 from swarmdsl.source import Span
 
-from .module import PREEMPTED, TARGET
+from .interfaces import parts
+from .module import TARGET, fresh
 
 # What smach.UserData has as methods cannot be read as a value.
 _USERDATA = ("extract", "keys", "merge", "update")
 _MODULES = ("callbacks", "containers", "events", "states")
+# A package of such a name would hide what the nodes import.
+_IMPORTED = (
+    *("copy", "functools", "math", "sys", "threading", "traceback"),
+    *("actionlib", "actionlib_msgs", "rospy", "smach", "smach_ros"),
+)
+_PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
+_FIELD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 
 def package_name(system: System, option: str, report: Diagnostics) -> str:
     """The name of the package: that of the option, else made from the system's."""
     name = option or f"{snake_case(system.name)}_behavior"
-    if not is_ros_package_name(name):
+    if not is_ros_package_name(name) or name in _IMPORTED:
         if option:
-            fault = f"`{option}` is no ROS package name: lower-case letters, digits and `_`"
+            fault = f"`{option}` cannot be the name of the package: {_PACKAGE_NAMES}"
             report.report("bad-option", target=TARGET, fault=fault)
         else:
             hint = "give the package a name with the option `package`"
@@ -38,7 +56,7 @@ def module_names(machines: Iterable[StateMachine], report: Diagnostics) -> dict[
     for machine in machines:
         module = snake_case(machine.name)
         if not is_python_name(module) or module in _MODULES:
-            _bad(report, module, "a module name", machine.origin)
+            _bad(report, module or machine.name, "a module name", machine.origin)
         elif module in owners:
             first = owners[module].origin
             related = (Label(first, "the first is here"),) if first else ()
@@ -56,8 +74,6 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
         if not is_python_name(named.name) or named.name.startswith("_") or named.name in _USERDATA:
             _bad(report, named.name, "a key of userdata", named.origin)
     for state in machine.walk():
-        if state.name == PREEMPTED:
-            _bad(report, state.name, "the name of a state", state.origin)
         activity = state.activity
         if activity is None:
             continue
@@ -66,21 +82,51 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
                 _bad(report, callback, "the name of a function", activity.origin)
 
 
-def check_interfaces(system: System, report: Diagnostics) -> None:
-    """Check the names of the interfaces that the package defines."""
-    owners: dict[str, Span | None] = {}
-    for interface in system.interfaces:
-        if interface.external:
-            continue
-        name = interface.type.name
-        if not _INTERFACE.fullmatch(name):
-            hint = "a ROS interface starts with a capital letter and has letters and digits only"
-            _bad(report, name, "the name of an interface", interface.origin, help=hint)
-        elif name in owners:
-            first = owners[name]
+def check_interface_package(
+    name: str, interfaces: Sequence[Interface], behavior: str, report: Diagnostics
+) -> None:
+    """Check the name of a package of interfaces, and the names in it."""
+    at = interfaces[0].origin
+    if not is_ros_package_name(name) or name in _IMPORTED:
+        _bad(report, name, "the name of a ROS package", at, help=_PACKAGE_NAMES)
+    elif name == behavior:
+        use = "the package of its interfaces: the package with the behaviour has that name"
+        _bad(report, name, use, at, help="give that one another name with the option `package`")
+    known: dict[str, Span | None] = {}
+    for interface in interfaces:
+        _check_interface(interface, report)
+        first = known.setdefault(interface.type.name, interface.origin)
+        if first is not interface.origin:
             related = (Label(first, "the first is here"),) if first else ()
-            _bad(report, name, "two interfaces of a package", interface.origin, related=related)
-        owners.setdefault(name, interface.origin)
+            use = "two interfaces of a package"
+            _bad(report, interface.type.name, use, interface.origin, related=related)
+
+
+def _check_interface(interface: Interface, report: Diagnostics) -> None:
+    if not _INTERFACE.fullmatch(interface.type.name):
+        hint = "a ROS interface starts with a capital letter and has letters and digits only"
+        use = "the name of an interface"
+        _bad(report, interface.type.name, use, interface.origin, help=hint)
+    constants = interface.constants if isinstance(interface, Message) else ()
+    items: list[Constant | Field] = [*constants, *(f for part in parts(interface) for f in part)]
+    for item in items:
+        if not _FIELD.fullmatch(item.name):
+            _bad(report, item.name, "the name of a field or constant", item.origin)
+
+
+def event_constants(
+    events: Iterable[Event], taken: Iterable[str], report: Diagnostics
+) -> dict[str, str]:
+    """The Python constant of each event."""
+    names: dict[str, str] = {}
+    used = set(taken)
+    for event in events:
+        constant = snake_case(event.name).upper()
+        if not is_python_name(constant):
+            _bad(report, event.name, "the name of a constant", event.origin)
+        names[event.name] = constant = fresh(constant, used)
+        used.add(constant)
+    return names
 
 
 def check_callback(

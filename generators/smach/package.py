@@ -1,47 +1,22 @@
-"""The package around the machines: what it depends on, its events and its manifest."""
+"""The package around the machines: which those are, what they use, its manifest."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable
 
 from lxml import etree
 
-from swarmdsl.ir import (
-    Action,
-    Array,
-    EventTrigger,
-    Interface,
-    Named,
-    Send,
-    StateMachine,
-    System,
-    Type,
-)
+from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
-from .imports import RosTypes
-from .interfaces import field_packages
+from .interfaces import named
 from .options import Options
-
-_BASE = ("rospy", "smach", "smach_ros")
-
-
-@dataclass(frozen=True)
-class Dependencies:
-    """What package.xml and CMakeLists.txt say of other packages.
-
-    `fields` are those whose messages are in the interfaces of this package, `run` all that
-    the nodes need.
-    """
-
-    run: tuple[str, ...]
-    fields: tuple[str, ...]
-    generates: bool
 
 
 def chosen_machines(system: System) -> list[StateMachine]:
-    """The machines that get a node: those that members use, all when no member uses any."""
-    used = {member.behavior for member in system.members if member.behavior is not None}
+    """The machines that get a node: the behaviours there are, or all when there is none."""
+    used = {member.behavior for member in system.members}
+    used |= {component.behavior for component in system.components}
+    used.discard(None)
     return [machine for machine in system.machines if not used or machine.name in used]
 
 
@@ -50,10 +25,11 @@ def used_events(machines: Iterable[StateMachine]) -> list[str]:
     found: dict[str, None] = {}
     for machine in machines:
         for state in machine.walk():
-            for transition in state.transitions:
-                for item in (*transition.triggers, *transition.effects):
-                    if isinstance(item, (EventTrigger, Send)):
-                        found.setdefault(item.event)
+            triggers = (t for transition in state.transitions for t in transition.triggers)
+            effects = (e for transition in state.transitions for e in transition.effects)
+            for item in (*state.entry, *triggers, *effects, *state.exit):
+                if isinstance(item, (EventTrigger, Send)):
+                    found.setdefault(item.event)
     return list(found)
 
 
@@ -62,55 +38,35 @@ def used_types(system: System, machines: Iterable[StateMachine]) -> list[tuple[N
     found: list[tuple[Named, str]] = []
     for machine in machines:
         for variable in machine.variables:
-            found += ((type_, "msg") for type_ in _named(variable.type))
+            found += ((type_, "msg") for type_ in named(variable.type))
         for state in machine.walk():
             if state.activity is not None:
                 call = system.function(state.activity.function).communication
                 found.append((call.type, "srv" if call.paradigm == "service" else "action"))
     for name in used_events(machines):
-        found += ((type_, "msg") for type_ in _named(system.event(name).type))
+        found += ((type_, "msg") for type_ in named(system.event(name).type))
     return list(dict.fromkeys(found))
 
 
-def _named(type_: Type) -> Iterator[Named]:
-    if isinstance(type_, Array):
-        yield from _named(type_.element)
-    elif isinstance(type_, Named):
-        yield type_
+def dependencies(used: Iterable[tuple[Named, str]]) -> list[str]:
+    """The packages that the nodes need."""
+    packages = {"rospy", "smach", "smach_ros"}
+    for type_, kind in used:
+        packages |= {type_.package, *(("actionlib", "actionlib_msgs") if kind == "action" else ())}
+    return sorted(packages)
 
 
-def dependencies(
-    used: Sequence[tuple[Named, str]], own: Sequence[Interface], types: RosTypes
-) -> Dependencies:
-    """The packages whose types are used and defined."""
-    packages = {types.ros_package(type_) for type_, _ in used} - {types.package}
-    fields = set(field_packages(own, types))
-    if any(isinstance(interface, Action) for interface in own):
-        fields.add("actionlib_msgs")
-    if any(kind == "action" for _, kind in used):
-        packages |= {"actionlib", "actionlib_msgs"}
-    run = tuple(sorted({*_BASE, *packages} - fields))
-    return Dependencies(run, tuple(sorted(fields)), bool(own))
-
-
-def manifest(package: str, doc: str, depends: Dependencies, options: Options) -> str:
-    """The text of package.xml."""
+def manifest(name: str, doc: str, depends: Iterable[tuple[str, str]], options: Options) -> str:
+    """The text of package.xml; each dependency with its tag."""
     root = etree.Element("package", format="2")
-    _child(root, "name", package)
+    _child(root, "name", name)
     _child(root, "version", options.version)
     _child(root, "description", " ".join(doc.split()))
     _child(root, "maintainer", options.maintainer, email=options.email)
     _child(root, "license", options.license)
     _child(root, "buildtool_depend", "catkin")
-    _child(root, "buildtool_depend", "python3-setuptools")
-    if depends.generates:
-        _child(root, "build_depend", "message_generation")
-    for name in depends.fields:
-        _child(root, "depend", name)
-    for name in depends.run:
-        _child(root, "exec_depend", name)
-    if depends.generates:
-        _child(root, "exec_depend", "message_runtime")
+    for tag, package in depends:
+        _child(root, tag, package)
     text = etree.tostring(root, pretty_print=True, encoding="unicode")
     return f'<?xml version="1.0"?>\n{text}'
 

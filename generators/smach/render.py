@@ -1,4 +1,4 @@
-"""From the view to files: each template fills in one kind of file of the package."""
+"""From the view to files: each template fills in one kind of file of a package."""
 
 from __future__ import annotations
 
@@ -12,55 +12,76 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 
+from .interface_packages import InterfacePackage
 from .interfaces import definition, file_name
 from .options import Options
+from .package import manifest
 from .python import docstring, one_line
 from .view import PackageView, package_view
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the package."""
+    """The files of the package with the behaviour, and of those with the interfaces."""
     package = package_view(system, options, report)
-    return [] if package is None else list(_files(package, report))
+    if package is None:
+        return []
+    interfaces = [_interfaces(each, options, report) for each in package.interfaces]
+    return [*_files(package), *(file for files in interfaces for file in files)]
 
 
-def _files(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
-    root, source = package.name, f"{package.name}/src/{package.name}"
+def _interfaces(
+    package: InterfacePackage, options: Options, report: Diagnostics
+) -> Iterator[OutputFile]:
+    """A package of interfaces."""
     by_kind: dict[str, list[str]] = {}
     for interface in package.interfaces:
         path = file_name(interface)
         folder, _, file = path.partition("/")
         kind = {"msg": "message", "srv": "service", "action": "action"}[folder]
         by_kind.setdefault(kind, []).append(file)
-        text = definition(interface, package.types, report)
-        yield OutputFile(f"{root}/{path}", text, origin=interface.origin)
+        text = definition(interface, report)
+        yield OutputFile(f"{package.name}/{path}", text, origin=interface.origin)
+    at = package.interfaces[0].origin
+    files = list(by_kind.items())
+    text = _fill("interfaces/CMakeLists.txt", package=package, interface_files=files)
+    yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
+    depends = [
+        ("build_depend", "message_generation"),
+        *(("depend", name) for name in package.depends),
+        ("exec_depend", "message_runtime"),
+    ]
+    text = manifest(package.name, f"Interfaces of {package.name}.", depends, options)
+    yield OutputFile(f"{package.name}/package.xml", text, origin=at)
+
+
+def _files(package: PackageView) -> Iterator[OutputFile]:
+    root, source = package.name, f"{package.name}/src/{package.name}"
     common = {"package": package, "header": package.header}
     yield OutputFile(f"{root}/package.xml", package.manifest)
-    yield OutputFile(
-        f"{root}/CMakeLists.txt",
-        _fill("CMakeLists.txt", interface_files=list(by_kind.items()), **common),
-    )
-    yield OutputFile(f"{root}/setup.py", _fill("setup.py", **common))
-    init = _fill("src/package/__init__.py", doc=docstring(package.doc), **common)
+    yield OutputFile(f"{root}/CMakeLists.txt", _fill("package/CMakeLists.txt", **common))
+    yield OutputFile(f"{root}/setup.py", _fill("package/setup.py", **common))
+    init = _fill("package/src/package/__init__.py", doc=docstring(package.doc), **common)
     yield OutputFile(f"{source}/__init__.py", init)
     for module in ("containers", "states"):
-        yield OutputFile(f"{source}/{module}.py", _fill(f"src/package/{module}.py", **common))
+        yield OutputFile(
+            f"{source}/{module}.py", _fill(f"package/src/package/{module}.py", **common)
+        )
     if package.events:
-        yield OutputFile(f"{source}/events.py", _fill("src/package/events.py", **common))
+        yield OutputFile(f"{source}/events.py", _fill("package/src/package/events.py", **common))
     if package.callbacks:
-        text = _fill("src/package/callbacks.py", **common)
+        text = _fill("package/src/package/callbacks.py", **common)
         yield OutputFile(f"{source}/callbacks.py", text, keep=True)
     for machine in package.machines:
-        text = _fill("src/package/machine.py", machine=machine, **common)
+        text = _fill("package/src/package/machine.py", machine=machine, **common)
         yield OutputFile(f"{source}/{machine.module}.py", text, origin=machine.origin)
         required = one_line(tuple(f"~{name}" for name in machine.required_params))
-        text = _fill("scripts/node", machine=machine, required=required, **common)
+        text = _fill("package/scripts/node", machine=machine, required=required, **common)
         path = f"{root}/scripts/{machine.module}"
         yield OutputFile(path, text, executable=True, origin=machine.origin)
 
 
 def _fill(template: str, **values: object) -> str:
-    return _environment().get_template(f"package/{template}.j2").render(**values)
+    return _environment().get_template(f"{template}.j2").render(**values)
 
 
 @cache

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from swarmdsl.ir import DoneTrigger, OutcomeTrigger, State, Transition, Trigger
 
 from .module import CANCELLED, PREEMPTED
 from .python import Call
+from .statements import effects_use_event
 
 
 @dataclass(frozen=True)
@@ -19,16 +20,25 @@ class Branch:
     message_key: str | None = None
 
     @property
-    def is_plain(self) -> bool:
-        """Whether taking it is nothing but going to its target."""
-        return self.transition.guard is None and not self.transition.effects
+    def taken(self) -> Branch:
+        """The same when nothing is left of it but its effects and where it leads."""
+        key = self.message_key if effects_use_event(self.transition.effects) else None
+        return Branch(replace(self.transition, triggers=(), guard=None), key)
+
+    @property
+    def without_effects(self) -> Branch:
+        """The same for a place where it is decided and not done."""
+        return Branch(replace(self.transition, effects=()))
 
 
 @dataclass(frozen=True)
 class Leave:
-    """An outcome that does nothing but go on to a state outside."""
+    """An outcome that leads to a state outside, for a transition that is taken already.
 
-    target: str
+    Its effects are done when all that it leaves has ended.
+    """
+
+    branch: Branch
 
 
 Route = list[Branch] | Leave
@@ -44,13 +54,21 @@ class Content:
 
     @property
     def may_stay(self) -> bool:
-        """Whether it can end without a transition being taken."""
+        """Whether it can end without leading to another state."""
         return any(stays(route) for route in self.routes.values())
+
+    @property
+    def is_guarded(self) -> bool:
+        """Whether it has to be decided where some of its outcomes lead."""
+        routes = [route for route in self.routes.values() if not isinstance(route, Leave)]
+        return any(branch.transition.guard is not None for route in routes for branch in route)
 
 
 def stays(route: Route) -> bool:
-    """Whether it can be that no transition is taken."""
-    return not isinstance(route, Leave) and not is_total(route)
+    """Whether it can be that it leads to no other state."""
+    if isinstance(route, Leave):
+        return False
+    return not is_total(route) or any(branch.transition.target is None for branch in route)
 
 
 def is_total(branches: Sequence[Branch]) -> bool:

@@ -7,20 +7,21 @@ from dataclasses import dataclass, field
 from swarmdsl.ir import State, StateKind
 
 from .module import PREEMPTED, Entry, Module, fresh
+from .routes import Branch, Leave
 
 
 @dataclass
 class Scope:
     """A StateMachine in the making; `owner` is the id of the state whose inside it is.
 
-    `finals` are the final states reached in it, `exits` the targets outside by outcome.
+    `finals` are the final states reached in it, `exits` the ways out of it by outcome.
     """
 
     owner: str
     labels: set[str] = field(default_factory=set)
     entries: list[Entry] = field(default_factory=list)
     finals: dict[str, State] = field(default_factory=dict)
-    exits: dict[str, str] = field(default_factory=dict)
+    exits: dict[str, Leave] = field(default_factory=dict)
 
     @property
     def outcomes(self) -> list[str]:
@@ -38,27 +39,32 @@ class Targets:
     """The states of a machine by id, and the state each one is in (`""` for the machine)."""
 
     def __init__(self, module: Module) -> None:
-        self._module = module
         self.states = {state.id: state for state in module.machine.walk()}
         self.parent = {state.id: "" for state in module.machine.states}
         for state in module.machine.walk():
             self.parent.update((child.id, state.id) for child in state.states)
 
-    def bind(self, scope: Scope, target: str | None) -> str:
-        """What a state in this scope is bound to so that `target` comes next.
+    def is_inside(self, scope: Scope, branch: Branch) -> bool:
+        """Whether the target is in this very scope; effects of what leaves it come later."""
+        target = branch.transition.target
+        return target is None or self.parent[target] == scope.owner
+
+    def bind(self, scope: Scope, branch: Branch) -> str:
+        """What a state in this scope is bound to so that the target of `branch` comes next.
 
         That is a label, or an outcome of the scope's container.
         """
-        assert target is not None  # one without a target is not supported
+        target = branch.transition.target
+        assert target is not None
         state = self.states[target]
-        if self.parent[target] == scope.owner:
+        if self.is_inside(scope, branch):
             if state.kind is StateKind.FINAL:
                 scope.finals.setdefault(state.name, state)
             return state.name
+        way = Leave(branch.taken)
         for outcome, known in scope.exits.items():
-            if known == target:
+            if known == way:
                 return outcome
-        names = {*scope.labels, *scope.exits}
-        outcome = fresh(f"to_{target}", names)
-        scope.exits[outcome] = target
+        outcome = fresh(f"to_{target}", {*scope.labels, *scope.exits})
+        scope.exits[outcome] = way
         return outcome

@@ -14,21 +14,21 @@ from swarmdsl.source import Span
 
 from .activities import activity_call
 from .module import PREEMPTED, Container, Entry, Module, fresh
-from .python import Call, Source, comment_lines, docstring, layout, place
-from .routes import Branch, Content, Leave, Route, branches, done, ended, is_total, reachable
+from .python import Call, Source, comment_lines, layout, place
+from .routes import Branch, Content, Leave, Route, branches, done, ended, is_total
 from .scopes import Scope, Targets
-from .statements import STEP
-from .triggers import decision, triggers_of
+from .statements import STEP, effect_lines
+from .triggers import decision, eventless, triggers_of
 
 
-def build(module: Module, function: str) -> None:
-    """Fill the module with the functions that build its machine, the root's being `function`."""
+def build(module: Module) -> None:
+    """Fill the module with the functions that build its machine, the first being `build`."""
     machine = module.machine
     structure = _Structure(module)
     scope = Scope("", {state.name for state in machine.states})
     initial = structure.initial(machine.initial, scope, machine.origin)
-    doc = docstring(machine.doc) or f"State machine {machine.name}."
-    structure.machine(scope, function, doc, initial, machine.states)
+    doc = f"Build state machine {machine.name}."
+    structure.machine(scope, "build", doc, initial, machine.states)
 
 
 class _Structure:
@@ -100,7 +100,7 @@ class _Structure:
                 if isinstance(route, Leave):
                     routes[outcome] = route
                 elif ending := branches(state, done(region.id, names[outcome])):
-                    self._require_total(ending)
+                    self._check_completion(ending, state)
                     routes[outcome] = ending
                 else:
                     may_complete = True
@@ -110,12 +110,22 @@ class _Structure:
         doc = f"Build the regions of state {state.id}."
         return self._concurrence(slot, function, doc, members, _origins(state.states), default)
 
-    def _require_total(self, ending: Sequence[Branch]) -> None:
+    def _check_completion(self, ending: Sequence[Branch], state: State) -> None:
+        """A region whose completion is waited for ends all regions at once, whatever follows."""
+        at = ending[0].transition.origin
         if not is_total(ending):
             self.module.unsupported(
                 "a guard on the completion of a region without a transition for when it is false",
-                ending[0].transition.origin,
+                at,
                 "add a transition on the same trigger without a guard",
+            )
+        elif len(ending) > 1 and any(inside.exit for inside in state.walk()):
+            self.module.unsupported(
+                "a guard on the completion of a region of a state with effects on exit", at
+            )
+        elif any(branch.transition.target is None for branch in ending):
+            self.module.unsupported(
+                "a transition without a target on the completion of a region", at
             )
 
     def _interrupted(
@@ -125,13 +135,23 @@ class _Structure:
         members: dict[str, Content] = {}
         places = _origins([state])
         if content is not None:
-            members[state.name] = self._staying(state, content)
-        for trigger in triggers_of(state, self.module):
+            members[state.name] = self._deciding(state, content)
+        for trigger in triggers_of(state, self.targets, self.module):
             label = fresh(trigger.label, members)
             members[label] = Content(trigger.call, trigger.routes)
             places[label] = place(trigger.origin)
-        doc = f"Build state {state.id}, with what may end it."
-        return self._concurrence(slot, function, doc, members, places)
+        if not members:
+            members[state.name] = Content(self._wait(), {})
+        keywords: list[tuple[str, object]] = []
+        for word, effects in (("entry", state.entry), ("exit", state.exit)):
+            if effects:
+                lines = effect_lines(effects, 1, self.module)
+                name = self.module.add_function(
+                    (state.id, word), "userdata", lines, place(effects[0].origin)
+                )
+                keywords.append((word, Source(name)))
+        doc = f"Build state {state.id}, with what begins and ends it."
+        return self._concurrence(slot, function, doc, members, places, keywords=keywords)
 
     def _concurrence(
         self,
@@ -141,6 +161,7 @@ class _Structure:
         members: Mapping[str, Content],
         places: Mapping[str, str],
         default: list[Branch] | None = None,
+        keywords: Iterable[tuple[str, object]] = (),
     ) -> Content:
         """A Concurrence that ends with the first outcome that leads somewhere.
 
@@ -160,7 +181,7 @@ class _Structure:
             add = Call("Concurrence.add", (label, member.call))
             comments = (places[label],) if places.get(label) else ()
             entries.append(Entry(label, layout(add, 2, STEP * 2), comments))
-        keywords: list[tuple[str, object]] = []
+        keywords = [*keywords]
         if default is not None:
             routes["done"] = default
             keywords.append(("default_outcome", "done"))
@@ -182,24 +203,31 @@ class _Structure:
     def _add_state(self, scope: Scope, state: State) -> None:
         if state.kind is StateKind.FINAL:
             return
-        if state.kind is StateKind.CHOICE:
-            choices = [Branch(transition) for transition in reachable(state.transitions)]
-            self._add_decision(scope, state.name, (state.id,), choices, None, _comments(state))
+        at_once = [Branch(transition) for transition in eventless(state)]
+        does_something = state.kind is not StateKind.SIMPLE or state.activity is not None
+        has_effects = bool(state.entry or state.exit)
+        if state.kind is StateKind.CHOICE or (is_total(at_once) and not has_effects):
+            self._add_decision(scope, state.name, (state.id,), at_once, None, _comments(state))
             return
+        if at_once and state.states:
+            self.module.unsupported(
+                "a transition without a trigger from a state with states inside",
+                at_once[0].transition.origin,
+            )
         awaited = {
             trigger
             for transition in state.transitions
             for trigger in transition.triggers
             if isinstance(trigger, (EventTrigger, TimeTrigger))
         }
-        does_something = state.kind is not StateKind.SIMPLE or state.activity is not None
-        if awaited and (does_something or len(awaited) > 1):
+        waits = len(awaited) + bool(at_once)
+        if has_effects or (waits and does_something) or waits > 1:
             slot = self.module.reserve()
             function = self.module.function_name(state.id)
             inside = self._content(state, ("states", "regions"))
             content = self._interrupted(slot, function, state, inside)
-        elif awaited:
-            (trigger,) = triggers_of(state, self.module)
+        elif waits:
+            (trigger,) = triggers_of(state, self.targets, self.module)
             content = Content(trigger.call, trigger.routes)
         else:
             content = self._content(state, ("", "")) or Content(self._wait(), {})
@@ -218,15 +246,18 @@ class _Structure:
             call, {outcome: branches(state, ended(state, outcome)) for outcome in outcomes}
         )
 
-    def _staying(self, state: State, content: Content) -> Content:
-        """The same, in a StateMachine that waits where no transition is taken."""
-        if not content.may_stay:
+    def _deciding(self, state: State, content: Content) -> Content:
+        """The same, in a StateMachine that decides what comes next, or waits.
+
+        Guards are for before the effects on exit: those come when this has ended.
+        """
+        if not (content.may_stay or (state.exit and content.is_guarded)):
             return content
         slot = self.module.reserve()
         function = self.module.function_name(state.id, "stays")
         scope = Scope(state.id)
         self._add(scope, state, content)
-        doc = f"Build state {state.id}, which stays where no transition is taken."
+        doc = f"Build what state {state.id} does, and the decision what comes next."
         self._finish(slot, scope, function, doc)
         return Content(_built_by(function), _leaving(scope))
 
@@ -237,24 +268,28 @@ class _Structure:
         transitions: dict[str, str] = {}
         later: list[tuple[str, str, list[Branch]]] = []
         for outcome, route in content.routes.items():
-            if isinstance(route, Leave):
-                transitions[outcome] = self.targets.bind(scope, route.target)
-            elif not route:
+            ways = [route.branch] if isinstance(route, Leave) else route
+            if not ways:
                 assert waiting is not None
                 transitions[outcome] = waiting
-            elif route[0].is_plain:
-                transitions[outcome] = self.targets.bind(scope, route[0].transition.target)
-            else:
+            elif self._is_step(scope, ways[0]):
                 label = scope.label(f"{state.name}_{outcome}")
                 transitions[outcome] = label
-                later.append((label, outcome, route))
+                later.append((label, outcome, ways))
+            else:
+                transitions[outcome] = self.targets.bind(scope, ways[0])
         self._add_entry(scope, state.name, content.call, transitions, _comments(state))
         for label, outcome, ways in later:
             comments = tuple(filter(None, (place(way.transition.origin) for way in ways)))
-            otherwise = None if is_total(ways) else waiting
-            self._add_decision(scope, label, (state.id, "on", outcome), ways, otherwise, comments)
+            self._add_decision(scope, label, (state.id, "on", outcome), ways, waiting, comments)
         if waiting is not None:
             self._add_entry(scope, waiting, self._wait(), {}, ())
+
+    def _is_step(self, scope: Scope, way: Branch) -> bool:
+        """Whether there is something to decide or to do here, before the target comes."""
+        if way.transition.guard is not None:
+            return True
+        return bool(way.transition.effects) and self.targets.is_inside(scope, way)
 
     def _add_decision(
         self,
@@ -262,11 +297,20 @@ class _Structure:
         label: str,
         words: Iterable[str],
         ways: Sequence[Branch],
-        otherwise: str | None,
+        waiting: str | None,
         comments: tuple[str, ...],
     ) -> None:
-        outcomes = [self.targets.bind(scope, way.transition.target) for way in ways]
-        call = decision(words, ways, outcomes, otherwise, self.module)
+        """A Decision between `ways`, for each of which it has an outcome; else it is waited."""
+        outcomes: list[str] = []
+        for way in ways:
+            if way.transition.target is None:
+                assert waiting is not None
+                outcomes.append(waiting)
+            else:
+                outcomes.append(self.targets.bind(scope, way))
+        here = [w if self.targets.is_inside(scope, w) else w.without_effects for w in ways]
+        otherwise = None if is_total(ways) else waiting
+        call = decision(words, here, outcomes, otherwise, self.module)
         bound = [*outcomes, *([otherwise] if otherwise is not None else [])]
         self._add_entry(scope, label, call, {target: target for target in bound}, comments)
 
@@ -291,7 +335,7 @@ def _built_by(function: str) -> Call:
 
 
 def _leaving(scope: Scope) -> dict[str, Route]:
-    return {outcome: Leave(target) for outcome, target in scope.exits.items()}
+    return {**scope.exits}
 
 
 def _origins(states: Iterable[State]) -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from swarmdsl.ir import EventTrigger, Expression, State, TimeTrigger, Transition
 from swarmdsl.source import Span
@@ -12,6 +12,7 @@ from .expressions import keys, python_expression
 from .module import Module, fresh
 from .python import Call, Source, place
 from .routes import Branch, Route, reachable
+from .scopes import Targets
 from .statements import (
     STEP,
     effect_lines,
@@ -32,8 +33,8 @@ class Trigger:
     origin: Span | None
 
 
-def triggers_of(state: State, module: Module) -> list[Trigger]:
-    """The monitors and timers of a state, one for each event and each time."""
+def triggers_of(state: State, targets: Targets, module: Module) -> list[Trigger]:
+    """What may end a state: its condition, and a monitor or timer for each event and time."""
     by_event: dict[str, list[Transition]] = {}
     by_delay: dict[Expression, list[Transition]] = {}
     for transition in state.transitions:
@@ -42,30 +43,51 @@ def triggers_of(state: State, module: Module) -> list[Trigger]:
                 by_event.setdefault(trigger.event, []).append(transition)
             elif isinstance(trigger, TimeTrigger):
                 by_delay.setdefault(trigger.delay, []).append(transition)
-    found = [_monitor(state, event, ts, module) for event, ts in by_event.items()]
+    found = [
+        _monitor(state, event, transitions, targets, module)
+        for event, transitions in by_event.items()
+    ]
     for delay, transitions in by_delay.items():
         label = fresh("timeout", (trigger.label for trigger in found))
         found.append(_timer(state, label, delay, transitions, module))
+    if conditions := eventless(state):
+        label = fresh("condition", (trigger.label for trigger in found))
+        found.insert(0, _condition(state, label, conditions, module))
     return found
 
 
+def eventless(state: State) -> list[Transition]:
+    """The transitions that are taken as soon as their guards hold."""
+    return reachable(transition for transition in state.transitions if not transition.triggers)
+
+
 def _monitor(
-    state: State, event: str, transitions: Iterable[Transition], module: Module
+    state: State,
+    event: str,
+    transitions: Iterable[Transition],
+    targets: Targets,
+    module: Module,
 ) -> Trigger:
     chosen = reachable(transitions)
-    needs_message = any(effects_use_event(transition.effects) for transition in chosen)
+    leaving = [transition for transition in chosen if transition.target is not None]
+    needs_message = any(effects_use_event(transition.effects) for transition in leaving)
     key = module.message_key(event) if needs_message else None
     routes = _routes(event, chosen, key)
-    keywords: list[tuple[str, object]] = []
-    if any(transition.guard is not None for transition in chosen):
-        name = _choice(state, event, "userdata, event", routes, chosen, module)
-        keywords = [("choose", Source(name)), *_inputs(_guard_reads(chosen))]
+    around = {
+        outcome: targets.parent[transition.target]
+        for outcome, transition in zip(routes, leaving, strict=True)
+        if transition.target is not None
+    }
+    keywords = _choice(state, event, "userdata, event", routes, chosen, module)
     if key is not None:
         keywords.append(("message_key", key))
-    arguments = (Source(module.event(event)), state.id, list(routes))
     return Trigger(
         event,
-        Call(module.own("states", "Monitor"), arguments, tuple(keywords)),
+        Call(
+            module.own("states", "Monitor"),
+            (Source(module.event(event)), state.id, around),
+            tuple(keywords),
+        ),
         routes,
         chosen[0].origin,
     )
@@ -80,29 +102,31 @@ def _timer(
 ) -> Trigger:
     chosen = reachable(transitions)
     routes = _routes(label, chosen, None)
-    reads = keys(delay)
     duration = python_expression(delay, module.imports)
-    keywords: list[tuple[str, object]] = []
-    if any(transition.guard is not None for transition in chosen):
-        name = _choice(state, label, "userdata", routes, chosen, module)
-        keywords = [("choose", Source(name))]
-        reads += _guard_reads(chosen)
+    keywords = _choice(state, label, "userdata", routes, chosen, module, keys(delay))
     arguments = (Source(f"lambda userdata: {duration}"), list(routes))
-    return Trigger(
-        label,
-        Call(module.own("states", "Timer"), arguments, (*keywords, *_inputs(reads))),
-        routes,
-        chosen[0].origin,
-    )
+    call = Call(module.own("states", "Timer"), arguments, tuple(keywords))
+    return Trigger(label, call, routes, chosen[0].origin)
+
+
+def _condition(
+    state: State, label: str, transitions: Sequence[Transition], module: Module
+) -> Trigger:
+    routes = _routes(label, transitions, None)
+    name, reads, _ = _choose(state, label, "userdata", routes, transitions, module)
+    arguments = (Source(name), list(routes))
+    call = Call(module.own("states", "Condition"), arguments, tuple(_keys(reads, ())))
+    return Trigger(label, call, routes, transitions[0].origin)
 
 
 def _routes(label: str, transitions: Sequence[Transition], key: str | None) -> dict[str, Route]:
-    """An outcome for each transition; the guards are done with when it comes."""
+    """An outcome for each transition that leads on; the guards are done with when it comes."""
     routes: dict[str, Route] = {}
     for transition in transitions:
+        if transition.target is None:
+            continue
         name = label if len(transitions) == 1 else f"{label}_{transition.target}"
-        taken = Branch(replace(transition, guard=None), key)
-        routes[fresh(name, routes)] = [taken]
+        routes[fresh(name, routes)] = [Branch(transition, key).taken]
     return routes
 
 
@@ -113,16 +137,49 @@ def _choice(
     routes: Iterable[str],
     transitions: Sequence[Transition],
     module: Module,
-) -> str:
-    """The function that returns the outcome of the first transition whose guard holds."""
+    also_read: Iterable[str] = (),
+) -> list[tuple[str, object]]:
+    """The keywords for what has to be decided when it comes: nothing, for one plain transition."""
+    first = transitions[0]
+    if first.guard is None and first.target is not None:
+        return _keys(also_read, ())
+    name, reads, writes = _choose(state, label, parameters, routes, transitions, module)
+    return [("choose", Source(name)), *_keys([*also_read, *reads], writes)]
+
+
+def _choose(
+    state: State,
+    label: str,
+    parameters: str,
+    routes: Iterable[str],
+    transitions: Sequence[Transition],
+    module: Module,
+) -> tuple[str, list[str], list[str]]:
+    """The function that returns the outcome of the first transition whose guard holds.
+
+    One without a target is done in it. Also the userdata that it reads and writes.
+    """
+    outcomes = iter(routes)
     body: list[str] = []
-    for outcome, transition in zip(routes, transitions, strict=True):
-        body += _guarded(transition.guard, [f"return {outcome!r}"], module)
+    reads: list[str] = []
+    writes: list[str] = []
+    for transition in transitions:
+        depth = 1 if transition.guard is None else 2
+        if transition.guard is not None:
+            body.append(f"{STEP}if {python_expression(transition.guard, module.imports)}:")
+            reads += keys(transition.guard)
+        if transition.target is None:
+            body += effect_lines(transition.effects, depth, module)
+            reads += effect_reads(transition.effects)
+            writes += effect_writes(transition.effects)
+            body.append(f"{STEP * depth}return {module.own('states', 'STAYS')}")
+        else:
+            body.append(f"{STEP * depth}return {next(outcomes)!r}")
     if transitions[-1].guard is not None:
         body.append(f"{STEP}return None")
-    return module.add_function(
-        (state.id, "choose", label), parameters, body, place(transitions[0].origin)
-    )
+    words = (state.id, "choose", label)
+    name = module.add_function(words, parameters, body, place(transitions[0].origin))
+    return name, reads, writes
 
 
 def decision(
@@ -159,23 +216,13 @@ def decision(
         body.append(f"{STEP}return {otherwise!r}")
         all_outcomes.append(otherwise)
     name = module.add_function(words, "userdata", body, place(branches[0].transition.origin))
-    keywords = [*_inputs(reads)]
-    if writes:
-        keywords.append(("output_keys", list(dict.fromkeys(writes))))
-    return Call(module.own("states", "Decision"), (Source(name), all_outcomes), tuple(keywords))
+    keywords = tuple(_keys(reads, writes))
+    return Call(module.own("states", "Decision"), (Source(name), all_outcomes), keywords)
 
 
-def _guarded(guard: Expression | None, then: list[str], module: Module) -> list[str]:
-    if guard is None:
-        return [STEP + line for line in then]
-    condition = python_expression(guard, module.imports)
-    return [f"{STEP}if {condition}:", *(STEP * 2 + line for line in then)]
-
-
-def _guard_reads(transitions: Iterable[Transition]) -> list[str]:
-    return [key for t in transitions if t.guard is not None for key in keys(t.guard)]
-
-
-def _inputs(reads: Iterable[str]) -> list[tuple[str, object]]:
-    found = list(dict.fromkeys(reads))
-    return [("input_keys", found)] if found else []
+def _keys(reads: Iterable[str], writes: Iterable[str]) -> list[tuple[str, object]]:
+    found = (
+        ("input_keys", list(dict.fromkeys(reads))),
+        ("output_keys", list(dict.fromkeys(writes))),
+    )
+    return [(word, names) for word, names in found if names]

@@ -6,17 +6,16 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import Array, Interface, Literal, Named, Param, StateMachine, System
+from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
 from swarmdsl.ir.types import DURATION
-from swarmdsl.naming import snake_case
 from swarmdsl.source import Span
 
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
-from .interfaces import own_interfaces
-from .module import TARGET, Container, Function, Module, fresh
-from .options import Options
+from .interface_packages import InterfacePackage, interface_packages
+from .module import TARGET, Container, Function, Module
+from .options import Options, check_options
 from .python import Call, Source, comment_lines, docstring, file_name, layout, place
 from .statements import STEP
 from .structure import build
@@ -66,9 +65,7 @@ class PackageView:
     events: tuple[EventView, ...]
     event_imports: tuple[str, ...]
     callbacks: tuple[tuple[str, str], ...]
-    interfaces: tuple[Interface, ...]
-    types: RosTypes
-    depends: package.Dependencies
+    interfaces: tuple[InterfacePackage, ...]
     manifest: str
 
 
@@ -77,24 +74,28 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     machines = package.chosen_machines(system)
     if not machines:
         return None
+    check_options(options, report)
     name = names.package_name(system, options.package, report)
     modules = names.module_names(machines, report)
-    names.check_interfaces(system, report)
-    own = own_interfaces(system)
+    interfaces = interface_packages(system, name, report)
     used = package.used_types(system, machines)
-    types = ros_types(name, (interface.type for interface in own), used)
-    events = _event_names(system, machines, report)
+    events = _events(system, machines, report)
+    constants = names.event_constants(events, (type_.name for type_, _ in used), report)
     if report.has_errors:
         return None
+    types = ros_types(name, constants.values(), used)
     callbacks: dict[str, str] = {}
     views = [
-        _machine_view(system, machine, modules[machine.name], types, events, callbacks, report)
+        _machine_view(system, machine, modules[machine.name], types, constants, callbacks, report)
         for machine in machines
     ]
-    depends = package.dependencies(used, own, types)
     doc = system.doc or f"Behaviour of {system.name}."
     event_imports = Imports(types)
-    event_views = _event_views(system, events, event_imports)
+    event_views = _event_views(events, constants, event_imports)
+    depends = [
+        ("buildtool_depend", "python3-setuptools"),
+        *(("exec_depend", needed) for needed in package.dependencies(used)),
+    ]
     return PackageView(
         name=name,
         doc=doc,
@@ -103,9 +104,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         events=event_views,
         event_imports=tuple(event_imports.lines()),
         callbacks=tuple(callbacks.items()),
-        interfaces=tuple(own),
-        types=types,
-        depends=depends,
+        interfaces=interfaces,
         manifest=package.manifest(name, doc, depends, options),
     )
 
@@ -129,7 +128,7 @@ def _machine_view(
     imports = Imports(types)
     imports.module("smach")
     module = Module(system, machine, imports, report, events)
-    build(module, name)
+    build(module)
     for callback, parameters, origin in module.callbacks:
         names.check_callback(callback, parameters, callbacks, origin, report)
     values = _values(module)
@@ -188,14 +187,10 @@ def _param_value(param: Param, module: Module) -> object:
     return Call("rospy.Duration", (Call("rospy.get_param", arguments),))
 
 
-def _event_names(
-    system: System, machines: list[StateMachine], report: Diagnostics
-) -> dict[str, str]:
-    """The constant of each event that the machines use."""
-    constants: dict[str, str] = {}
-    for name in package.used_events(machines):
-        constants[name] = fresh(snake_case(name).upper(), constants.values())
-        event = system.event(name)
+def _events(system: System, machines: list[StateMachine], report: Diagnostics) -> list[Event]:
+    """The events that the machines use."""
+    events = [system.event(name) for name in package.used_events(machines)]
+    for event in events:
         if not isinstance(event.type, Named):
             report.report(
                 "unsupported-construct",
@@ -203,22 +198,21 @@ def _event_names(
                 target=TARGET,
                 construct=f"an event with data of type `{event.type}`, which is no message",
             )
-    return constants
+    return events
 
 
 def _event_views(
-    system: System, constants: dict[str, str], imports: Imports
+    events: Iterable[Event], constants: dict[str, str], imports: Imports
 ) -> tuple[EventView, ...]:
-    if constants:
-        imports.name(f"{imports.types.package}.states", "Event")
     found = []
-    for name, constant in constants.items():
-        event = system.event(name)
-        if not isinstance(event.type, Named):
-            continue
+    for event in events:
+        assert isinstance(event.type, Named)
         message = Source(imports.interface(event.type, "msg"))
-        call = Call("Event", (name, message, event.incoming_topic, event.topic))
-        statement = layout(call, 0, f"{constant} = ")
+        call = Call(
+            imports.name(f"{imports.types.package}.states", "Event"),
+            (event.name, message, event.incoming_topic, event.topic),
+        )
+        statement = layout(call, 0, f"{constants[event.name]} = ")
         found.append(EventView(statement, _comments(event.origin, event.doc)))
     return tuple(found)
 

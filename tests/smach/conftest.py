@@ -54,12 +54,16 @@ def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]
 
 @pytest.fixture
 def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, OutputFile]]:
-    """Generate from the text of a model; the files by path below the package's folder."""
+    """Generate from the text of a model; the files by path.
+
+    That of the package with the behaviour is left out: `lab_behavior/setup.py` is `setup.py`.
+    """
 
     def generate(text: str, **options: str) -> dict[str, OutputFile]:
         files, report = emit(compiled(text), **options)
         assert not list(report)
-        return {file.path.partition("/")[2]: file for file in files}
+        package = files[0].path.partition("/")[0] + "/" if files else ""
+        return {file.path.removeprefix(package): file for file in files}
 
     return generate
 
@@ -175,7 +179,7 @@ def _settled(container: Any) -> bool:
         if hasattr(child, "get_children"):
             if not _settled(child):
                 return False
-        elif hasattr(child, "offer") and child not in child._event._monitors:
+        elif hasattr(child, "offer") and child not in child._event._waiting:
             return False
     return True
 
@@ -203,10 +207,9 @@ def build(
             monkeypatch.syspath_prepend(folder)
         for name, fake in world.modules.items():
             monkeypatch.setitem(sys.modules, name, fake)
-        world.alias(system.name, package)
         imported.add(package)
         generated = importlib.import_module(f"{package}.{module}")
-        robot = Robot(world, getattr(generated, module)())
+        robot = Robot(world, generated.build())
         made.append(robot)
         return robot
 

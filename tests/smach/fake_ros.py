@@ -308,12 +308,6 @@ class World:
             if isinstance(event.type, Named) and self.system.interface(event.type) is None:
                 self.message(event.type.package, event.type.name, ())
 
-    def alias(self, package: str, target: str) -> None:
-        """The types of the model's own package under the name of the generated one."""
-        for kind in ("msg", "srv"):
-            if f"{package}.{kind}" in self.modules:
-                self._module(f"{target}.{kind}", **vars(self.modules[f"{package}.{kind}"]))
-
     def message(self, package: str, name: str, fields: Iterable[Field], kind: str = "msg") -> type:
         """Make a message class that takes its fields by name and nothing else."""
         world, types = self, {field.name: field.type for field in fields}

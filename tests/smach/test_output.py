@@ -11,6 +11,7 @@ from lxml import etree
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.features import used_features
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 from swarmdsl.plugins import load
@@ -76,10 +77,12 @@ def files(generate: Generate) -> Files:
 
 def test_files(files: Files) -> None:
     assert set(files) == {
-        "msg/Spot.msg",
-        "msg/Seen.msg",
-        "srv/Ask.srv",
-        "action/Look.action",
+        "lab/package.xml",
+        "lab/CMakeLists.txt",
+        "lab/msg/Spot.msg",
+        "lab/msg/Seen.msg",
+        "lab/srv/Ask.srv",
+        "lab/action/Look.action",
         "package.xml",
         "CMakeLists.txt",
         "setup.py",
@@ -96,38 +99,83 @@ def test_files(files: Files) -> None:
 
 
 def test_interfaces(files: Files) -> None:
-    assert files["msg/Seen.msg"].text == (
+    assert files["lab/msg/Seen.msg"].text == (
         "# What was seen.\n# where\nSpot spot\ngeometry_msgs/Pose[] poses\nSpot[4] near\n"
     )
-    assert files["srv/Ask.srv"].text == "int32 times\n---\nstring answer\n"
-    assert files["action/Look.action"].text == (
+    assert files["lab/srv/Ask.srv"].text == "int32 times\n---\nstring answer\n"
+    assert files["lab/action/Look.action"].text == (
         "Spot at\nstring self\n---\nbool found\n---\nSpot spot\n"
     )
 
 
-def test_dependencies(files: Files) -> None:
-    root = etree.fromstring(files["package.xml"].text.encode())
+def _depends(files: Files, path: str) -> list[tuple[str, str]]:
+    root = etree.fromstring(files[path].text.encode())
     assert root.get("format") == "2"
-    depends = [(child.tag, child.text) for child in root if child.tag.endswith("depend")]
-    assert depends == [
+    return [(child.tag, child.text) for child in root if child.tag.endswith("depend")]
+
+
+def test_dependencies(files: Files) -> None:
+    assert _depends(files, "package.xml") == [
         ("buildtool_depend", "catkin"),
         ("buildtool_depend", "python3-setuptools"),
+        *(
+            ("exec_depend", name)
+            for name in (
+                *("actionlib", "actionlib_msgs", "lab", "other_msgs", "rospy", "smach"),
+                "smach_ros",
+            )
+        ),
+    ]
+    cmake = files["CMakeLists.txt"].text
+    assert "catkin_python_setup()" in cmake
+    assert "message" not in cmake
+    assert "  scripts/watch\n" in cmake
+
+
+def test_package_of_interfaces(files: Files) -> None:
+    assert _depends(files, "lab/package.xml") == [
+        ("buildtool_depend", "catkin"),
         ("build_depend", "message_generation"),
         ("depend", "actionlib_msgs"),
         ("depend", "geometry_msgs"),
-        *(
-            ("exec_depend", name)
-            for name in ("actionlib", "other_msgs", "rospy", "smach", "smach_ros")
-        ),
         ("exec_depend", "message_runtime"),
     ]
-    cmake = files["CMakeLists.txt"].text
+    cmake = files["lab/CMakeLists.txt"].text
+    assert "project(lab)" in cmake
     assert "add_message_files(\n  FILES\n  Spot.msg\n  Seen.msg\n)" in cmake
     assert "add_service_files(\n  FILES\n  Ask.srv\n)" in cmake
     assert "add_action_files(\n  FILES\n  Look.action\n)" in cmake
-    assert cmake.index("catkin_python_setup()") < cmake.index("generate_messages(")
     assert "DEPENDENCIES\n  actionlib_msgs\n  geometry_msgs\n)" in cmake
-    assert "  scripts/watch\n" in cmake
+
+
+def test_constants_enums_and_bounds(generate: Generate) -> None:
+    files = generate(
+        """package lab
+        enum Mode : uint8 {
+          Off
+          /// at work
+          On = 5
+        }
+        message Limits {
+          const top : float64 = 2 * 1.5
+          const quick : bool = true
+          const motto : string = "go # on"
+          mode : Mode
+          name : string<=10
+          notes : string<=5[<=3]
+          spots : float64[<=4]
+          fixed : float64[4]
+        }
+        statemachine M { initial A  state A { after 1 s -> B }  final B }"""
+    )
+    assert files["lab/msg/Mode.msg"].text == "uint8 Off=0\n# at work\nuint8 On=5\n"
+    assert files["lab/msg/Limits.msg"].text == (
+        "float64 top=3.0\nbool quick=True\nstring motto=go # on\n"
+        "uint8 mode\n"
+        "# At most 10 characters.\nstring name\n"
+        "# At most 3 elements.\n# At most 5 characters.\nstring[] notes\n"
+        "# At most 4 elements.\nfloat64[] spots\nfloat64[4] fixed\n"
+    )
 
 
 def test_a_package_without_interfaces_generates_none(generate: Generate) -> None:
@@ -141,10 +189,10 @@ def test_a_package_without_interfaces_generates_none(generate: Generate) -> None
 
 def test_two_types_of_one_name_are_called_by_their_modules(files: Files) -> None:
     text = files["src/lab_behavior/watch.py"].text
-    assert "import lab_behavior.msg\n" in text
+    assert "import lab.msg\n" in text
     assert "import other_msgs.msg\n" in text
     assert "'other', other_msgs.msg.LookAction" in " ".join(text.split())
-    assert "lab_behavior.msg.LookGoal(at=userdata.spot, self_=userdata.name)" in text
+    assert "lab.msg.LookGoal(at=userdata.spot, self_=userdata.name)" in text
 
 
 def test_a_type_called_like_something_else_in_the_module(generate: Generate) -> None:
@@ -201,11 +249,14 @@ def test_a_machine_that_no_member_uses_when_some_member_uses_one(generate: Gener
 
 
 def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
+    """The model above, and the examples without constructs that the target does not have."""
     systems = [compiled(MODEL)]
     for folder in sorted(path for path in examples.iterdir() if path.is_dir()):
         system = compiler.check(sorted(folder.glob("*.swarm"))).system
         assert system is not None
-        systems.append(system)
+        if all(feature in load("smach").supports for feature, _ in used_features(system)):
+            systems.append(system)
+    assert len(systems) > 3
     return systems
 
 
@@ -246,7 +297,7 @@ def test_python_is_neat(folder: Path) -> None:
     layout = [*ruff, "format", "--diff", *style, *quotes, *paths]
     assert subprocess.run(layout, capture_output=True, text=True, check=False).stdout == ""
     rules = "--select=A,B,C4,E,F,I,N,PIE,RET,SIM,W"
-    own = sorted(path.parent.name for path in folder.glob("*/*/package.xml"))
+    own = sorted(path.parent.name for path in folder.glob("*/*/setup.py"))
     first_party = ["--config", f"lint.isort.known-first-party={own}"]
     lint = [*ruff, "check", "--quiet", *style, rules, *first_party, *paths]
     assert subprocess.run(lint, capture_output=True, text=True, check=False).stdout == ""

@@ -85,7 +85,7 @@ def test_bad_identifiers(text: str, place: str, name: str, use: str, reported: R
 def test_bad_package_option(reported: Reported) -> None:
     ((name, message, _),) = reported(_machine(SMALL), package="My-Package")
     assert name == "bad-option"
-    assert "`My-Package` is no ROS package name" in message
+    assert "`My-Package` cannot be the name of the package" in message
 
 
 def test_nothing_without_a_machine(generate: Callable[..., dict[str, object]]) -> None:

@@ -510,7 +510,11 @@ def test_choice(robot: Run) -> None:
           initial Which
           choice Which {
             [n == 0] / n = n + 1 -> A
-            [n < 3]  / n = 2 * n + 1 -> Which
+            [n < 3]  / n = 2 * n + 1 -> More
+            else -> End
+          }
+          choice More {
+            [n != 3] -> A
             else -> End
           }
           state A { do work  on succeeded -> Which  on aborted -> Which }
