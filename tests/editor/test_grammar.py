@@ -44,13 +44,13 @@ def scopes_of(part: Any, language: Any) -> tuple[str, ...]:
         return VALUES.get(part.value, KEYWORD)
     if part.value.startswith('"'):
         return STRING
-    if part.value[:1].isdigit():
+    if re.match(r"-?\d", part.value):
         return NUMBER
     if re.match(r"[A-Za-z_]", part.value):
         return NAME
-    if re.match(r"[./]\w", part.value):  # the rest of `package.Name` or `package/Type`
-        return NAME + SEPARATOR
-    if re.match(r"\[\s*\d", part.value):  # the size of an array
+    if re.match(r"[./][\w*]", part.value):  # the rest of `pkg.Name`, `pkg/Type` or `pkg.*`
+        return (*NAME, *SEPARATOR, "keyword.operator.wildcard.")
+    if re.match(r"(\[|<=|\[\s*<=)\s*\d", part.value):  # the size of an array, a bound
         return OPERATOR + NUMBER
     return OPERATOR
 
@@ -88,9 +88,9 @@ def test_every_part_of_a_model_has_the_scope_of_its_role(
 
 
 def test_a_wrong_scope_is_found(language: Any, tokenize: Any) -> None:
-    # TextMate grammars read line by line, so this one cannot know that `goal` is a field here.
-    text = "action A {\n  goal {\n    goal\n    : string } }"
-    assert miscoloured(text, language, tokenize) == ["line 3: `goal` is meta.action.swarm"]
+    # TextMate grammars read line by line, so this one cannot know that `state` is a field here.
+    text = "message M {\n  state\n  : string }"
+    assert miscoloured(text, language, tokenize) == ["line 2: `state` is keyword.other.swarm"]
 
 
 def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) -> None:
@@ -102,9 +102,11 @@ def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) 
         f"action A {{ goal {{ {fields} }} result {{ {fields} }} feedback {{ {fields} }} }}",
         *(
             f"""
-            member R {{ part : Part {{ {word} = 1 }} }}
+            member R {{ communication radio {{ {word} = 1 }} part : Part {{ {word} = 1 }} }}
             statemachine M {{
+              state T = N({word} = 1, {word}=v.{word})
               state S {{
+                entry / v.{word} = 1, send E({word} = v.{word})
                 do f({word} = v.{word}) gives ({word} => v.{word}, {word}=>v)
                 on E [v.{word} == 1] / v.{word} = 2, send E({word}= 3, {word} =v) -> S
               }}
@@ -118,21 +120,39 @@ def test_every_keyword_can_be_the_name_of_a_field(language: Any, tokenize: Any) 
 def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
     model = """
     package {0}
+    import "{0}" import ros "{0}" import {0}.* import {0}.{0} import {0}
+    const {0} : {0} = {0} + {0}
+    enum {0} : {0} {{ {0} = -1 {0} }}
+    message {0} {{ const {0} : {0} = {0} {0} : {0}[<=3] }}
     struct {0} {{ {0} : {0} }}
     type {0} = {0}[3]
     event {0} : {0}/{0}
     function {0} : abstraction {{ param {0} : {0} = {0} }}
-    sensor {0} {{ in {0} : {0} param {0} : {0} }}
-    member {0} {{
+    sensor {0} extends {0} {{
+      in {0} : {0} param {0} : {0} = {0} operation {0}(in {0} : {0}, {0} : {0}) behavior {0}
+    }}
+    member {0} extends {0} {{
       behavior {0}
+      communication {0} {{ {0} = {0} }}
       {0} : {0} {{ {0} = {0} }}
       connect {0}.{0} -> {0}.{0}
     }}
     statemachine {0} {{
       var {0} : {0} = {0} + {0}({0})
       initial {0}
-      state {0} = {0} {{
+      state {0} = {0}({0} = {0}) {{
+        entry / send {0}, {0} = {0}
+        exit / {0} = {0}
         do {0}(by {0}) gives by {0}
+        [{0}] -> {0}
+        monitor "{0}" : {0} [{0}] / {0} = {0} + 1
+        internal [{0}] -> {0}
+        internal on {0} [{0}] / {0} = {0} -> {0}
+        on {0} / send {0}
+        internal monitor "{0}" : {0} -> {0}
+        internal after {0} [{0}] / send {0}
+        history {0} -> {0}
+        deep history {0} -> {0}
         on {0} [{0} > {0}.{0}] / send {0}, {0} = {0} -> {0}
         on done.{0} -> {0}
         after {0} -> {0}
@@ -140,19 +160,36 @@ def test_contextual_keywords_can_be_names(language: Any, tokenize: Any) -> None:
       parallel state {0} {{ region {0} {{ initial {0} final {0} }} on {0}.done -> {0} }}
       choice {0} {{ [{0}] / send {0}({0} = {0}) -> {0} else -> {0} }}
     }}
-    swarm {0} {{ {0} : {0}[1..*] environment {0} }}
+    swarm {0} {{ {0} : {0}[1..*] environment {0} fitness {0} }}
     environment {0} {{ world "w" size 1 m x 1 m }}
+    fitness {0} {{
+      in {0} : {0} param {0} : {0} = {0} + {0}
+      maximize {0} * {0}
+    }}
+    optimize {0} {{
+      {0}.{0} in {0} .. {0} step {0} count of {0} in {0} .. {0} steps {0} seed {0} evaluations {0}
+    }}
     """
     for word in sorted(language.contextual):
         assert miscoloured(model.format(word), language, tokenize) == [], word
 
 
-@pytest.mark.parametrize("typed", ["on", "on E", "on E / x = 1", "after 3 s", "after 3 s / x ="])
-def test_a_transition_being_typed_ends_where_the_next_item_begins(
+@pytest.mark.parametrize(
+    "typed",
+    [
+        "on", "on E", "on E / x = 1", "after 3 s", "after 3 s / x =", "monitor",
+        'monitor "a" : b/C', "[x > 1]", "entry", "exit /", "entry / x =",
+    ],
+)  # fmt: skip
+def test_a_transition_without_target_ends_where_the_next_item_begins(
     typed: str, tokenize: Any
 ) -> None:
-    items = ["after", "choice", "do", "final", "initial", "on", "param", "region", "state", "var"]
-    half = [f"{typed}\n{item} X {{ }} }}" for item in [*items, "parallel state"]]
+    items = [
+        "after", "choice", "deep history", "do", "entry", "exit", "final", "history", "initial",
+        "internal after", "internal monitor", "internal on", "internal [", "monitor", "on", "param",
+        "parallel state", "region", "state", "var",
+    ]  # fmt: skip
+    half = [f"{typed}\n{item} X {{ }} }}" for item in items]
     text = "statemachine M {" + "".join(f"state S {{\n{lines}" for lines in half)
     first = {line: scopes[-1] for line, start, _, scopes in tokenize(text) if start == 0}
     for number, lines in enumerate(half):

@@ -15,26 +15,43 @@ SNIPPETS: dict[str, dict[str, Any]] = json.loads(PATH.read_text(encoding="utf-8"
 
 MACHINE = "statemachine M {{ {} }}"
 STATE = "statemachine M {{ state S {{ {} }} }}"
+OPTIMIZATION = "optimize W {{ {} }}"
 # Where a snippet stands, of those that do not stand at the top of a file.
 PLACES = {
     "Topic of a function": "function f : swarm {{ {} }}",
     "Port": "sensor S {{ {} }}",
+    "Operation": "sensor S {{ {} }}",
+    "Behaviour": "sensor S {{ {} }}",
     "Parameter": "sensor S {{ {} }}",
+    "Communication": "member R {{ {} }}",
     "Connector": "member R {{ {} }}",
     "Variable": MACHINE,
     "State": MACHINE,
     "State with an activity": MACHINE,
     "Composite state": MACHINE,
     "Submachine state": MACHINE,
+    "Submachine state with params": MACHINE,
     "Parallel state": MACHINE,
     "Choice": MACHINE,
     "Final state": MACHINE,
+    "History": STATE,
+    "Deep history": STATE,
+    "Entry": STATE,
+    "Exit": STATE,
     "Transition": STATE,
     "Transition with guard and effect": STATE,
     "Transition that sends": STATE,
+    "Transition without a target": STATE,
+    "Transition without an event": STATE,
+    "Internal transition": STATE,
+    "Monitor": STATE,
     "Timeout": STATE,
     "Activity": STATE,
+    "Activity of a component": STATE,
     "Activity with callbacks": STATE,
+    "Fitness of a swarm": "swarm W {{ {} }}",
+    "Range of a count": OPTIMIZATION,
+    "Range of a param": OPTIMIZATION,
 }
 STOP = re.compile(r"\$(?:(\d+)|\{(\d+)(?::([^}]*)|\|([^}]*)\|)\})")
 
