@@ -22,14 +22,20 @@ ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "src" / "swarmdsl"
 NAMES = {entry.code: name for name, entry in CODES.items()}
 PAGES = {code: Page(page_path(code)) for code in NAMES}
-# No text of a model is behind these: the file system is, the command line or a generator.
+# No text of a model is behind these: the file system is, the command line, the project file,
+# an installed library or a generator.
 NO_MODEL = {
     *("unreadable-file", "not-text", "nothing-to-compile", "control-character"),
     *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
     *("cannot-write", "target-left-out", "generator-failed"),
+    *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
+    *("not-a-warning",),
 }
 # Found before there is a model, and not by its text.
-UNTEXTUAL = {"unreadable-file", "nothing-to-compile"}
+UNTEXTUAL = {
+    *("unreadable-file", "nothing-to-compile", "broken-library"),
+    *("bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic", "not-a-warning"),
+}
 
 
 def section(page: Page, heading: str) -> list[Block]:

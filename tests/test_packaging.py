@@ -61,8 +61,11 @@ def wheel(folder: Path, python: Path) -> Path:
 @pytest.fixture(scope="module")
 def installed(folder: Path, python: Path, wheel: Path) -> Path:
     """The folder of the installed commands."""
-    plugin = shutil.copytree(ROOT / "tests" / "plugins" / "roster", folder / "roster")
-    run_ok(python, "-m", "pip", "install", "--quiet", wheel, plugin, cwd=folder)
+    plugins = [
+        shutil.copytree(ROOT / "tests" / "plugins" / name, folder / name)
+        for name in ("roster", "warehouse")
+    ]
+    run_ok(python, "-m", "pip", "install", "--quiet", wheel, *plugins, cwd=folder)
     shutil.copytree(ROOT / "examples", folder / "examples")
     return python.parent
 
@@ -119,3 +122,25 @@ def test_a_plug_in_is_a_target_like_any_other(installed, folder):
     command = ("build", example, "-t", "roster", "--option", "roster.style=markdown")
     run_ok(installed / "swarmc", *command, "-o", "made", cwd=folder)
     assert (folder / "made/roster/Blinkers.txt").read_text() == "- blinker [2..*]\n"
+
+
+def test_libraries_are_found_the_shipped_one_and_those_of_other_packages(installed, folder):
+    model = """import cpswarm.functions.*
+import warehouse.shelves.*
+statemachine Fetch {
+  initial Lift
+  state Lift {
+    do lift(shelf = 3)
+    on succeeded -> Land
+    on aborted   -> Down
+  }
+  state Land {
+    do uav_mavros_land
+    on succeeded, aborted -> Down
+  }
+  final Down
+}
+"""
+    (folder / "fetch.swarm").write_text(model, encoding="utf-8")
+    said = run_ok(installed / "swarmc", "check", "fetch.swarm", cwd=folder)
+    assert said.startswith("no errors in ")

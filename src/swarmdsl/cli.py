@@ -23,7 +23,6 @@ from swarmdsl.render import FORMATS, render, summary
 if TYPE_CHECKING:
     from swarmdsl.compiler import Result
     from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.emit import Request
 
 OK, ERRORS, USAGE, INTERNAL = range(4)
 # As a shell reports it for a program that a signal ended.
@@ -45,6 +44,15 @@ _format = click.option(
     default=FORMATS[0],
     show_default=True,
     help="How diagnostics are printed.",
+)
+_allow = click.option(
+    "--allow", multiple=True, metavar="NAME", help="Silence a warning; may be repeated."
+)
+_deny = click.option(
+    "--deny",
+    multiple=True,
+    metavar="NAME",
+    help="Take a warning for an error; `warnings` stands for all. May be repeated.",
 )
 
 
@@ -76,16 +84,27 @@ def cli() -> None:
 
 @cli.command(epilog="Example: swarmc check examples/search_and_rescue --format concise")
 @_files
+@_allow
+@_deny
 @_format
 @_debug
-def check(paths: tuple[Path, ...], format_: str) -> int:
+def check(
+    paths: tuple[Path, ...], allow: tuple[str, ...], deny: tuple[str, ...], format_: str
+) -> int:
     """Find mistakes in models.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the current folder.
+    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
+    names, or for the current folder.
     """
     from swarmdsl import compiler
+    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.project.command_line import run_settings
 
-    return _conclude(compiler.check(paths or (Path(),)), format_, sys.stdout)
+    report = Diagnostics()
+    settings = run_settings(paths, allow, deny, report)
+    if report.has_errors:
+        return _conclude(compiler.Result(report, files=1), format_, sys.stdout)
+    return _conclude(compiler.check(settings.sources, settings), format_, sys.stdout)
 
 
 @cli.command(
@@ -98,15 +117,15 @@ def check(paths: tuple[Path, ...], format_: str) -> int:
     "targets",
     multiple=True,
     metavar="TARGET",
-    help="What to make; may be repeated. Without it: all that can express the model.",
+    help="What to make; may be repeated. Without it: the targets of swarm.toml, or all that "
+    "can express the model.",
 )
 @click.option(
     "--out",
     "-o",
     type=click.Path(path_type=Path),
-    default="out",
-    show_default=True,
-    help="The output folder; each target has a folder in it.",
+    help="The output folder; each target has a folder in it.  [default: that of swarm.toml, "
+    "or `out`]",
 )
 @click.option(
     "--option",
@@ -123,15 +142,19 @@ def check(paths: tuple[Path, ...], format_: str) -> int:
 @click.option(
     "--dump-ir", is_flag=True, help="Print the intermediate representation and write nothing."
 )
+@_allow
+@_deny
 @_format
 @_debug
 def build(
     paths: tuple[Path, ...],
     targets: tuple[str, ...],
-    out: Path,
+    out: Path | None,
     options: tuple[str, ...],
     force: bool,
     dump_ir: bool,
+    allow: tuple[str, ...],
+    deny: tuple[str, ...],
     format_: str,
 ) -> int:
     """Check models and generate what the targets make of them.
@@ -140,37 +163,25 @@ def build(
     what an earlier build made and this one does not is removed.
     """
     from swarmdsl import compiler
+    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.project.command_line import requests, run_settings
 
-    requests = _requests(targets, options)
-    if dump_ir:
-        result = compiler.check(paths or (Path(),))
-        if result.system is not None:
-            from swarmdsl.ir.dump import dump
+    report = Diagnostics()
+    settings = run_settings(paths, allow, deny, report)
+    wanted = requests(targets, options, settings)
+    stream = sys.stderr if dump_ir else sys.stdout
+    if report.has_errors:
+        return _conclude(compiler.Result(report, files=1), format_, stream)
+    if not dump_ir:
+        out = out or settings.out
+        result = compiler.build(settings.sources, wanted, out, settings, force=force)
+        return _conclude(result, format_, stream)
+    result = compiler.check(settings.sources, settings)
+    if result.system is not None:
+        from swarmdsl.ir.dump import dump
 
-            click.echo(dump(result.system), nl=False)
-        return _conclude(result, format_, sys.stderr)
-    result = compiler.build(paths or (Path(),), requests, out, force=force)
-    return _conclude(result, format_, sys.stdout)
-
-
-def _requests(targets: tuple[str, ...], options: tuple[str, ...]) -> list[Request]:
-    from swarmdsl import plugins
-    from swarmdsl.emit import Request
-
-    requests = [Request(target) for target in targets]
-    if not targets:
-        requests = [Request(target, required=False) for target in plugins.target_names()]
-    known = {request.target for request in requests}
-    for option in options:
-        name, equals, value = option.partition("=")
-        target, dot, name = name.partition(".")
-        if not (equals and dot and name):
-            raise click.UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE")
-        if target not in known:
-            raise click.UsageError(f"`--option {option}`: target `{target}` is not built")
-        # Not required: only a `--target` makes it so.
-        requests.append(Request(target, {name: value}, required=False))
-    return requests
+        click.echo(dump(result.system), nl=False)
+    return _conclude(result, format_, stream)
 
 
 def _conclude(result: Result, format_: str, stream: TextIO) -> int:
@@ -185,10 +196,41 @@ def _conclude(result: Result, format_: str, stream: TextIO) -> int:
 
 
 def _exit_code(report: Diagnostics) -> int:
-    errors = {found.name for found in report if found.severity.value == "error"}
+    errors = [found for found in report if found.severity.value == "error"]
     if not errors:
         return OK
-    return USAGE if errors <= _USAGE_FAULTS else ERRORS
+    # With a place they stand in the project file.
+    usage = all(found.name in _USAGE_FAULTS and found.primary is None for found in errors)
+    return USAGE if usage else ERRORS
+
+
+@cli.command(epilog="Example: swarmc fmt examples --diff")
+@_files
+@click.option("--check", "check_only", is_flag=True, help="List what would change, write nothing.")
+@click.option("--diff", is_flag=True, help="Show what would change, write nothing.")
+@_format
+@_debug
+def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, format_: str) -> int:
+    """Bring files into the canonical layout.
+
+    A FOLDER stands for all .swarm files below it; nothing, for the current folder; `-`, for
+    standard input, whose layout goes to standard output. A file with syntax errors is left
+    as it is. With `--check` and `--diff`, the exit code is 1 when there is something to change.
+    """
+    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.format import command
+
+    if Path("-") in paths and len(paths) > 1:
+        raise click.UsageError("`-` stands alone")
+    report = Diagnostics()
+    if check_only or diff:
+        outcome = command.inspect(paths, report, as_diff=diff)
+    else:
+        outcome = command.rewrite(paths, report)
+    render(report, format_, sys.stderr)
+    if outcome.summary:
+        click.echo(outcome.summary, err=True)
+    return _exit_code(report) or (OK if outcome.done else ERRORS)
 
 
 @cli.command(epilog="Example: swarmc targets smach")

@@ -34,6 +34,12 @@ CODES: dict[str, Code] = {
     "nothing-to-compile": Code("SW0007", "error", "no .swarm file in `{path}`"),
     "unknown-package": Code("SW0008", "error", "no library has a package `{name}`"),
     "control-character": Code("SW0009", "error", "there is a control character, {code}, here"),
+    "broken-library": Code("SW0010", "warning", "the library `{name}` does not work: {reason}"),
+    "bad-toml": Code("SW0011", "error", "`{path}` is not TOML: {reason}"),
+    "unknown-key": Code("SW0012", "error", "{owner} has no `{name}`"),
+    "wrong-value": Code("SW0013", "error", "`{name}` takes {expected}, not {found}"),
+    "unknown-diagnostic": Code("SW0014", "error", "there is no diagnostic `{name}`"),
+    "not-a-warning": Code("SW0015", "error", "`{name}` is an error, and cannot be allowed"),
     # ---- syntax
     "syntax-error": Code("SW0101", "error", "{message}"),
     "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),

@@ -13,7 +13,10 @@ from swarmdsl.link import link
 from swarmdsl.load import load
 from swarmdsl.lower import lower
 from swarmdsl.output import Written, write
+from swarmdsl.project.settings import Settings
 from swarmdsl.validate import validate
+
+_DEFAULTS = Settings()
 
 
 @dataclass(frozen=True)
@@ -26,22 +29,27 @@ class Result:
     written: Written | None = None
 
 
-def check(paths: Sequence[Path]) -> Result:
+def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
     """Find everything that is wrong with the model in these files and what they import."""
-    report = Diagnostics()
-    project = load(paths, report)
+    report = Diagnostics(settings.levels)
+    project = load(paths, report, settings.libraries)
     link(project, report)
     validate(project, report)
     if report.has_errors:
         return Result(report, len(project.files))
-    return Result(report, len(project.files), lower(project))
+    return Result(report, len(project.files), lower(project, settings.name))
 
 
 def build(
-    paths: Sequence[Path], requests: Sequence[Request], out: Path, *, force: bool = False
+    paths: Sequence[Path],
+    requests: Sequence[Request],
+    out: Path,
+    settings: Settings = _DEFAULTS,
+    *,
+    force: bool = False,
 ) -> Result:
     """Check the model and write what the requested targets make of it below `out`."""
-    checked = check(paths)
+    checked = check(paths, settings)
     if checked.system is None:
         return checked
     report = checked.report

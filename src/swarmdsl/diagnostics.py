@@ -6,8 +6,8 @@ exception: every phase reports and goes on.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from swarmdsl.codes import CODES
@@ -19,6 +19,18 @@ class Severity(Enum):
 
     ERROR = "error"
     WARNING = "warning"
+
+
+class Level(Enum):
+    """What becomes of a warning: it is silenced, stays a warning, or is an error."""
+
+    ALLOW = "allow"
+    WARN = "warn"
+    DENY = "deny"
+
+
+ALL_WARNINGS = "warnings"
+"""Stands for every warning whose level is not given by its own name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,10 +61,14 @@ class Diagnostic:
 
 
 class Diagnostics:
-    """Collects what the phases report, without duplicates."""
+    """Collects what the phases report, without duplicates.
 
-    def __init__(self) -> None:
+    `levels` says by name, or for ALL_WARNINGS, what becomes of warnings.
+    """
+
+    def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
         self._found: dict[Diagnostic, None] = {}
+        self._levels = levels or {}
 
     def report(
         self,
@@ -81,11 +97,21 @@ class Diagnostics:
             notes=notes,
             help=help,
         )
-        self._found.setdefault(found)
+        self._add(found)
 
     def include(self, others: Iterable[Diagnostic]) -> None:
         """Add what was collected elsewhere."""
-        self._found.update(dict.fromkeys(others))
+        for found in others:
+            self._add(found)
+
+    def _add(self, found: Diagnostic) -> None:
+        if found.severity is Severity.WARNING:
+            level = self._levels.get(found.name, self._levels.get(ALL_WARNINGS, Level.WARN))
+            if level is Level.ALLOW:
+                return
+            if level is Level.DENY:
+                found = replace(found, severity=Severity.ERROR)
+        self._found.setdefault(found)
 
     @property
     def has_errors(self) -> bool:

@@ -5,15 +5,101 @@ A package `a.b` is the file `a/b.swarm` or the .swarm files in the folder `a/b` 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import logging
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 
+from swarmdsl import resources
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.plugins import describe
 from swarmdsl.source import Span
 from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import Import, ImportLibrary
 
 SUFFIX = ".swarm"
+GROUP = "swarmdsl.libraries"
+"""The entry points of packages that bring models: the module in whose folder they lie."""
+
+_LOG = logging.getLogger(__name__)
+
+
+class Libraries:
+    """The folders where packages are looked for; the first that has one is taken.
+
+    That is the folder of the importing file, those given, the libraries of installed Python
+    packages, and the one that comes with swarmdsl.
+    """
+
+    def __init__(self, folders: Sequence[Path], report: Diagnostics) -> None:
+        self._folders = folders
+        self._report = report
+
+    def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
+        """The files of a package; reported when no library has it."""
+        package = statement.name.rpartition(".")[0]
+        parts = package.split(".")
+        for library in self._search_path(nearby) if package else ():
+            place = library.joinpath(*parts)
+            if place.with_suffix(SUFFIX).is_file():
+                return [place.with_suffix(SUFFIX)]
+            if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
+                return files
+        self._report.report(
+            "unknown-package",
+            place_of(statement),
+            name=package or statement.name,
+            help=self._advice(statement, package, nearby),
+        )
+        return []
+
+    def _search_path(self, nearby: Path) -> Iterator[Path]:
+        yield nearby
+        yield from self._folders
+        yield from self._installed
+        yield resources.library()
+
+    @cached_property
+    def _installed(self) -> list[Path]:
+        # Imported here because it is slow and most models do without.
+        from importlib.metadata import entry_points
+
+        found: dict[Path, None] = {}
+        for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+            try:
+                folder = _folder_of(point.module)
+            # Whatever goes wrong in the code of others is theirs alone.
+            except (Exception, SystemExit) as error:
+                _LOG.debug("looking for the library %s", point.name, exc_info=True)
+                self._report.report("broken-library", name=point.name, reason=describe(error))
+                continue
+            found[folder] = None
+        return list(found)
+
+    def _advice(self, statement: ImportLibrary, package: str, nearby: Path) -> str | None:
+        if not package:
+            return f"write `import {statement.name}.*` for all that a package declares"
+        names = {
+            ".".join(path.relative_to(library).with_suffix("").parts)
+            for library in self._search_path(nearby)
+            for path in (*library.glob(f"*/*{SUFFIX}"), *library.glob(f"*{SUFFIX}"))
+        }
+        return did_you_mean(package, names)
+
+
+def _folder_of(module: str) -> Path:
+    """Where the files of a module lie; the module itself is not run."""
+    spec = find_spec(module)
+    if spec is None:
+        raise ModuleNotFoundError(f"there is no module `{module}`")
+    folders = [Path(folder) for folder in spec.submodule_search_locations or ()]
+    if not folders and spec.origin is not None:
+        folders = [Path(spec.origin).parent]
+    for folder in folders:
+        if next(folder.rglob(f"*{SUFFIX}"), None) is not None:
+            return folder
+    raise FileNotFoundError(f"no {SUFFIX} file lies in the folder of `{module}`")
 
 
 def imported_names(statement: Import) -> str | None:
@@ -23,41 +109,9 @@ def imported_names(statement: Import) -> str | None:
     return None
 
 
-def find_package(
-    statement: ImportLibrary, libraries: Sequence[Path], report: Diagnostics
-) -> list[Path]:
-    """The files of a package, from the first library that has it; reported when none has."""
-    package = statement.name.rpartition(".")[0]
-    parts = package.split(".")
-    for library in libraries if package else ():
-        place = library.joinpath(*parts)
-        if place.with_suffix(SUFFIX).is_file():
-            return [place.with_suffix(SUFFIX)]
-        if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
-            return files
-    report.report(
-        "unknown-package",
-        place_of(statement),
-        name=package or statement.name,
-        help=_advice(statement, package, libraries),
-    )
-    return []
-
-
 def place_of(statement: Import) -> Span:
     """Where an import says what it imports."""
     if isinstance(statement, ImportLibrary):
         end = statement.span.end
         return Span(statement.span.source, end - len(statement.name), end)
     return statement.path.span
-
-
-def _advice(statement: ImportLibrary, package: str, libraries: Sequence[Path]) -> str | None:
-    if not package:
-        return f"write `import {statement.name}.*` for all that a package declares"
-    names = {
-        ".".join(path.relative_to(library).with_suffix("").parts)
-        for library in libraries
-        for path in (*library.glob(f"*/*{SUFFIX}"), *library.glob(f"*{SUFFIX}"))
-    }
-    return did_you_mean(package, names)

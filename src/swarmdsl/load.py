@@ -9,10 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from swarmdsl import resources
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
-from swarmdsl.libraries import SUFFIX, find_package, place_of
+from swarmdsl.libraries import SUFFIX, Libraries, place_of
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.ros.interface_file import parse_interface
 from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
@@ -83,9 +82,9 @@ class Project:
 def load(paths: Iterable[Path], report: Diagnostics, libraries: Sequence[Path] = ()) -> Project:
     """Read the files, those in the folders, and everything they import.
 
-    `libraries` are the folders where packages are looked for, the shipped one after them.
+    `libraries` are folders where packages are looked for, before the installed ones.
     """
-    return _Loader(report, (*libraries, resources.library())).load(paths)
+    return _Loader(report, Libraries(libraries, report)).load(paths)
 
 
 @dataclass
@@ -111,14 +110,14 @@ class _Step:
 
 
 class _Loader:
-    def __init__(self, report: Diagnostics, libraries: Sequence[Path]) -> None:
+    def __init__(self, report: Diagnostics, libraries: Libraries) -> None:
         self._report = report
         self._libraries = libraries
         self._known: dict[str, File | None] = {}
         self._work: deque[_Step] = deque()
 
     def load(self, paths: Iterable[Path]) -> Project:
-        self._work.extend(_Step(path) for path in _expanded(paths, self._report))
+        self._work.extend(_Step(path) for path in expanded(paths, self._report))
         while self._work:
             step = self._work.popleft()
             file = self._file(step)
@@ -156,8 +155,7 @@ class _Loader:
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
             case ImportLibrary():
-                roots = (folder, *self._libraries)
-                for path in find_package(statement, roots, self._report):
+                for path in self._libraries.find_package(statement, folder):
                     yield _Step(path, file, statement)
 
 
@@ -175,7 +173,7 @@ def _in_import_order(files: list[File]) -> list[File]:
     return list(ordered)
 
 
-def _expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
+def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
     """Replace each folder by the .swarm files below it, in a stable order."""
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
@@ -194,7 +192,7 @@ def _relative(folder: Path, wanted: str) -> Path:
 
 def _read_interface(interface: InterfacePath, at: Span | None, report: Diagnostics) -> File | None:
     """Read a ROS interface file as a file with one declaration."""
-    source = _source(interface.path, at, report)
+    source = read_source(interface.path, at, report)
     if source is None:
         return None
     read = parse_interface(source, interface.package, interface.name, interface.kind, report)
@@ -207,7 +205,7 @@ def _read_interface(interface: InterfacePath, at: Span | None, report: Diagnosti
 
 def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     """Read and parse a file; None when it cannot be read, which is reported at `at`."""
-    source = _source(path, at, report)
+    source = read_source(path, at, report)
     if source is None:
         return None
     before = len(report)
@@ -228,20 +226,29 @@ def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
     return File(source, parsed)
 
 
-def _source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:
+def read_source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:
     """Read the text of a file; None when it cannot be read, which is reported at `at`."""
+    content = read_bytes(path, at, report)
+    return decoded(path, content, at, report) if content is not None else None
+
+
+def read_bytes(path: Path, at: Span | None, report: Diagnostics) -> bytes | None:
+    """Read a file; None when it cannot be read, which is reported at `at`."""
     if os.path.isdir(path):  # noqa: PTH112 - as above
         report.report("not-a-file", at, path=path, help="name a file in it")
         return None
     try:
-        data = path.read_bytes()
+        return path.read_bytes()
     except FileNotFoundError:
         report.report("file-not-found", at, path=path, help=_similar_file(path))
-        return None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         report.report("unreadable-file", at, path=path, reason=reason.lower())
-        return None
+    return None
+
+
+def decoded(path: Path, data: bytes, at: Span | None, report: Diagnostics) -> Source | None:
+    """The content of a file as text; None when it is none, which is reported at `at`."""
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -8,6 +8,7 @@ from typing import Any, get_type_hints
 
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.generator import Generator
+from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 
 _BOOLEANS = {"true": True, "false": False}
@@ -58,20 +59,29 @@ def _option(field: Field[Any], type_: type) -> Option:
     )
 
 
-def parse_options(generator: Generator, given: Mapping[str, str], report: Diagnostics) -> object:
-    """The generator's options with what was given; defaults where that is wrong and reported."""
+def parse_options(
+    generator: Generator,
+    given: Mapping[str, str],
+    report: Diagnostics,
+    places: Mapping[str, Span] | None = None,
+) -> object:
+    """The generator's options with what was given; defaults where that is wrong and reported.
+
+    `places` are those of the values that stand in a file.
+    """
     known = options_of(generator)
     values = {}
     for name, text in given.items():
+        place = places[name] if places else None
         if name not in known:
             fault = f"there is no option `{name}`"
             hint = suggest(name, known, "options")
-            report.report("bad-option", target=generator.target, fault=fault, help=hint)
+            report.report("bad-option", place, target=generator.target, fault=fault, help=hint)
             continue
         value = known[name].parse(text)
         if value is None:
             fault = f"option `{name}` takes {known[name].takes}, not `{text}`"
-            report.report("bad-option", target=generator.target, fault=fault)
+            report.report("bad-option", place, target=generator.target, fault=fault)
             continue
         values[name] = value
     return generator.options_type(**values)

@@ -30,7 +30,7 @@ def test_little_is_imported_for_a_little_answer(arguments, allowed):
 def test_debug_shows_where_a_bug_of_ours_is(tmp_path):
     code = (
         "import sys\nfrom swarmdsl import cli, compiler\n"
-        "compiler.check = lambda paths: {}['gone']\n"
+        "compiler.check = lambda *_: {}['gone']\n"
         "sys.exit(cli.run(['check', '--debug']))"
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)

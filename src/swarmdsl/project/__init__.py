@@ -1,0 +1,40 @@
+"""The project file: what a run takes from `swarm.toml` unless the command line says it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.load import read_source
+from swarmdsl.project.schema import FILE_NAME, read_settings
+from swarmdsl.project.settings import Settings
+from swarmdsl.project.toml import parse_toml
+
+
+def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
+    """The settings for these files and folders: defaults where there is no project file.
+
+    Incomplete when errors were reported.
+    """
+    path = find_file(paths[0] if paths else Path())
+    if path is None:
+        return Settings()
+    source = read_source(path, None, report)
+    document = parse_toml(source, report) if source is not None else None
+    return read_settings(document, path.parent, report) if document is not None else Settings()
+
+
+def find_file(start: Path) -> Path | None:
+    """The project file in the folder of `start` or in the closest one above it."""
+    # As text: what was given may be no path that can be looked up.
+    absolute = os.path.abspath(start)  # noqa: PTH100
+    for folder in (Path(absolute), *Path(absolute).parents):
+        found = os.path.join(folder, FILE_NAME)  # noqa: PTH118
+        if os.path.isfile(found):  # noqa: PTH113
+            return Path(found if start.is_absolute() else os.path.relpath(found))
+    return None
+
+
+__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings"]

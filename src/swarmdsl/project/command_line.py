@@ -1,0 +1,71 @@
+"""What the command line asks for, on top of what the project file says.
+
+What cannot be meant is a UsageError.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from swarmdsl import plugins
+from swarmdsl.diagnostics import Diagnostics, Level
+from swarmdsl.emit import Request
+from swarmdsl.project import find_settings
+from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
+from swarmdsl.project.settings import Settings
+
+
+def run_settings(
+    paths: tuple[Path, ...], allow: Iterable[str], deny: Iterable[str], report: Diagnostics
+) -> Settings:
+    """The settings of a run: those of the project, and over them those given here."""
+    given = _levels(allow, deny)
+    found = find_settings(paths, report)
+    return replace(found, sources=paths or found.sources, levels={**found.levels, **given})
+
+
+def requests(targets: Iterable[str], options: Iterable[str], settings: Settings) -> list[Request]:
+    """The targets to build: those named, else those of the project, else all.
+
+    An option on the command line wins over the same one in the project file.
+    """
+    named = list(dict.fromkeys(targets))
+    # Only a target that somebody asked for must be able to express the model.
+    required = bool(named or settings.targets)
+    built = named or list(settings.targets) or plugins.target_names()
+    given: dict[str, dict[str, str]] = {target: {} for target in built}
+    for option in options:
+        name, equals, value = option.partition("=")
+        target, dot, name = name.partition(".")
+        if not (equals and dot and name):
+            raise click.UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE")
+        if target not in given:
+            raise click.UsageError(f"`--option {option}`: target `{target}` is not built")
+        if given[target].setdefault(name, value) != value:
+            raise click.UsageError(
+                f"`{target}.{name}` is given as `{given[target][name]}` and as `{value}`"
+            )
+    return [
+        Request(target, {**settings.targets.get(target, {}), **own}, required)
+        for target, own in given.items()
+    ]
+
+
+def _levels(allow: Iterable[str], deny: Iterable[str]) -> dict[str, Level]:
+    found: dict[str, Level] = {}
+    for level, words in ((Level.ALLOW, allow), (Level.DENY, deny)):
+        for word in words:
+            name = find_diagnostic(word)
+            option = f"`--{level.value} {word}`"
+            if name is None:
+                hint = similar_diagnostic(word) or "`swarmc explain` lists all"
+                raise click.UsageError(f"{option}: there is no diagnostic `{word}`: {hint}")
+            if not may_have(name, level):
+                raise click.UsageError(f"{option}: errors cannot be allowed")
+            if found.setdefault(name, level) is not level:
+                raise click.UsageError(f"{option}: `{name}` is allowed and denied")
+    return found

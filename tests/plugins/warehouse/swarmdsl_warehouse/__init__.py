@@ -1,0 +1,3 @@
+"""Models of a warehouse, for `import warehouse.*`."""
+
+raise RuntimeError("the module of a library is never run")

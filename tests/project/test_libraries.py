@@ -1,0 +1,249 @@
+"""Where `import package.*` finds its models, and what of them is in the system."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler, ir, resources
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.libraries import GROUP
+from swarmdsl.load import load
+from swarmdsl.project.settings import Settings
+from swarmdsl.ros.interface_file import parse_interface
+from swarmdsl.source import Source
+from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType
+
+ROOT = Path(__file__).resolve().parents[2]
+WAREHOUSE = ROOT / "tests" / "plugins" / "warehouse" / "swarmdsl_warehouse"
+CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
+
+USER = """package user
+import {package}.*
+statemachine M {{
+  initial S
+  state S {{
+    do {call}
+    on succeeded, aborted -> F
+  }}
+  final F
+}}
+"""
+KIT = 'package kit\nfunction go : abstraction {{ service "{name}" : std_srvs/Empty }}\n'
+
+
+@pytest.fixture
+def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
+    """Install a module with an entry point for libraries, the way pip leaves it behind."""
+    site = tmp_path / "site"
+    site.mkdir()
+    monkeypatch.syspath_prepend(site)
+
+    def add(name: str, module: str, files: dict[str, str]) -> Path:
+        for path, text in files.items():
+            (site / module / path).parent.mkdir(parents=True, exist_ok=True)
+            (site / module / path).write_text(text, encoding="utf-8")
+        info = site / f"{name}-1.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {name}\nVersion: 1\n")
+        (info / "entry_points.txt").write_text(f"[{GROUP}]\n{name} = {module}\n")
+        return site / module
+
+    return add
+
+
+def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
+    """Each place is the first that has the package when those before it are gone."""
+    shipped = tmp_path / "shipped"
+    installed = install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    root = project(
+        {
+            "models/main.swarm": USER.format(package="kit", call="go"),
+            "models/kit.swarm": KIT.format(name="0"),
+            "kit.swarm": KIT.format(name="1"),
+            "lib/kit/any.swarm": KIT.format(name="2"),
+            "../other/kit.swarm": KIT.format(name="3"),
+            "../shipped/kit.swarm": KIT.format(name="5"),
+            "swarm.toml": "[project]\nlibraries = ['lib', '../other']\n",
+        }
+    )
+    monkeypatch.setattr(resources, "library", lambda: shipped)
+    places = [root / "models", root, root / "lib" / "kit", tmp_path / "other", installed, shipped]
+    found = []
+    for place in places:
+        settings = Settings(libraries=(root, root / "lib", tmp_path / "other"))
+        system = compiler.check([root / "models" / "main.swarm"], settings).system
+        assert system is not None
+        found += [function.communication.name for function in system.functions]
+        (next(place.glob("*.swarm")) if place.name == "kit" else place / "kit.swarm").unlink()
+
+    assert found == ["0", "1", "2", "3", "4", "5"]
+
+
+def test_the_project_file_names_libraries(swarmc, project, monkeypatch) -> None:
+    root = project(
+        {
+            "swarm.toml": "[project]\nsources = ['models']\nlibraries = ['lib']\n",
+            "models/main.swarm": USER.format(package="kit", call="go"),
+            "lib/kit.swarm": KIT.format(name="x"),
+        }
+    )
+    assert swarmc("check").err == "no errors in 2 files\n"
+
+    monkeypatch.chdir(root / "models")
+    assert swarmc("check", "main.swarm").code == 0
+    (root / "swarm.toml").write_text("")
+    assert "SW0008" in swarmc("check", "main.swarm").out
+
+
+def test_a_library_in_a_package_of_its_own(swarmc, project, install) -> None:
+    site = install("warehouse", "swarmdsl_warehouse", {"x": ""})
+    shutil.copytree(WAREHOUSE, site, dirs_exist_ok=True)
+    project({"main.swarm": USER.format(package="warehouse.shelves", call="lift(shelf = 3)")})
+    ran = swarmc("check")
+
+    assert (ran.out, ran.err) == ("", "no errors in 2 files\n")
+
+
+def test_a_similar_name_in_an_installed_library(swarmc, project, install) -> None:
+    install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    project({"main.swarm": USER.format(package="kitt", call="go")})
+
+    assert "did you mean `kit`?" in swarmc("check").out
+
+
+@pytest.mark.parametrize(
+    ("module", "files", "reason"),
+    [
+        ("nowhere", {}, "there is no module `nowhere`"),
+        ("nowhere.below", {}, "No module named 'nowhere'"),
+        ("bare", {"__init__.py": ""}, "no .swarm file lies in the folder of `bare`"),
+        ("a b", {}, "AttributeError"),
+    ],
+)
+def test_a_broken_library_does_not_break_the_others(
+    swarmc, project, install, module, files, reason
+) -> None:
+    install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    install("abroken", module, files)
+    project({"main.swarm": USER.format(package="kit", call="go")})
+    ran = swarmc("check", "--format", "concise")
+
+    assert ran.code == 0
+    assert ran.out.startswith("warning[SW0010] the library `abroken` does not work: ")
+    assert reason in ran.out
+    assert swarmc("check", "--allow", "broken-library").out == ""
+
+
+def test_installed_libraries_are_not_looked_at_without_need(swarmc, project, install) -> None:
+    install("broken", "nowhere", {})
+    project(
+        {
+            "main.swarm": USER.format(package="kit", call="go"),
+            "kit.swarm": KIT.format(name="x"),
+        }
+    )
+
+    assert swarmc("check").out == ""
+
+
+# ---- the shipped library
+
+
+def test_the_shipped_library_has_no_mistakes(swarmc) -> None:
+    ran = swarmc("check", resources.library(), "--deny", "warnings")
+
+    assert (ran.code, ran.out, ran.err) == (0, "", "no errors in 3 files\n")
+
+
+def compiled(text: str, folder: Path) -> ir.System:
+    path = folder / "main.swarm"
+    path.write_text(text, encoding="utf-8")
+    result = compiler.check([path])
+    assert result.system is not None, [found.message for found in result.report]
+    return result.system
+
+
+def test_only_what_is_used_of_a_library_is_in_the_system(tmp_path) -> None:
+    call = 'task_allocation_auction(auctioneer = "", task_id = "t", task_pose = pose)'
+    text = USER.format(package="cpswarm.functions", call=call)
+    text = text.replace("initial S", "var pose : geometry_msgs/PoseStamped\n  initial S")
+    system = compiled(text, tmp_path)
+
+    assert [function.name for function in system.functions] == ["task_allocation_auction"]
+    own = {str(interface.type) for interface in system.interfaces if "cpswarm" in str(interface)}
+    assert own == {"cpswarm_msgs/TaskAllocation"}
+    assert system.events == ()
+    assert system.name == "user"
+
+
+def test_everything_of_the_shipped_library_can_be_built(swarmc, tmp_path) -> None:
+    ran = swarmc("build", resources.library(), "-t", "adf", "-o", tmp_path / "out")
+
+    assert (ran.code, ran.out) == (0, "")
+
+
+def test_a_mission_of_shipped_parts(swarmc, project) -> None:
+    mission = """package mission
+import cpswarm.events.*
+import cpswarm.functions.*
+statemachine Sweep {
+  initial Idle
+  state Idle { on MissionStart -> Rise }
+  state Rise {
+    do uav_mavros_takeoff(altitude = 3.0)
+    on succeeded -> Search
+    on aborted   -> Landing
+  }
+  state Search {
+    do uav_random_coverage(altitude = 3.0)
+    on succeeded, aborted, MissionAbort -> Landing
+  }
+  state Landing {
+    do uav_mavros_land
+    on succeeded -> Down
+    on aborted   -> Landing
+  }
+  final Down
+}
+"""
+    root = project({"mission.swarm": mission})
+    assert swarmc("build", "-t", "scxml", "-t", "adf").code == 0
+    written = "\n".join(p.read_text() for p in (root / "out").rglob("*") if p.is_file())
+    for name in ("MissionStart", "cmd/takeoff", "uav_random_coverage", "cmd/land"):
+        assert name in written
+    for name in ("TargetFound", "rois/assign", "ugv_coverage"):
+        assert name not in written
+
+
+@pytest.mark.skipif(not CORPUS.is_dir(), reason=f"no interfaces of CPSwarm in {CORPUS}")
+def test_shipped_interfaces_are_those_of_the_ros_packages() -> None:
+    project = load([resources.library()], Diagnostics())
+    compared = 0
+    for _, shipped in project.declarations():
+        if not isinstance(shipped, (MessageType, ServiceType, ActionType)):
+            continue
+        package, name = str(shipped.name).split("/")
+        kinds = {MessageType: "msg", ServiceType: "srv", ActionType: "action"}
+        kind = kinds[type(shipped)]
+        path = CORPUS / "interfaces" / package / kind / f"{name}.{kind}"
+        source = Source(str(path), path.read_text(encoding="utf-8"), path)
+        real = parse_interface(source, package, name, kind, Diagnostics()).declaration
+        assert outline(shipped) == outline(real), shipped.name
+        compared += 1
+
+    assert compared > 10
+
+
+def outline(node: object) -> object:
+    """The parts of an interface with their fields, as plain data."""
+    if isinstance(node, list):
+        return [outline(one) for one in node]
+    if isinstance(node, Field):
+        return (str(node.name), node.type.name, node.type.bound or "", node.type.array or "")
+    parts = ("fields", "request", "response", "goal", "result", "feedback")
+    return {part: outline(getattr(node, part)) for part in parts if hasattr(node, part)}
