@@ -158,6 +158,8 @@ class Typing:
 
     def _binary(self, tree: Operation, left: Type | None, right: Type | None) -> Type | None:
         operator, types = str(tree.operator), [left, right]
+        if operator in ("/", "%") and _whole_number(tree.operands[1]) == 0:
+            self.report.report("bad-operand", tree.span, operator=operator, operands="0")
         if operator in ("and", "or"):
             self._require(tree, operator, types, lambda t: t == BOOL)
             return BOOL
