@@ -68,6 +68,9 @@ def make_context(project: Project) -> Context:
         name = str(declaration.name)
         if count[name] > 1:
             name = f"{file.package.replace('.', '_')}_{name}"
+            while name in count:
+                name += "_"
+            count[name] += 1
         names[declaration] = name
         if isinstance(declaration, (StructType, MessageType)):
             fields[interface_name(file, declaration.name)] = declaration.fields
