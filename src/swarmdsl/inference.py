@@ -265,6 +265,8 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
 def constant(tree: ExpressionTree) -> bool:
     """Whether the value is known without running anything, as far as its names mean something."""
     match tree:
+        case NameUse(name="event"):
+            return False
         case Value() | NameUse(target=Constant() | EnumType() | None):
             return True
         case FieldUse(base=base):

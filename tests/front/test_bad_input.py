@@ -84,11 +84,15 @@ def test_a_byte_order_mark_has_no_column(check: Check) -> None:
     assert check(b"\xef\xbb\xbfevent Start std_msgs/Empty\n") == [("syntax-error", 1, 13)]
 
 
-@pytest.mark.parametrize(
-    "character", ["\ufeff", "\u200b", "\u00a0", "\u2028", "\x0c", "\x1b", "\x7f", "\u202e"]
-)
+@pytest.mark.parametrize("character", ["\ufeff", "\u200b", "\u00a0", "\u2028", "\u202e"])
 def test_characters_that_cannot_be_seen(check: Check, character: str) -> None:
     assert check(f"{START}event{character} Stop : std_msgs/Empty\n") == [("syntax-error", 2, 6)]
+
+
+@pytest.mark.parametrize("character", ["\x01", "\x0c", "\x1b", "\x7f"])
+def test_control_characters_stand_nowhere(check: Check, character: str) -> None:
+    assert check(f"/// One{character}.\n{START}") == [("control-character", 1, 8)]
+    assert ("control-character", 2, 6) in check(f"{START}event{character} Stop : std_msgs/Empty\n")
 
 
 @pytest.mark.parametrize("character", ["§", "é", "🚁", "\\", "`", "$", "@", "~"])
@@ -97,7 +101,9 @@ def test_characters_that_mean_nothing(check: Check, character: str) -> None:
 
 
 def test_any_character_may_stand_in_comments_and_texts(check: Check) -> None:
-    assert check(f'// \u200b§🚁\x0c\n{START[:-1]} on "\u200b§🚁"\n') == []
+    text = 'environment Field { world "\u200b§🚁" }\n'
+
+    assert check(f"// \u200b§🚁\n{text}") == []
 
 
 @pytest.mark.parametrize(

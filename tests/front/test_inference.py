@@ -8,9 +8,10 @@ import pytest
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.inference import Typing, assignable, constant, fits
+from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import Array, Named, Primitive, Type
 from swarmdsl.load import Project
-from swarmdsl.syntax import Assignment, Expression, ExpressionTree, MessageType, walk
+from swarmdsl.syntax import Assignment, Expression, ExpressionTree, walk
 
 Typed = Callable[[str], tuple[ExpressionTree, Typing]]
 BOOL, INT, FLOAT = Primitive("bool"), Primitive("int64"), Primitive("float64")
@@ -29,7 +30,7 @@ def typed(linked: Callable[..., Project]) -> Typed:
           statemachine M {{
             param p : float64 = 1.0
             var i : int32  var u : uint8  var f : float32  var b : bool  var s : string
-            var d : duration  var m : Status  var e : geometry_msgs/Pose  var a : float64[]
+            var d : duration  var m : Status  var e : other_msgs/Pose  var a : float64[]
             initial A
             state A {{ on Low / i = {text} -> F }}
             final F
@@ -38,9 +39,9 @@ def typed(linked: Callable[..., Project]) -> Typed:
         (assignment,) = [n for n in walk(project.files[0].model) if isinstance(n, Assignment)]
         assert isinstance(assignment.value, Expression)
         assert assignment.value.tree is not None
-        messages = [n for n in walk(project.files[0].model) if isinstance(n, MessageType)]
+        interfaces = Interfaces(project.declarations())
         status = Named("main", "Status")
-        typing = Typing({status: messages[0].fields}, Diagnostics(), has_event=True, event=status)
+        typing = Typing(interfaces, Diagnostics(), has_event=True, event=status)
         return assignment.value.tree, typing
 
     return expression

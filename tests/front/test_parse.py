@@ -11,7 +11,7 @@ from swarmdsl.syntax import (
     Function,
     NameUse,
     Node,
-    Operation,
+    OperatorUse,
     Param,
     Ref,
     State,
@@ -89,7 +89,7 @@ def test_documentation_goes_to_what_follows() -> None:
 def test_expressions_are_trees_with_places_in_the_file() -> None:
     tree = next(node for node in valid(MACHINE) if isinstance(node, Expression)).tree
 
-    assert isinstance(tree, Operation)
+    assert isinstance(tree, OperatorUse)
     assert (tree.operator, tree.span.text) == ("+", "1 + 2 * 3")
     assert [operand.span.text for operand in tree.operands] == ["1", "2 * 3"]
 
