@@ -180,20 +180,22 @@ class Typing:
         if call.function == "sqrt":
             self._require(call, call.function, types, is_number)
             return FLOAT
-        durations = all(t in (DURATION, None) for t in types)
-        if not durations:
-            self._require(call, call.function, types, is_number)
-        return DURATION if durations and DURATION in types else _widest(types)
+        if _all_durations(types):
+            return DURATION
+        fine = self._require(call, call.function, types, is_number)
+        return _widest(types) if fine else None
 
     def _unary(self, tree: OperatorUse, operand: Type | None) -> Type | None:
         if tree.operator == "not":
             self._require(tree, "not", [operand], lambda t: t == BOOL)
             return BOOL
-        self._require(tree, "-", [operand], lambda t: is_number(t) or t == DURATION)
-        return operand
+        fine = self._require(tree, "-", [operand], lambda t: is_number(t) or t == DURATION)
+        return operand if fine else None
 
     def _binary(self, tree: OperatorUse, left: Type | None, right: Type | None) -> Type | None:
         operator, types = str(tree.operator), [left, right]
+        if operator in ("/", "%") and _whole_number(tree.operands[1]) == 0:
+            self.report.report("bad-operand", tree.span, operator=operator, operands="0")
         if operator in ("and", "or"):
             self._require(tree, operator, types, lambda t: t == BOOL)
             return BOOL
@@ -219,7 +221,8 @@ class Typing:
             return DURATION
         if operator == "/" and _all_durations(types):
             return FLOAT
-        self._require(tree, operator, types, is_number)
+        if not self._require(tree, operator, types, is_number):
+            return None
         return FLOAT if operator == "/" else _widest(types)
 
     def _require(
@@ -228,9 +231,12 @@ class Typing:
         operator: str,
         types: list[Type | None],
         test: Callable[[Type], bool],
-    ) -> None:
-        if not all(known is None or test(known) for known in types):
+    ) -> bool:
+        """Report operands that are not of the right type; return whether all are."""
+        fine = all(known is None or test(known) for known in types)
+        if not fine:
             self._bad_operands(tree, operator, types)
+        return fine
 
     def _bad_operands(self, tree: ExpressionTree, operator: str, types: list[Type | None]) -> None:
         names = [str(known) for known in types if known is not None]
@@ -263,6 +269,8 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
 def constant(tree: ExpressionTree) -> bool:
     """Whether the value is known without running anything, as far as its names mean something."""
     match tree:
+        case NameUse(name="event"):
+            return False
         case Value() | NameUse(target=Constant() | EnumType() | None):
             return True
         case FieldUse(base=base):

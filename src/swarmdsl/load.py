@@ -268,8 +268,9 @@ def _report_encoding(
     elif b"\0" in data:
         report.report("not-text", at, path=path, help="this looks like a binary file")
     else:
-        readable = _unified(data[: error.start].decode("utf-8-sig"))
-        rest = _unified(data[error.start :].decode("utf-8", "replace"))
+        data = error.object  # without the byte order mark that may come first
+        readable = _unified(data[: error.start].decode())
+        rest = _unified(data[error.start :].decode(errors="replace"))
         source = Source(str(path), readable + rest, path)
         report.report(
             "not-text",

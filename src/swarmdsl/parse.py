@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 import sys
+from bisect import bisect_right
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, fields
@@ -20,7 +21,7 @@ from typing import Any
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.expressions import parse_expression, unquoted
 from swarmdsl.resources import grammar
-from swarmdsl.scan import DocComment, scan
+from swarmdsl.scan import DocComment, Scan, scan
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
     NODES,
@@ -38,10 +39,12 @@ from swarmdsl.syntax_errors import report_syntax_error
 # textX recurses some thirty frames a level; scan.NESTING_LIMIT bounds the levels.
 RECURSION_LIMIT = 20_000
 _ERRORS_PER_DECLARATION = 10
-# Where a top-level declaration starts: a word in the first column.
+# Where a top-level declaration starts: a keyword in the first column, or what looks like
+# one with a slip in it (`Event Start :`).
 _DECLARATION_START = re.compile(
-    r"^(?=(?:package|import|struct|enum|type|const|message|service|action|swarm|event|function|sensor|"
-    r"actuator|controller|virtual|member|endless|statemachine|environment)\b)",
+    r"^(?=(?:package|import|struct|enum|type|const|message|service|action|swarm|event|function|"
+    r"sensor|actuator|controller|virtual|member|endless|statemachine|environment|fitness|"
+    r"optimize)\b|[A-Za-z]+[ \t]+[A-Za-z_]\w*[ \t]*[:{])",
     re.MULTILINE,
 )
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
@@ -77,7 +80,7 @@ def parse(source: Source, report: Diagnostics) -> Parsed:
     with _deep_recursion():
         parsed = None if scanned.faults else _parse_whole(source)
         if parsed is None:
-            parsed = _parse_by_declaration(source, scanned.faults, report)
+            parsed = _parse_by_declaration(source, scanned, report)
     _attach_docs(parsed, scanned.docs, report)
     for node in walk(parsed.model):
         if isinstance(node, Expression):
@@ -95,13 +98,12 @@ def _parse_whole(source: Source) -> Parsed | None:
         return None
 
 
-def _parse_by_declaration(source: Source, faults: tuple[int, ...], report: Diagnostics) -> Parsed:
+def _parse_by_declaration(source: Source, scanned: Scan, report: Diagnostics) -> Parsed:
     model = Model(Span(source, 0, len(source.text)), None, [], [], [])
     parsed = Parsed(model)
-    starts = [found.start() for found in _DECLARATION_START.finditer(source.text)]
-    bounds = sorted({0, *starts, len(source.text)})
+    bounds = sorted({0, *_declaration_starts(source.text, scanned.blocks), len(source.text)})
     for start, end in pairwise(bounds):
-        inside = [fault for fault in faults if start <= fault < end]
+        inside = [fault for fault in scanned.faults if start <= fault < end]
         piece, lost = _parse_piece(source, start, end, inside, report)
         if lost:
             parsed.damaged.update(piece.declarations if piece else ())
@@ -120,6 +122,15 @@ def _parse_by_declaration(source: Source, faults: tuple[int, ...], report: Diagn
         model.declarations += piece.declarations
         model.optimizations += piece.optimizations
     return parsed
+
+
+def _declaration_starts(text: str, blocks: tuple[tuple[int, int], ...]) -> Iterator[int]:
+    """Where declarations start that are not inside a block."""
+    openings = [start for start, _ in blocks]
+    for found in _DECLARATION_START.finditer(text):
+        before = bisect_right(openings, found.start()) - 1
+        if before < 0 or blocks[before][1] < found.start():
+            yield found.start()
 
 
 def _parse_piece(

@@ -40,10 +40,15 @@ class DocComment:
 
 @dataclass(frozen=True, slots=True)
 class Scan:
-    """What the pass found; `faults` are the offsets of what it reported."""
+    """What the pass found.
+
+    `faults` are the offsets of what it reported, `blocks` the comments and the outermost
+    brackets, in order: no declaration begins inside one.
+    """
 
     docs: tuple[DocComment, ...]
     faults: tuple[int, ...]
+    blocks: tuple[tuple[int, int], ...]
 
 
 def scan(source: Source, report: Diagnostics) -> Scan:
@@ -52,6 +57,7 @@ def scan(source: Source, report: Diagnostics) -> Scan:
     brackets: list[int] = []
     doc_lines: list[tuple[int, int]] = []
     faults: list[int] = []
+    comments: list[tuple[int, int]] = []
     for token in _TOKEN.finditer(text):
         start, end = token.span()
         match token.lastgroup:
@@ -68,6 +74,8 @@ def scan(source: Source, report: Diagnostics) -> Scan:
                             message=f"`{escape[0]}` means nothing in a text",
                             help="write `\\\\` for `\\`",
                         )
+            case "block":
+                comments.append((start, end))
             case "open_text":
                 end -= len(token[0]) - len(token[0].rstrip())
                 report.report(
@@ -90,7 +98,7 @@ def scan(source: Source, report: Diagnostics) -> Scan:
         for at in _unclosed(source, brackets):
             report.report("unclosed-bracket", Span(source, at, at + 1), bracket=text[at])
             faults.append(at)
-    return Scan(_join(source, doc_lines), tuple(faults))
+    return Scan(_join(source, doc_lines), tuple(faults), _blocks(text, brackets, comments))
 
 
 def _too_deep(text: str, brackets: list[int]) -> int | None:
@@ -100,6 +108,27 @@ def _too_deep(text: str, brackets: list[int]) -> int | None:
         if depth > NESTING_LIMIT:
             return at
     return None
+
+
+def _blocks(
+    text: str, brackets: list[int], comments: list[tuple[int, int]]
+) -> tuple[tuple[int, int], ...]:
+    """Comments and outermost brackets; of brackets that are not closed nothing is known."""
+    pairs: list[tuple[int, int]] = []
+    start = depth = 0
+    for at in brackets:
+        if text[at] not in _OPENER:
+            start = at if depth == 0 else start
+            depth += 1
+        elif depth > 0:
+            depth -= 1
+            if depth == 0:
+                pairs.append((start, at))
+    found: list[tuple[int, int]] = []
+    for block in sorted((pairs if depth == 0 else []) + comments):
+        if not found or block[0] > found[-1][1]:
+            found.append(block)
+    return tuple(found)
 
 
 def _unclosed(source: Source, brackets: list[int]) -> list[int]:

@@ -22,6 +22,7 @@ _OTHERWISE = {
     "#": _COMMENTS,
 }
 _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # How like a keyword a word must be: `Start` is not meant to be `state`.
 _SLIP = 0.85
 _UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
@@ -45,8 +46,10 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
         return _COMMENTS
     if token == "-" and joined and last[0].isalpha():
         return _NAMES
-    if "a name" in expected and re.fullmatch(r"\w+", token):
+    if "a name" in expected and re.fullmatch(r"\w+", token) and not _NAME.fullmatch(token):
         return _NAMES
+    if token == "/" and joined:
+        return "the name of a type follows, as in `std_msgs/Empty`"
     if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:
         return "the units of time are `us`, `ms`, `s`, `min` and `h`"
     if token in "})]" and "`struct`" in expected:

@@ -18,6 +18,9 @@ _PHRASES = {
     "TYPENAME": "a type",
     "QUOTED": "a text in double quotes",
     "ARRAY": "`[`",
+    "STRINGBOUND": "`<=`",
+    "LIBRARY": "the name of a package",
+    "INTEGER": "a whole number",
     "MINUS": "`-`",
     "BOUND": "a number or `*`",
     "LENGTH": "a length such as `10 m`",
@@ -39,12 +42,13 @@ _GROUPS = {
 }
 # Left out when these are possible: they say it all.
 _IMPLIED = {
-    "a declaration": {"the end of the file", "`package`"},
+    "a declaration": {"the end of the file", "`package`", "`import`"},
     "an item of a member": {"a name"},
     "a value": {"a name", "a text in double quotes", "`true`", "`false`", "`event`", "`(`"},
 }
 # Left out of a list of what is possible when something more specific is there.
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
+_COLON = re.compile(r"[ \t]*:")
 _MOST_SHOWN = 8
 
 _TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
@@ -72,7 +76,12 @@ def report_syntax_error(
             message=f"the character {strange} cannot stand here",
             help="write a plain space" if text[at].isspace() else "delete it",
         )
-    elif found and wants_name and found[0] in keywords() and not new_line:
+    elif (
+        found
+        and wants_name
+        and found[0] in keywords()
+        and (not new_line or _COLON.match(text, found.end()))
+    ):
         report.report(
             "keyword-as-name",
             span,

@@ -155,8 +155,9 @@ def test_constants(text: str, value: object, read_well: Read) -> None:
     constant = only_constant(read_well(text))
 
     assert constant.name == "X"
-    assert constant.value.value == value
-    assert type(constant.value.value) is type(value)
+    assert isinstance(constant.value.tree, Value)
+    assert constant.value.tree.value == value
+    assert type(constant.value.tree.value) is type(value)
 
 
 def test_places_of_constants(read_well: Read) -> None:

@@ -194,7 +194,7 @@ def _check_endless_steps(machine: StateMachine, context: Context) -> None:
     def steps(state: Vertex) -> Iterator[tuple[Ref[Vertex], Vertex]]:
         match state:
             case Choice(branches=branches):
-                refs = [branch.target for branch in branches]
+                refs = [branch.target for branch in branches if branch.otherwise]
             case State(items=items) if not _activities(state) and not _has_states(state):
                 refs = [
                     item.target

@@ -1,0 +1,112 @@
+"""Which files belong to a project, and in which order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.load import Project, load
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    files = {
+        "main.swarm": ("common/events.swarm", "robots.swarm"),
+        "robots.swarm": ("common/events.swarm", "common/types.swarm"),
+        "common/events.swarm": ("types.swarm",),
+        "common/types.swarm": (),
+        "other.swarm": (),
+    }
+    for name, imports in files.items():
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        head = "".join(f'import "{other}"\n' for other in imports)
+        path.write_text(f"{head}event Of{path.stem.title()} : std_msgs/Empty\n")
+    return tmp_path
+
+
+def loaded(paths: Sequence[Path]) -> Project:
+    report = Diagnostics()
+    project = load(paths, report)
+    assert [found.message for found in report] == []
+    return project
+
+
+def names(project: Project, folder: Path) -> list[str]:
+    return [Path(file.source.name).relative_to(folder).as_posix() for file in project.files]
+
+
+def test_a_file_and_what_it_imports_once_each(folder: Path) -> None:
+    assert names(loaded([folder / "main.swarm"]), folder) == [
+        "main.swarm",
+        "common/events.swarm",
+        "robots.swarm",
+        "common/types.swarm",
+    ]
+
+
+def test_a_folder_is_all_its_files(folder: Path) -> None:
+    assert names(loaded([folder]), folder) == [
+        "main.swarm",
+        "other.swarm",
+        "common/events.swarm",
+        "robots.swarm",
+        "common/types.swarm",
+    ]
+
+
+def test_the_order_does_not_depend_on_how_a_file_is_named(folder: Path) -> None:
+    project = loaded([folder / "common" / ".." / "main.swarm", folder / "main.swarm"])
+
+    assert len(project.files) == 4
+
+
+def test_imports_lead_to_files(folder: Path) -> None:
+    main = loaded([folder / "main.swarm"]).files[0]
+
+    assert [(str(way.path), file.package) for way, file in main.imports] == [
+        ("common/events.swarm", "events"),
+        ("robots.swarm", "robots"),
+    ]
+
+
+def test_names_are_shown_as_the_path_was_given(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder / "common")
+
+    assert [file.source.name for file in loaded([Path("../robots.swarm")]).files] == [
+        "../robots.swarm",
+        "../common/events.swarm",
+        "../common/types.swarm",
+    ]
+
+
+def test_a_package_is_called_like_its_file_or_as_declared(tmp_path: Path) -> None:
+    (tmp_path / "model.swarm").write_text("package a.b\nevent A : std_msgs/Empty\n")
+    (tmp_path / "plain.swarm").write_text("event A : std_msgs/Empty\n")
+    project = loaded([tmp_path])
+
+    assert sorted(file.package for file in project.files) == ["a.b", "plain"]
+
+
+def test_a_wrong_import_does_not_hide_the_others(folder: Path) -> None:
+    path = folder / "wrong.swarm"
+    path.write_text('import "no.swarm"\nimport "other.swarm"\nimport "nor.swarm"\n')
+    report = Diagnostics()
+    project = load([path], report)
+
+    assert names(project, folder) == ["wrong.swarm", "other.swarm"]
+    assert [found.name for found in report] == ["file-not-found", "file-not-found"]
+
+
+def test_what_is_missing_from_a_lost_file_is_not_reported(folder: Path) -> None:
+    from swarmdsl import compiler
+
+    path = folder / "wrong.swarm"
+    path.write_text('import "no.swarm"\nmember M { b : Camera }\n')
+
+    assert [found.name for found in compiler.check([path]).report] == ["file-not-found"]

@@ -1,0 +1,224 @@
+"""What a valid model becomes: ids, reused machines in place, units, names across packages."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler, ir
+
+Compiled = Callable[[str], ir.System]
+EVENT = "event Go : std_msgs/Empty\n"
+
+
+def states(machine: ir.StateMachine) -> dict[str, ir.State]:
+    return {state.id: state for state in machine.walk()}
+
+
+def machine_of(system: ir.System, name: str) -> ir.StateMachine:
+    return next(machine for machine in system.machines if machine.name == name)
+
+
+REUSE = f"""{EVENT}
+statemachine Fly {{
+  initial First
+  state First = Climb {{ on done.Top -> Second }}
+  state Second = Climb {{ on done -> Out }}
+  final Out
+}}
+statemachine Climb {{
+  param step : float64 = 1.5
+  var height : float64 = 0.0
+  initial Up
+  state Up {{
+    on Go [height < 3.0] / height = height + step -> Up
+    on Go -> Top
+  }}
+  final Top
+}}
+"""
+
+
+def test_a_reused_machine_is_put_in_place(compiled: Compiled) -> None:
+    fly = machine_of(compiled(REUSE), "Fly")
+    first = states(fly)["First"]
+
+    assert list(states(fly)) == [
+        *("First", "First.Up", "First.Top"),
+        *("Second", "Second.Up", "Second.Top"),
+        "Out",
+    ]
+    assert (first.kind, first.initial, first.submachine) == (
+        ir.StateKind.COMPOSITE,
+        "First.Up",
+        "Climb",
+    )
+    assert [t.target for t in states(fly)["First.Up"].transitions] == ["First.Up", "First.Top"]
+
+
+def test_each_use_of_a_machine_has_variables_of_its_own(compiled: Compiled) -> None:
+    fly = machine_of(compiled(REUSE), "Fly")
+    (effect,) = states(fly)["Second.Up"].transitions[0].effects
+
+    assert [variable.name for variable in fly.variables] == ["first_height", "second_height"]
+    assert isinstance(effect, ir.Assignment)
+    assert effect.variable == "second_height"
+
+
+def test_a_reused_machine_runs_with_its_defaults(compiled: Compiled) -> None:
+    system = compiled(REUSE)
+    (effect,) = states(machine_of(system, "Fly"))["First.Up"].transitions[0].effects
+    (own,) = states(machine_of(system, "Climb"))["Up"].transitions[0].effects
+
+    assert machine_of(system, "Fly").params == ()
+    assert isinstance(effect, ir.Assignment)
+    assert isinstance(effect.value, ir.Binary)
+    assert effect.value.right == ir.Literal(1.5, ir.Primitive("float64"))
+    assert isinstance(own, ir.Assignment)
+    assert isinstance(own.value, ir.Binary)
+    assert own.value.right == ir.ParamRef("step", ir.Primitive("float64"))
+
+
+def test_done_names_the_final_state_by_its_id(compiled: Compiled) -> None:
+    fly = machine_of(compiled(REUSE), "Fly")
+    triggers = [states(fly)[name].transitions[0].triggers for name in ("First", "Second")]
+
+    assert triggers == [
+        (ir.DoneTrigger("First", "First.Top"),),
+        (ir.DoneTrigger("Second", None),),
+    ]
+
+
+def test_names_that_would_be_alike_after_reuse_differ(compiled: Compiled) -> None:
+    system = compiled(f"""{EVENT}
+      statemachine M {{
+        var fly_up_x : int8
+        initial FlyUp
+        state FlyUp = N {{ on done -> F }}
+        final F
+      }}
+      statemachine N {{ var x : int8 initial F final F }}
+    """)
+
+    assert [v.name for v in machine_of(system, "M").variables] == ["fly_up_x", "fly_up_x_"]
+
+
+def test_ids_are_paths(compiled: Compiled) -> None:
+    (machine,) = compiled(f"""{EVENT}
+      statemachine M {{
+        initial P
+        parallel state P {{
+          region Left {{ initial A state A {{ on Go -> B }} final B }}
+          region Right {{ initial A state A {{ initial C final C on done -> B }} final B }}
+          on Left.done.B -> F
+          on done -> F
+        }}
+        final F
+      }}
+    """).machines
+    parallel = states(machine)["P"]
+
+    assert list(states(machine)) == [
+        *("P", "P.Left", "P.Left.A", "P.Left.B"),
+        *("P.Right", "P.Right.A", "P.Right.A.C", "P.Right.B", "F"),
+    ]
+    assert [transition.triggers for transition in parallel.transitions] == [
+        (ir.DoneTrigger("P.Left", "P.Left.B"),),
+        (ir.DoneTrigger("P", None),),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("written", "nanoseconds"),
+    [("3 s", 3 * 10**9), ("1.5 ms", 1_500_000), ("2us", 2000), ("2 min", 12 * 10**10)],
+)
+def test_durations_are_nanoseconds(compiled: Compiled, written: str, nanoseconds: int) -> None:
+    (member,) = compiled(f"member M {{ param limit : duration = {written} }}").members
+
+    assert member.params[0].default == ir.Literal(nanoseconds, ir.Primitive("duration"))
+
+
+@pytest.mark.parametrize(
+    ("written", "lower", "upper"),
+    [("", 1, 1), ("[3]", 3, 3), ("[1..5]", 1, 5), ("[2..*]", 2, None), ("[*]", 0, None)],
+)
+def test_multiplicities(compiled: Compiled, written: str, lower: int, upper: int | None) -> None:
+    (swarm,) = compiled(f"member M {{ }} swarm S {{ m : M{written} }}").swarms
+
+    assert swarm.roles[0].multiplicity == ir.Multiplicity(lower, upper)
+
+
+def test_lengths_are_metres(compiled: Compiled) -> None:
+    (place,) = compiled("environment E { size 1 km x 2.5 m x 30cm }").environments
+
+    assert place.size == pytest.approx((1000, 2.5, 0.3))
+
+
+def test_topics_are_names_where_none_is_given(compiled: Compiled) -> None:
+    system = compiled(
+        'event TargetFound : a/B\nevent Low : a/B on "battery/low"\n'
+        'sensor Camera { out bigImage : a/B  out small : a/B on "s" }'
+    )
+
+    assert [event.topic for event in system.events] == ["target_found", "battery/low"]
+    assert [port.topic for port in system.components[0].ports] == ["big_image", "s"]
+
+
+BEHAVING = f"""{EVENT}
+statemachine M {{
+  param own : int32 = 1
+  initial A
+  state A {{ on Go [own + theirs > 3] -> F }}
+  final F
+}}
+"""
+
+
+def test_a_machine_has_the_params_of_its_members_that_it_uses(compiled: Compiled) -> None:
+    member = "behavior M param theirs : int32 = 2 param unused : int32 = 3"
+    (machine,) = compiled(f"{BEHAVING} member R {{ {member} }}").machines
+
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+        ("own", 1),
+        ("theirs", 2),
+    ]
+
+
+def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
+    (machine,) = compiled(
+        f"{BEHAVING} member R {{ behavior M param theirs : int32 = 2 param own : int32 = 5 }}"
+        "member Q { behavior M param theirs : int32 = 3 param own : int32 = 5 }"
+    ).machines
+
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+        ("own", 5),
+        ("theirs", None),
+    ]
+
+
+def test_names_of_two_packages_do_not_collide(tmp_path: Path) -> None:
+    (tmp_path / "a.swarm").write_text("package a.x\nevent Go : std_msgs/Empty\n")
+    (tmp_path / "b.swarm").write_text(
+        "package b\nevent Go : std_msgs/Empty\nevent Only : std_msgs/Empty\n"
+        "event a_x_Go : std_msgs/Empty\n"
+        "statemachine M { initial A state A { on Go -> F } final F }\n"
+    )
+    system = compiler.check([tmp_path]).system
+    assert system is not None
+    names = [event.name for event in system.events]
+    (trigger,) = states(system.machines[0])["A"].transitions[0].triggers
+
+    assert names == ["a_x_Go_", "b_Go", "Only", "a_x_Go"]
+    assert trigger == ir.EventTrigger("b_Go")
+
+
+def test_the_system_is_called_like_the_first_package(tmp_path: Path) -> None:
+    (tmp_path / "main.swarm").write_text('/// All.\npackage sar.main\nimport "b.swarm"\n')
+    (tmp_path / "b.swarm").write_text("package b\nevent Go : std_msgs/Empty\n")
+    system = compiler.check([tmp_path / "main.swarm"]).system
+
+    assert system is not None
+    assert (system.name, system.doc) == ("sar.main", "All.")
+    assert [event.name for event in system.events] == ["Go"]

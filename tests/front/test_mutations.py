@@ -1,0 +1,118 @@
+"""Models with random mistakes: no exception, and what is found is in the file."""
+
+from __future__ import annotations
+
+import random
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = sorted(
+    [*(ROOT / "examples").rglob("*.swarm"), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
+)
+MUTANTS = 400
+_TOKEN = re.compile(r'"[^"\n]*"|\w+|->|=>|[^\w\s]|\s+')
+_CHARACTERS = "{}()[]\"/*\\'-><=.,:;#@0 \n\t\x00\ufeff\u00a0é€"
+Mutation = Callable[[str, random.Random], str]
+
+
+def without_token(text: str, dice: random.Random) -> str:
+    tokens = _TOKEN.findall(text)
+    del tokens[dice.randrange(len(tokens))]
+    return "".join(tokens)
+
+
+def with_token(text: str, dice: random.Random) -> str:
+    tokens = _TOKEN.findall(text)
+    tokens.insert(dice.randrange(len(tokens)), dice.choice(tokens))
+    return "".join(tokens)
+
+
+def tokens_swapped(text: str, dice: random.Random) -> str:
+    tokens = _TOKEN.findall(text)
+    i, j = dice.randrange(len(tokens)), dice.randrange(len(tokens))
+    tokens[i], tokens[j] = tokens[j], tokens[i]
+    return "".join(tokens)
+
+
+def word_replaced(text: str, dice: random.Random) -> str:
+    words = list(re.finditer(r"\w+", text))
+    old, new = dice.choice(words), dice.choice(words)
+    return text[: old.start()] + new[0] + text[old.end() :]
+
+
+def without_line(text: str, dice: random.Random) -> str:
+    lines = text.splitlines(keepends=True)
+    del lines[dice.randrange(len(lines))]
+    return "".join(lines)
+
+
+def with_line(text: str, dice: random.Random) -> str:
+    lines = text.splitlines(keepends=True)
+    lines.insert(dice.randrange(len(lines)), dice.choice(lines))
+    return "".join(lines)
+
+
+def without_character(text: str, dice: random.Random) -> str:
+    at = dice.randrange(len(text))
+    return text[:at] + text[at + 1 :]
+
+
+def with_character(text: str, dice: random.Random) -> str:
+    at = dice.randrange(len(text))
+    return text[:at] + dice.choice(_CHARACTERS) + text[at:]
+
+
+def cut(text: str, dice: random.Random) -> str:
+    return text[: dice.randrange(len(text))]
+
+
+MUTATIONS: list[Mutation] = [
+    *(without_token, with_token, tokens_swapped, word_replaced, without_line, with_line),
+    *(without_character, with_character, cut),
+]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Copies of the models, each in a folder with the files that it imports."""
+    root = tmp_path_factory.mktemp("models")
+    for path in MODELS:
+        copy = root / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        copy.write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
+    return root
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_mutants(seed: int, folder: Path) -> None:
+    dice = random.Random(seed)
+    wrong = 0
+    for _ in range(MUTANTS // 10):
+        model = dice.choice(MODELS)
+        original = text = model.read_text(encoding="utf-8")
+        for mutate in dice.choices(MUTATIONS, k=dice.choice((1, 1, 2, 3))):
+            text = mutate(text, dice) or " "
+        path = folder / model.relative_to(ROOT)
+        path.write_text(text, encoding="utf-8")
+        result = compiler.check([path])
+        path.write_text(original, encoding="utf-8")
+
+        spans = [found.primary.span for found in result.report if found.primary]
+        assert all(0 <= span.start <= span.end <= len(span.source.text) for span in spans)
+        if result.system is None:
+            wrong += 1
+            binary = "\x00" in text
+            assert binary or [span for span in spans if span.source.path == path], text
+    assert wrong > MUTANTS // 20  # the mutations do something
+
+
+def test_the_models_are_right(folder: Path) -> None:
+    for model in MODELS:
+        result = compiler.check([folder / model.relative_to(ROOT)])
+        assert [found for found in result.report if found.severity.value == "error"] == []
