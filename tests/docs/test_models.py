@@ -29,11 +29,16 @@ def write(block: Block, folder: Path) -> Path:
         if earlier is block:
             break
         if "file" in earlier.attributes:
-            (folder / earlier.attributes["file"]).write_text(earlier.text, encoding="utf-8")
+            _write(folder / earlier.attributes["file"], earlier.text)
     path = folder / block.attributes.get("file", "model.swarm")
     start = f'import "{block.attributes["with"]}"\n' if "with" in block.attributes else ""
-    path.write_text(start + block.text, encoding="utf-8")
+    _write(path, start + block.text)
     return path
+
+
+def _write(path: Path, text: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
 
 
 @pytest.mark.parametrize("block", MODELS, ids=str)

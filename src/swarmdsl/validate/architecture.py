@@ -104,12 +104,14 @@ def check_member(member: Member, context: Context) -> None:
 def _check_connected(member: Member, context: Context) -> None:
     """Check that something is connected to each `in` port of a part without a topic of its own."""
     connectors = all_items(member, Connector)
-    driven = {(c.target.part.target, c.target.port.target) for c in connectors if c.target.part}
+    # Either end: a connector that is the wrong way round is reported as such.
+    ends = [end for connector in connectors for end in (connector.source, connector.target)]
+    connected = {(end.part.target, end.port.target) for end in ends if end.part is not None}
     for part in (item for item in member.items if isinstance(item, Part)):
         if part.component.target is None:
             continue
         for port in all_items(part.component.target, Port):
-            if port.direction == "in" and port.topic is None and (part, port) not in driven:
+            if port.direction == "in" and port.topic is None and (part, port) not in connected:
                 context.report.report(
                     "unconnected-port",
                     part.name.span,
