@@ -8,7 +8,13 @@ from typing import TextIO
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 
-_MODULES = {"text": "text", "concise": "concise", "json": "json_lines"}
+_MODULES = {
+    "text": "text",
+    "concise": "concise",
+    "json": "json_lines",
+    "github": "github",
+    "sarif": "sarif",
+}
 
 FORMATS = tuple(_MODULES)
 
