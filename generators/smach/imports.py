@@ -31,6 +31,7 @@ _TAKEN = (
     "initial_userdata",
     "machine",
     "math",
+    "require",
     "result",
     "rospy",
     "smach",
@@ -97,7 +98,7 @@ class Imports:
             statement = (False, module, f"import {module}")
             groups.setdefault(self._group(module), []).append(statement)
         for module, names in self._names.items():
-            line = _from(module, sorted(names, key=lambda n: (n[0].islower(), n)))
+            line = _from(module, sorted(names, key=_by_kind))
             groups.setdefault(self._group(module), []).append((True, module, line))
         lines: list[str] = []
         for key in sorted(groups):
@@ -109,6 +110,12 @@ class Imports:
         if module in _STANDARD:
             return 0
         return 2 if module.partition(".")[0] == self.types.package else 1
+
+
+def _by_kind(name: str) -> tuple[int, str]:
+    """Constants first, then classes, then functions."""
+    constant = name.isupper() and len(name) > 1
+    return (0 if constant else 1 if name[0].isupper() else 2), name
 
 
 def _from(module: str, names: list[str]) -> str:

@@ -13,6 +13,7 @@ from swarmdsl.ir import EventTrigger, State, StateKind, TimeTrigger
 from swarmdsl.source import Span
 
 from .activities import activity_call
+from .concurrence import built_by, concurrence
 from .module import PREEMPTED, Container, Entry, Module, fresh
 from .python import Call, Source, comment_lines, layout, place
 from .routes import Branch, Content, Leave, Route, branches, done, ended, is_total
@@ -83,7 +84,7 @@ class _Structure:
             for outcome, final in scope.finals.items()
         }
         routes |= _leaving(scope)
-        return Content(_built_by(function), routes)
+        return Content(built_by(function), routes)
 
     def _parallel(self, state: State, word: str) -> Content:
         """The Concurrence of the regions of a parallel state."""
@@ -108,7 +109,9 @@ class _Structure:
             members[region.name] = Content(inside.call, routes)
         default = branches(state, done(state.id, None)) if all_may_complete else None
         doc = f"Build the regions of state {state.id}."
-        return self._concurrence(slot, function, doc, members, _origins(state.states), default)
+        return concurrence(
+            self.module, slot, function, doc, members, _origins(state.states), default
+        )
 
     def _check_completion(self, ending: Sequence[Branch], state: State) -> None:
         """A region whose completion is waited for ends all regions at once, whatever follows."""
@@ -151,52 +154,7 @@ class _Structure:
                 )
                 keywords.append((word, Source(name)))
         doc = f"Build state {state.id}, with what begins and ends it."
-        return self._concurrence(slot, function, doc, members, places, keywords=keywords)
-
-    def _concurrence(
-        self,
-        slot: int,
-        function: str,
-        doc: str,
-        members: Mapping[str, Content],
-        places: Mapping[str, str],
-        default: list[Branch] | None = None,
-        keywords: Iterable[tuple[str, object]] = (),
-    ) -> Content:
-        """A Concurrence that ends with the first outcome that leads somewhere.
-
-        When all members are complete otherwise, it ends with `done`, which leads to `default`.
-        """
-        routes: dict[str, Route] = {}
-        deciding: dict[str, dict[str, str]] = {}
-        entries = []
-        for label, member in members.items():
-            for outcome, route in member.routes.items():
-                taken = {*routes, "done", PREEMPTED}
-                name = fresh(outcome, taken)
-                if name != outcome:
-                    name = fresh(f"{label}_{outcome}", taken)
-                routes[name] = route
-                deciding[name] = {label: outcome}
-            add = Call("Concurrence.add", (label, member.call))
-            comments = (places[label],) if places.get(label) else ()
-            entries.append(Entry(label, layout(add, 2, STEP * 2), comments))
-        keywords = [*keywords]
-        if default is not None:
-            routes["done"] = default
-            keywords.append(("default_outcome", "done"))
-        class_ = self.module.own("containers", "Concurrence")
-        arguments = ([*routes, PREEMPTED], deciding, Source("userdata"))
-        self.module.containers[slot] = Container(
-            function=function,
-            doc=doc,
-            variable="concurrence",
-            construction=layout(
-                Call(class_, arguments, tuple(keywords)), 1, f"{STEP}concurrence = "
-            ),
-            entries=tuple(entries),
-        )
-        return Content(_built_by(function), routes)
+        return concurrence(self.module, slot, function, doc, members, places, keywords=keywords)
 
     # ---- states
 
@@ -259,7 +217,7 @@ class _Structure:
         self._add(scope, state, content)
         doc = f"Build what state {state.id} does, and the decision what comes next."
         self._finish(slot, scope, function, doc)
-        return Content(_built_by(function), _leaving(scope))
+        return Content(built_by(function), _leaving(scope))
 
     def _add(self, scope: Scope, state: State, content: Content) -> None:
         """Add a state, with what has to be decided or done when it ends."""
@@ -328,10 +286,6 @@ class _Structure:
 
     def _wait(self) -> Call:
         return Call(self.module.own("states", "Wait"))
-
-
-def _built_by(function: str) -> Call:
-    return Call(function, (Source("userdata"),))
 
 
 def _leaving(scope: Scope) -> dict[str, Route]:

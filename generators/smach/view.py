@@ -43,6 +43,7 @@ class MachineView:
     values: tuple[Value, ...]
     sent: tuple[str, ...]
     required_params: tuple[str, ...]
+    required_callbacks: str
     origin: Span | None
 
 
@@ -132,6 +133,9 @@ def _machine_view(
     for callback, parameters, origin in module.callbacks:
         names.check_callback(callback, parameters, callbacks, origin, report)
     values = _values(module)
+    required = dict.fromkeys(f"{name}({parameters})" for name, parameters, _ in module.callbacks)
+    require = module.own("states", "require") if required else ""
+    call = Call(require, (Source("callbacks"), [*required]))
     return MachineView(
         name=machine.name,
         module=name,
@@ -143,6 +147,7 @@ def _machine_view(
         values=values,
         sent=tuple(module.event(event) for event in module.sent),
         required_params=tuple(p.name for p in machine.params if p.default is None),
+        required_callbacks=layout(call, 1, STEP) if required else "",
         origin=machine.origin,
     )
 

@@ -114,6 +114,7 @@ class World:
         self.log: list[tuple[str, str]] = []
         self.sent: list[tuple[str, Any]] = []
         self.modules: dict[str, ModuleType] = {}
+        self.ended = threading.Event()
         self._active: dict[str, Call] = {}
         self._subscribers: dict[str, list[Any]] = defaultdict(list)
         self._changed = threading.Condition()
@@ -254,6 +255,10 @@ class World:
         def logerr(text, *arguments):
             world.log.append(("error", text % arguments if arguments else text))
 
+        def end(reason):
+            world.log.append(("shutdown", reason))
+            world.ended.set()
+
         core = self._module("rospy.core", add_client_shutdown_hook=hooks.append, _in_shutdown=False)
         self._module(
             "rospy",
@@ -268,7 +273,10 @@ class World:
             get_param=get_param,
             has_param=world.params.__contains__,
             get_rostime=Time.now,
-            is_shutdown=lambda: False,
+            init_node=nothing,
+            spin=lambda: self.ended.wait(WAIT),
+            signal_shutdown=end,
+            is_shutdown=self.ended.is_set,
             loginfo=nothing,
             logwarn=nothing,
             logdebug=nothing,

@@ -14,6 +14,25 @@ def _machine(body: str, name: str = "M") -> str:
 
 
 SMALL = "initial A state A { on E -> B } final B"
+LEAVING = """
+var n : int32
+initial P
+parallel state P {
+  region R { initial A state A { on E -> Z  exit / n = 2 } final Z }
+  on R.done [n > 1] -> End
+  on R.done -> P
+}
+final End
+"""
+STAYING = """
+var n : int32
+initial P
+parallel state P {
+  region R { initial A state A { on E -> Z } final Z }
+  on R.done / n = 1
+}
+"""
+BOX = "var n : int32 initial A state A { initial I state I { on E / n = 1 -> I } [n > 0] -> A }"
 GUARDED = """
 var n : int32
 initial P
@@ -32,6 +51,21 @@ final End
             GUARDED,
             "on R.done [n > 1] -> End",
             "a guard on the completion of a region without a transition for when it is false",
+        ),
+        (
+            LEAVING,
+            "on R.done [n > 1] -> End",
+            "a guard on the completion of a region of a state with effects on exit",
+        ),
+        (
+            STAYING,
+            "on R.done / n = 1",
+            "a transition without a target on the completion of a region",
+        ),
+        (
+            BOX,
+            "[n > 0] -> A",
+            "a transition without a trigger from a state with states inside",
         ),
         (f"param pose : m/Pose {SMALL}", "pose", "a param of type `m/Pose`"),
         ("initial B final B", "M", "an initial state that is final"),
@@ -55,6 +89,38 @@ def test_unsupported(body: str, place: str, construct: str, reported: Reported) 
         (_machine(f"param _x : int32 = 1 {SMALL}"), "_x", "_x", "a key of userdata"),
         (_machine(SMALL, "Lambda"), "Lambda", "lambda", "a module name"),
         (_machine(SMALL, "States"), "States", "states", "a module name"),
+        (_machine(SMALL, "_"), "_", "_", "a module name"),
+        (_machine(SMALL, "_1"), "_1", "1", "a module name"),
+        (
+            _machine(SMALL.replace("on E", "on _")) + '\nevent _ : m/E on "e"',
+            "_",
+            "_",
+            "the name of a constant",
+        ),
+        (
+            _machine(SMALL.replace("on E", "on _2")) + '\nevent _2 : m/E on "e"',
+            "_2",
+            "_2",
+            "the name of a constant",
+        ),
+        (
+            f"{_machine(SMALL)}\nstruct S {{ _x : int32 }}",
+            "_x",
+            "_x",
+            "the name of a field or constant",
+        ),
+        (
+            f"{_machine(SMALL)}\nstruct S {{ x : int32 }}".replace("package p", "package smach"),
+            "S",
+            "smach",
+            "the name of a ROS package",
+        ),
+        (
+            f"{_machine(SMALL)}\nstruct S {{ x : int32 }}".replace("package p", "package _p"),
+            "S",
+            "_p",
+            "the name of a ROS package",
+        ),
         (
             _machine(
                 "initial A state A { do f(by pass) on succeeded -> B on aborted -> B } final B"
@@ -86,6 +152,45 @@ def test_bad_package_option(reported: Reported) -> None:
     ((name, message, _),) = reported(_machine(SMALL), package="My-Package")
     assert name == "bad-option"
     assert "`My-Package` cannot be the name of the package" in message
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "fault"),
+    [
+        ("package", "smach", "`smach` cannot be the name of the package"),
+        ("version", "1.0", "`1.0` is no version: three numbers, as in `1.2.0`"),
+        ("version", "1.0.0\n", "`1.0.0\n` is no version"),
+        ("email", "somebody", "`somebody` is no e-mail address"),
+        ("email", "a b@example.org", "`a b@example.org` is no e-mail address"),
+        ("maintainer", " ", "option `maintainer` needs a text on one line"),
+        ("license", "MIT\x01", "option `license` needs a text on one line"),
+    ],
+)
+def test_bad_options(option: str, value: str, fault: str, reported: Reported) -> None:
+    ((name, message, _),) = reported(_machine(SMALL), **{option: value})
+    assert name == "bad-option"
+    assert fault in message
+
+
+def test_package_of_interfaces_called_like_the_other(reported: Reported) -> None:
+    text = f"{_machine(SMALL)}\nstruct S {{ x : int32 }}"
+    ((name, message, at),) = reported(text, package="p")
+    assert (name, at) == ("bad-identifier", "S")
+    assert "the package with the behaviour has that name" in message
+
+
+def test_constants_that_ros_cannot_hold(reported: Reported) -> None:
+    for value, construct in (('" a"', "blanks around it"), ('"a\\nb"', "line breaks")):
+        text = f"{_machine(SMALL)}\nmessage C {{ const c : string = {value} }}"
+        ((name, message, at),) = reported(text)
+        assert (name, at) == ("unsupported-construct", "c")
+        assert construct in message
+
+
+def test_wide_strings_are_none_of_ros_1(reported: Reported) -> None:
+    ((name, message, at),) = reported(f"{_machine(SMALL)}\nstruct S {{ x : wstring }}")
+    assert (name, at) == ("unsupported-construct", "x")
+    assert message.endswith("a `wstring`")
 
 
 def test_nothing_without_a_machine(generate: Callable[..., dict[str, object]]) -> None:

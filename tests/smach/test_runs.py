@@ -724,6 +724,25 @@ def test_done_with_guards(robot: Run) -> None:
     assert work.ended() == "Good"
 
 
+def test_callback_that_the_file_of_the_user_lacks(robot: Run) -> None:
+    robot(
+        HEADER
+        + """
+        statemachine Work {
+          initial A
+          state A {
+            do move(by make_goal) gives by take_result
+            on succeeded, aborted, preempted -> End
+          }
+          final End
+        }"""
+    )
+    del sys.modules["lab_behavior.callbacks"].take_result
+    with pytest.raises(NotImplementedError) as found:
+        sys.modules["lab_behavior.work"].build()
+    assert str(found.value) == "callbacks.py lacks take_result(userdata, status, result)"
+
+
 @pytest.mark.parametrize("model", [ABORT, PARALLEL])
 def test_shutdown_from_every_depth(model: str, robot: Run) -> None:
     work = robot(model)
