@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,19 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange import adf
 from swarmdsl.generator import NoOptions
-from swarmdsl.ir import System
+from swarmdsl.ir import (
+    Binary,
+    Call,
+    Communication,
+    Function,
+    Literal,
+    Named,
+    Param,
+    System,
+    Unary,
+)
+from swarmdsl.ir.types import FLOAT
+from swarmdsl.source import Source, Span
 
 Compile = Callable[[str], System]
 
@@ -113,6 +126,102 @@ def test_params(compiled: Compile) -> None:
         {"class": "number", "name": "given"},
         {"class": "string", "name": "mode", "value": "spiral"},
         {"class": "boolean", "name": "on_off", "value": True},
+    ]
+
+
+def test_durations_are_seconds_however_they_are_computed(compiled: Compile) -> None:
+    system = compiled(
+        """
+        const pause : duration = 3 s
+        function f : swarm {
+          service "f" : std_srvs/Empty
+          param half  : duration = 30 s / 2
+          param third : duration = pause * 0.5
+          param more  : duration = max(1 s, 250 ms) + 500 ms
+          param ratio : float64  = 3 s / 2 s
+        }
+        """
+    )
+    _, content = emitted(system)
+    (function,) = [f for f in content["functions"] if f["name"] == "f"]
+
+    assert {param["name"]: param["value"] for param in function["param_list"]} == {
+        "half": 15.0,
+        "third": 1.5,
+        "more": 1.5,
+        "ratio": 1.5,
+    }
+
+
+def number(value: float) -> Literal:
+    return Literal(value, FLOAT)
+
+
+@pytest.mark.parametrize(
+    ("operation", "message"),
+    [
+        (Binary("/", number(1), number(0), FLOAT), "`/` does not work on `1` and `0`"),
+        (Binary("%", number(5.5), number(0), FLOAT), "`%` does not work on `5.5` and `0`"),
+        (
+            Binary("*", number(9e200), number(1e200), FLOAT),
+            "`*` does not work on `9e+200` and `1e+200`",
+        ),
+        (Call("sqrt", (number(-2.0),), FLOAT), "`sqrt` does not work on `-2.0`"),
+    ],
+)
+def test_a_value_that_is_no_number(operation: Binary | Call, message: str) -> None:
+    """Inference finds zeros that are written out; what is computed shows here."""
+    source = Source("model.swarm", "-(the operation)")
+    operation = replace(operation, origin=Span(source, 2, 15))
+    param = Param("x", FLOAT, Unary("-", operation, FLOAT))
+    call = Communication("service", "f", Named("std_srvs", "Empty"))
+    system = System("test", functions=(Function("f", "swarm", call, (), (param,)),))
+    report = Diagnostics()
+    (file,) = adf.emit(system, NoOptions(), report)
+    (found,) = report
+
+    assert (found.name, found.message) == ("bad-operand", message)
+    assert found.primary is not None
+    assert found.primary.span.text == "the operation"
+    (function,) = json.loads(file.text)["functions"]
+    assert function["param_list"] == [{"class": "number", "name": "x"}]
+
+
+def test_constants_of_messages(compiled: Compile) -> None:
+    """As the class `Constant` of the CPSwarm code generator reads them; ROS 1 has no bounds."""
+    system = compiled(
+        """
+        message Mode {
+          const IDLE : uint8 = 0
+          /// At work.
+          const BUSY : uint8 = 2 * 2
+          const NAME : string<=8 = "mode"
+          mode  : uint8
+          label : string<=10
+          past  : uint8[<=5]
+          last  : string<=3[2]
+        }
+        function f : swarm {
+          service "f" : std_srvs/Empty
+          in "mode" : Mode
+        }
+        """
+    )
+    _, content = emitted(system, "value-not-a-number")
+    (function,) = [f for f in content["functions"] if f["name"] == "f"]
+    ((port,),) = [function["api"]["inputs"]]
+
+    assert list(port["msg"]) == ["class", "constants", "fields"]
+    assert port["msg"]["constants"] == [
+        {"class": "uint8", "name": "IDLE", "value": 0},
+        {"class": "uint8", "name": "BUSY", "value": 4, "description": "At work."},
+        {"class": "string", "name": "NAME", "value": "mode"},
+    ]
+    assert [(field["name"], field["class"]) for field in port["msg"]["fields"]] == [
+        ("mode", "uint8"),
+        ("label", "string"),
+        ("past", "uint8[]"),
+        ("last", "string[2]"),
     ]
 
 

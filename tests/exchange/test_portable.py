@@ -518,3 +518,303 @@ def test_the_file_is_text_for_people(written: Any) -> None:
     assert document.startswith('<?xml version="1.0" encoding="UTF-8"?>\n<scxml ')
     assert "\n    <sw:doc>Ä &gt; B</sw:doc>\n" in document
     assert document.endswith("</scxml>\n")
+
+
+RESUMED = """
+    initial Work
+    state Work {
+      initial First
+      state First { on Start -> Second }
+      state Second {
+        initial Low1
+        state Low1 { on Start -> Low2 }
+        state Low2 { on Start -> Low1 }
+      }
+      HISTORY Back -> First
+      on Abort -> Pause
+      on Found -> Pause
+    }
+    state Pause { on Start -> Work.Back  on Abort -> Work }
+"""
+
+
+def test_a_history_is_one_with_a_default(parsed: Any, written: Any) -> None:
+    for kind, depth in (("history", "shallow"), ("deep history", "deep")):
+        tree = parsed(RESUMED.replace("HISTORY", kind), "", "endless statemachine")
+        back = by_id(tree, "Back")
+
+        assert back.tag == f"{S}history"
+        assert dict(back.attrib) == {"id": "Back", "type": depth}
+        assert transitions(back) == [(None, None, "First")]
+        assert back.getparent().get("initial") == "First"
+        assert transitions(by_id(tree, "Pause")) == [
+            ("Start", None, "Back"),
+            ("Abort", None, "Work"),
+        ]
+
+
+@pytest.mark.parametrize(
+    ("kind", "resumed"),
+    [
+        ("history", {"Work", "Second", "Low1"}),
+        ("deep history", {"Work", "Second", "Low2"}),
+    ],
+)
+def test_a_history_leads_back(written: Any, walk: Walk, kind: str, resumed: set[str]) -> None:
+    document = written(RESUMED.replace("HISTORY", kind), "", "endless statemachine")
+
+    active = walk(document, ["Start", "Start", "Abort", "Start"])
+    assert active[2:] == [{"Work", "Second", "Low2"}, {"Pause"}, resumed]
+    assert walk(document, ["Start", "Abort", "Abort"])[-1] == {"Work", "First"}
+
+
+def test_a_history_that_remembers_nothing_yet(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        initial Pause
+        state Pause { on Start -> Work.Back }
+        state Work {
+          initial First
+          state First { on Start -> Second }
+          state Second { on Start -> End }
+          final End
+          history Back -> Second
+          on done -> Stop
+        }
+        final Stop
+        """
+    )
+
+    assert walk(document, ["Start"])[-1] == {"Work", "Second"}
+
+
+def test_effects_on_entry_and_exit(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var n : int32
+        initial A
+        state A {
+          entry / n = 1, send Start
+          exit  / send Found(level = n)
+          after n * 1 s -> B
+        }
+        final B
+        """
+    )
+    state = by_id(tree, "A")
+
+    # What a delay is computed from is stored before it starts.
+    entered = [[item.tag[len(S) :] for item in e] for e in state.findall(f"{S}onentry")]
+    assert entered == [["assign", "send"], ["send"]]
+    left = [[item.tag[len(S) :] for item in e] for e in state.findall(f"{S}onexit")]
+    assert left == [["cancel"], ["send"]]
+    events = [send.get("event") for send in state.iter(f"{S}send")]
+    assert events == ["Start", "after.A.1", "Found"]
+    assert [event.get("name") for event in tree.findall(f"{SW}event")] == ["Start", "Found"]
+
+
+def test_a_machine_with_nothing_but_such_effects_needs_a_data_model(parsed: Any) -> None:
+    sent = "initial A state A { entry / send Found(level = 1) on Start -> B } final B"
+    plain = "initial A state A { exit / send Start on Start -> B } final B"
+    timed = "initial A state A { after 2 * 500 ms -> B } final B"
+
+    assert parsed(sent).get("datamodel") == "ecmascript"
+    assert parsed(timed).get("datamodel") == "ecmascript"
+    assert parsed(plain).get("datamodel") == "null"
+
+
+def test_effects_happen_when_states_are_entered_and_left(written: Any, walk: Walk) -> None:
+    document = written(
+        """
+        var entered : int32 = 0
+        var left : int32 = 0
+        initial Out
+        state Out {
+          entry / entered = entered + 1
+          exit  / left = left + 1
+          initial A
+          state A { exit / left = left + 10  on Start -> B }
+          state B { on Start -> Out  on Abort -> Which }
+        }
+        choice Which {
+          [entered == 2 and left == 22] -> Right
+          else                          -> Wrong
+        }
+        final Right
+        final Wrong
+        """
+    )
+
+    # In and out of `A` twice; `Out` is left for the first time by the second `Start`.
+    steps = walk(document, ["Start", "Start", "Start", "Abort"])
+    assert steps[-1] == {"Right"}
+
+
+def test_transitions_without_target_leave_nothing(written: Any, walk: Walk, parsed: Any) -> None:
+    body = """
+        var n : int32 = 0
+        initial A
+        state A {
+          exit / n = 0
+          on Start / n = n + 1
+          [n == 2] -> B
+        }
+        final B
+    """
+
+    assert transitions(by_id(parsed(body), "A")) == [("Start", None, None), (None, "n == 2", "B")]
+    assert walk(written(body), ["Start", "Start"]) == [{"A"}, {"A"}, {"B"}]
+
+
+def test_a_transition_without_trigger_is_taken_when_its_guard_holds(
+    written: Any, walk: Walk
+) -> None:
+    document = written(
+        """
+        var n : int32 = 0
+        initial Out
+        state Out {
+          initial A
+          state A { on Found / n = event.level -> A }
+          [n > 3] -> Stop
+        }
+        final Stop
+        """
+    )
+
+    assert walk(document, [("Found", {"level": 2}), ("Found", {"level": 4})]) == [
+        {"Out", "A"},
+        {"Out", "A"},
+        {"Stop"},
+    ]
+
+
+INTERNAL = """
+    var left : int32 = 0
+    initial Out
+    state Out {
+      exit / left = left + 1
+      initial A
+      state A { on Start -> B }
+      state B { on Start -> A  on Low [left == 0] -> Stop }
+      internal on Abort -> B
+      on Found -> Out
+    }
+    final Stop
+"""
+
+
+def test_an_internal_transition_does_not_leave_the_state(
+    parsed: Any, written: Any, walk: Walk
+) -> None:
+    (taken,) = by_id(parsed(INTERNAL), "Out").findall(f"{S}transition[@type]")
+
+    assert dict(taken.attrib) == {"event": "Abort", "type": "internal", "target": "B"}
+    document = written(INTERNAL)
+    assert walk(document, ["Abort", "Low"])[-1] == {"Stop"}
+    assert walk(document, ["Found", "Abort", "Low"])[-1] == {"Out", "B"}
+
+
+INTO_REGION = """
+    var left : int32 = 0
+    var n : int32 = 0
+    initial P
+    parallel state P {
+      exit / left = left + 1
+      region R {
+        initial R1
+        state R1 { on Start -> R2 }
+        state R2 { on Abort -> R1 }
+        state R3 { on Low [left == 0] -> R4 }
+        state R4 { on Start -> R1 }
+      }
+      region Q {
+        initial Q1
+        state Q1 { on Start -> Q2 }
+        state Q2 { on Start -> Q1 }
+      }
+      on Found [event.level > 5] -> Stop
+      internal on Found [event.level > 2] / n = n + 1 -> R3
+      on Found -> P
+    }
+    final Stop
+"""
+
+
+def test_an_internal_transition_into_a_region(parsed: Any, written: Any, walk: Walk) -> None:
+    """SCXML has none: the parallel state would be left. So it belongs to the region."""
+    tree = parsed(INTO_REGION)
+
+    assert transitions(by_id(tree, "R")) == [
+        ("Found", "!(_event.data.level > 5) && _event.data.level > 2", "R3")
+    ]
+    assert transitions(by_id(tree, "P")) == [
+        ("Found", "_event.data.level > 5", "Stop"),
+        ("Found", "_event.data.level > 2", None),
+        ("Found", None, "P"),
+    ]
+    assert [t.get("type") for t in by_id(tree, "R").findall(f"{S}transition")] == ["internal"]
+    assert len(list(by_id(tree, "P").iterfind(f"{S}transition/{S}assign"))) == 0
+    # The engine of others evaluates Python.
+    document = written(INTO_REGION).replace("!(_", "not (_").replace("&amp;&amp;", "and")
+
+    def after(*levels: int) -> set[str]:
+        sent = [("Found", {"level": level}) for level in levels]
+        active: set[str] = walk(document, ["Start", *sent, "Low"])[-1]
+        return active
+
+    # The other region stays where it was, and `P` is not left.
+    assert after(3) == {"P", "R", "R4", "Q", "Q2"}
+    assert after(6) == {"Stop"}
+    assert after(1) == {"P", "R", "R1", "Q", "Q1"}
+    assert after(1, 3) == {"P", "R", "R3", "Q", "Q1"}
+
+
+def test_an_activity_that_gave_up_has_failed(parsed: Any, written: Any, walk: Walk) -> None:
+    body = "initial A state A { do go on succeeded -> B on aborted -> C ALSO } final B final C"
+
+    assert transitions(by_id(parsed(body.replace("ALSO", "")), "A")) == [
+        ("do.A.succeeded", None, "B"),
+        ("do.A.aborted do.A.preempted", None, "C"),
+    ]
+    assert transitions(by_id(parsed(body.replace("ALSO", "on preempted -> B")), "A")) == [
+        ("do.A.succeeded", None, "B"),
+        ("do.A.aborted", None, "C"),
+        ("do.A.preempted", None, "B"),
+    ]
+    assert walk(written(body.replace("ALSO", "")), ["do.A.preempted"])[-1] == {"C"}
+
+
+def test_messages_are_copied(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var a : Report  var b : Report
+        initial A
+        state A { on Found / a = event, b = a, b.id = a.id -> B }
+        state B { on Start / send Found(id = b.id) -> C }
+        final C
+        """
+    )
+    assigned = [(e.get("location"), e.get("expr")) for e in by_id(tree, "A").iter(f"{S}assign")]
+
+    assert assigned == [
+        ("a", "JSON.parse(JSON.stringify(_event.data))"),
+        ("b", "JSON.parse(JSON.stringify(a))"),
+        ("b.id", "a.id"),
+    ]
+    assert [param.get("expr") for param in tree.iter(f"{S}param")] == ["b.id"]
+
+
+def test_values_of_bounded_types_begin_empty(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var a : int32[<=3]  var b : string<=5
+        initial A state A { on Start -> B } final B
+        """
+    )
+
+    assert {data.get("id"): data.get("expr") for data in tree.iter(f"{S}data")} == {
+        "a": "[]",
+        "b": '""',
+    }
+    assert [v.get("type") for v in tree.findall(f"{SW}variable")] == ["int32[<=3]", "string<=5"]

@@ -38,6 +38,47 @@ def test_portable_files_are_valid(
         assert schema.validate(etree.fromstring(text.encode())), (path, schema.error_log)
 
 
+def test_every_construct_is_valid(
+    compiled: Callable[[str], System],
+    schema: etree.XMLSchema,
+    emit: Callable[..., dict[str, str]],
+) -> None:
+    """Also where constructs meet that no model of the others brings together."""
+    system = compiled(
+        """
+        statemachine Inner {
+          initial A
+          state A { entry / send Start exit / send Abort on Start -> B }
+          state B { initial C state C { on Start -> E } final E deep history H -> C on done -> D }
+          final D
+        }
+        endless statemachine M {
+          var n : int32  var r : Report  var xs : int32[<=3]
+          initial P
+          /// Both.
+          parallel state P {
+            entry / n = 1, send Found(level = n % 3)
+            exit  / r.level = -n % 3
+            region X {
+              initial One
+              state One { on Found / r = event -> Two }
+              state Two { on Found / r = event  [n > 3] -> Fork }
+              choice Fork { [n > 5] -> One else -> Two }
+              history Again -> One
+            }
+            region Y { initial Quiet state Quiet { after 1 s * 2 -> Quiet on Low / n = 2 } }
+            internal on Start [n > 1] / n = 2 -> Two
+            internal on Abort -> Again
+            on Start -> Sub
+          }
+          state Sub = Inner { entry / n = 0  on done -> P.Again }
+        }
+        """
+    )
+    for path, text in emit(system).items():
+        assert schema.validate(etree.fromstring(text.encode())), (path, schema.error_log)
+
+
 @pytest.mark.parametrize(("name", "system"), systems())
 def test_the_same_model_gives_the_same_files(
     name: str, system: System, emit: Callable[..., dict[str, str]]

@@ -107,5 +107,11 @@ def _apply(
             return result
     except (ArithmeticError, ValueError):
         pass
-    texts = [each.origin.text if each.origin else repr(each) for each in operands]
-    raise UndefinedValueError(operation, texts, origin)
+    raise UndefinedValueError(operation, [_text(operand) for operand in operands], origin)
+
+
+def _text(operand: Expression) -> str:
+    """An operand as a person knows it."""
+    if isinstance(operand, Literal) and operand.type != DURATION:
+        return str(operand.value)
+    return operand.origin.text if operand.origin is not None else repr(operand)

@@ -57,12 +57,9 @@ def stored(expression: Expression, words: Dialect) -> str:
     """A value that is assigned or sent: of a message or an array, a copy, as ROS has it."""
     text = translate(expression, words)
     kept = isinstance(expression, (VariableRef, ParamRef, EventData, FieldAccess))
-    return copied(text) if kept and not isinstance(expression.type, Primitive) else text
-
-
-def copied(text: str) -> str:
-    """A copy of an object."""
-    return f"JSON.parse(JSON.stringify({text}))"
+    if kept and not isinstance(expression.type, Primitive):
+        return f"JSON.parse(JSON.stringify({text}))"
+    return text
 
 
 def needs_data(machine: StateMachine) -> bool:

@@ -14,7 +14,7 @@ from functools import reduce
 
 from lxml import etree
 
-from swarmdsl.exchange.scxml.ecmascript import copied, dialect, first_value, needs_data, stored
+from swarmdsl.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
 from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
@@ -202,15 +202,10 @@ class _StateWriter:
 
     def _add_results(self, element: etree._Element, state: State) -> None:
         assert state.activity is not None
-        kept = set()
         for mapping in state.activity.results:
             location = self._location(mapping.variable, mapping.path)
-            value = f"{self.dialect.event}.{mapping.field}"
-            if mapping.field in kept:
-                # A result is nobody else's, until a second variable gets it.
-                value = copied(value)
-            add(element, "assign", location=location, expr=value)
-            kept.add(mapping.field)
+            # Not copied: a result is in nobody else's hands.
+            add(element, "assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
 
     def _add_effects(self, element: etree._Element, effects: Iterable[Effect]) -> None:
         for effect in effects:

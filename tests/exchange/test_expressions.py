@@ -1,0 +1,207 @@
+"""An expression has one value: that of the language is that of the Python and of the ECMAScript."""
+
+from __future__ import annotations
+
+import json
+import math
+import operator
+import shutil
+import subprocess
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from swarmdsl.exchange import constants
+from swarmdsl.exchange.scxml import ecmascript
+from swarmdsl.ir import Binary, Call, EventData, Expression, Literal, Named, Unary, VariableRef
+from swarmdsl.ir.types import BOOL, FLOAT, INT, Array
+from swarmdsl.translate import Dialect, python_literal, translate
+
+PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
+ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})
+QUICK = settings(max_examples=200, deadline=None, database=None, derandomize=True)
+
+REPORT = Named("test", "Report")
+
+
+def literals(values: st.SearchStrategy[Any], type_: Any) -> st.SearchStrategy[Expression]:
+    return values.map(lambda value: Literal(value, type_))
+
+
+def binary(symbols: str, operands: st.SearchStrategy[Expression], type_: Any) -> Any:
+    symbol = st.sampled_from(symbols.split())
+    return st.builds(lambda s, x, y: Binary(s, x, y, type_), symbol, operands, operands)
+
+
+def calls(functions: str, operands: st.SearchStrategy[Expression], count: int) -> Any:
+    names = st.sampled_from(functions.split())
+    several = st.lists(operands, min_size=count, max_size=count + count // 2)
+    return st.builds(lambda name, values: Call(name, tuple(values), FLOAT), names, several)
+
+
+def negative(operands: st.SearchStrategy[Expression]) -> Any:
+    return operands.map(lambda x: Unary("-", x, FLOAT))
+
+
+# Numbers on which no operation has to round: a remainder of rounded ones would differ.
+EXACT = st.recursive(
+    literals(st.integers(-8, 8), INT) | literals(st.integers(-16, 16).map(lambda n: n / 4), FLOAT),
+    lambda inner: (
+        binary("+ - * %", inner, FLOAT)
+        | negative(inner)
+        | calls("min max", inner, 2)
+        | calls("abs", inner, 1)
+    ),
+    max_leaves=8,
+)
+NUMBERS = st.recursive(
+    EXACT,
+    lambda inner: (
+        binary("+ - * /", inner, FLOAT)
+        | negative(inner)
+        | calls("min max", inner, 2)
+        | calls("abs sqrt", inner, 1)
+    ),
+    max_leaves=4,
+)
+CONDITIONS = st.recursive(
+    literals(st.booleans(), BOOL) | binary("== != < <= > >=", NUMBERS, BOOL),
+    lambda inner: binary("and or == !=", inner, BOOL) | inner.map(lambda x: Unary("not", x, BOOL)),
+    max_leaves=6,
+)
+EXPRESSIONS = NUMBERS | CONDITIONS
+
+
+def modulo(left: float, right: float) -> float:
+    """The remainder that has the sign of the divisor."""
+    rest = math.fmod(left, right)
+    return rest + right if rest and (rest < 0) != (right < 0) else rest
+
+
+OPERATIONS: dict[str, Any] = {
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "%": modulo,
+    "min": min,
+    "max": max,
+    "abs": abs,
+    "sqrt": math.sqrt,
+}
+
+
+def value(expression: Expression) -> Any:
+    """What the language says that an expression means."""
+    match expression:
+        case Literal(value=written):
+            return written
+        case Unary(operator="not", operand=operand):
+            return not value(operand)
+        case Unary(operand=operand):
+            return -value(operand)
+        case Binary(operator="and", left=left, right=right):
+            return value(left) and value(right)
+        case Binary(operator="or", left=left, right=right):
+            return value(left) or value(right)
+        case Binary(operator=symbol, left=left, right=right):
+            return OPERATIONS[symbol](value(left), value(right))
+        case Call(function=function, arguments=arguments):
+            return OPERATIONS[function](*map(value, arguments))
+    raise AssertionError(expression)
+
+
+def defined_value(expression: Expression) -> Any:
+    """The value; expressions that divide by zero or take the root of less have none."""
+    try:
+        return value(expression)
+    except (ZeroDivisionError, ValueError):
+        assume(False)
+
+
+def in_node(texts: list[str]) -> list[Any]:
+    """The values of texts in one JavaScript engine, which is started once for all."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no JavaScript engine (install node)")
+    script = """
+        const texts = JSON.parse(require("fs").readFileSync(0, "utf8"));
+        console.log(JSON.stringify(texts.map((text) => (0, eval)(text))));
+    """
+    run = subprocess.run(
+        [node, "-e", script], input=json.dumps(texts), capture_output=True, text=True, check=True
+    )
+    values: list[Any] = json.loads(run.stdout)
+    return values
+
+
+@QUICK
+@given(EXPRESSIONS)
+def test_python_has_the_value_of_the_language(expression: Expression) -> None:
+    expected = defined_value(expression)
+
+    text = translate(expression, PYTHON)
+    assert eval(text, {"math": math}) == expected, text
+
+
+@QUICK
+@given(EXPRESSIONS)
+def test_the_compiler_computes_the_value_of_the_language(expression: Expression) -> None:
+    assert constants.constant(expression, {}) == defined_value(expression)
+
+
+def test_ecmascript_has_the_value_of_the_language() -> None:
+    expected: dict[str, Any] = {}
+
+    @QUICK
+    @given(EXPRESSIONS)
+    def collect(expression: Expression) -> None:
+        known = defined_value(expression)
+        expected[translate(expression, ECMASCRIPT)] = known
+
+    collect()
+    found = dict(zip(expected, in_node(list(expected)), strict=True))
+    # `True == 1` in Python: only with the types are they the same.
+    assert {text: (type(v) is bool, v) for text, v in found.items()} == {
+        text: (type(v) is bool, v) for text, v in expected.items()
+    }
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "expected"), [(7, 3, 1), (-7, 3, 2), (7, -3, -2), (-7, -3, -1), (-6, 3, 0)]
+)
+def test_a_remainder_has_the_sign_of_the_divisor(left: int, right: int, expected: int) -> None:
+    expression = Binary("%", Literal(left, INT), Literal(right, INT), INT)
+
+    assert eval(translate(expression, PYTHON)) == expected
+    assert in_node([translate(expression, ECMASCRIPT)]) == [expected]
+
+
+def test_remainders_of_remainders_stay_short() -> None:
+    expression: Expression = VariableRef("n", INT)
+    for divisor in range(60):
+        expression = Binary("%", Literal(divisor + 2, INT), expression, INT)
+
+    assert len(translate(expression, ECMASCRIPT)) < 10_000
+
+
+@pytest.mark.parametrize(
+    ("expression", "text"),
+    [
+        (VariableRef("report", REPORT), "JSON.parse(JSON.stringify(report))"),
+        (VariableRef("report", Array(INT)), "JSON.parse(JSON.stringify(report))"),
+        (EventData(REPORT), "JSON.parse(JSON.stringify(_event.data))"),
+        (VariableRef("n", INT), "n"),
+        (Binary("+", VariableRef("n", INT), Literal(1, INT), None), "n + 1"),
+    ],
+)
+def test_what_is_stored_is_a_copy(expression: Expression, text: str) -> None:
+    assert ecmascript.stored(expression, ECMASCRIPT) == text
