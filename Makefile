@@ -5,13 +5,14 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+MUTANTS ?= 10000
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
 VSIX_DIR := dist
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-editor check fmt bench bless dist vsix clean
+.PHONY: demo test test-editor check fmt bench fuzz bless dist vsix clean
 
 demo: $(READY) ## Compile an example and show what was made.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -34,6 +35,9 @@ fmt: $(READY) ## Format the code and repair its style.
 
 bench: $(READY) ## Measure the phases on large models.
 	$(BIN)/python benchmarks/bench.py
+
+fuzz: $(READY) ## Check 10,000 models with random mistakes; MUTANTS=100000 for more.
+	$(BIN)/pytest -q tests/front/test_mutations.py --mutants $(MUTANTS)
 
 bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless

@@ -17,6 +17,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="take today's output as what the golden tests expect",
     )
+    parser.addoption(
+        "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
+    )
 
 
 @pytest.fixture
@@ -42,3 +45,18 @@ def compiled(tmp_path: Path) -> Callable[[str], System]:
         return result.system
 
     return compile_text
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print what the tests with random mistakes have seen."""
+    reports = terminalreporter.getreports("passed")
+    figures = [dict(report.user_properties) for report in reports if report.when == "call"]
+    figures = [each for each in figures if "mutants" in each]
+    if figures:
+        checked = sum(each["mutants"] for each in figures)
+        wrong = sum(each["wrong"] for each in figures)
+        slowest = max(each["slowest"] for each in figures)
+        terminalreporter.write_line(
+            f"{checked} mutants, none crashed: {wrong} rejected with a diagnostic, "
+            f"the slowest in {slowest:.2f} s"
+        )

@@ -6,6 +6,7 @@ import random
 import re
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 
 import pytest
 
@@ -15,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(
     [*(ROOT / "examples").rglob("*.swarm"), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
 )
-MUTANTS = 400
+SEEDS = 10
 _TOKEN = re.compile(r'"[^"\n]*"|\w+|->|=>|[^\w\s]|\s+')
 _CHARACTERS = "{}()[]\"/*\\'-><=.,:;#@0 \n\t\x00\ufeff\u00a0é€"
 Mutation = Callable[[str, random.Random], str]
@@ -89,18 +90,27 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
-@pytest.mark.parametrize("seed", range(10))
-def test_mutants(seed: int, folder: Path) -> None:
+@pytest.mark.parametrize("seed", range(SEEDS))
+def test_mutants(
+    seed: int,
+    folder: Path,
+    pytestconfig: pytest.Config,
+    record_property: Callable[[str, object], None],
+) -> None:
     dice = random.Random(seed)
+    mutants = pytestconfig.getoption("--mutants") // SEEDS
     wrong = 0
-    for _ in range(MUTANTS // 10):
+    slowest = 0.0
+    for _ in range(mutants):
         model = dice.choice(MODELS)
         original = text = model.read_text(encoding="utf-8")
         for mutate in dice.choices(MUTATIONS, k=dice.choice((1, 1, 2, 3))):
             text = mutate(text, dice) or " "
         path = folder / model.relative_to(ROOT)
         path.write_text(text, encoding="utf-8")
+        start = perf_counter()
         result = compiler.check([path])
+        slowest = max(slowest, perf_counter() - start)
         path.write_text(original, encoding="utf-8")
 
         spans = [found.primary.span for found in result.report if found.primary]
@@ -109,7 +119,10 @@ def test_mutants(seed: int, folder: Path) -> None:
             wrong += 1
             binary = "\x00" in text
             assert binary or [span for span in spans if span.source.path == path], text
-    assert wrong > MUTANTS // 20  # the mutations do something
+    assert wrong > mutants // 2  # the mutations do something
+    record_property("mutants", mutants)
+    record_property("wrong", wrong)
+    record_property("slowest", slowest)
 
 
 def test_the_models_are_right(folder: Path) -> None:
