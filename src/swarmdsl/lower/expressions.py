@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from fractions import Fraction
 
 from swarmdsl import ir
@@ -9,6 +10,7 @@ from swarmdsl.enums import numbers
 from swarmdsl.expressions import UNITS
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
+from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Call,
     Constant,
@@ -52,9 +54,7 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
     """An expression; its type follows from its parts, which may stand for other values here."""
     match tree:
         case Value():
-            return _literal(tree, 1)
-        case OperatorUse(operator="-", operands=(Value(value=int() | float()) as value,)):
-            return _literal(value, -1)
+            return _literal(tree)
         case NameUse(target=Param() as param) if param in context.values:
             return context.values[param]
         case NameUse(target=Constant() as constant):
@@ -75,7 +75,7 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
             values = tuple(_lower(operand, context) for operand in operands)
             type_ = _result(tree, values, context)
             if len(values) == 1:
-                return ir.Unary(str(operator), values[0], type_, tree.span)
+                return _unary(str(operator), values[0], type_, tree.span)
             return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
     raise AssertionError(tree)
 
@@ -101,16 +101,23 @@ def _result(
     return context.typing.result(tree, [operand.type for operand in operands])
 
 
-def _literal(value: Value, sign: int) -> ir.Literal:
+def _unary(operator: str, operand: ir.Expression, type_: ir.Type | None, at: Span) -> ir.Expression:
+    """An operator before its operand; with a number it makes another number."""
+    if operator == "-" and isinstance(operand, ir.Literal) and not isinstance(operand.value, str):
+        return replace(operand, value=-operand.value, origin=at)
+    return ir.Unary(operator, operand, type_, at)
+
+
+def _literal(value: Value) -> ir.Literal:
     match value.value:
         case bool():
             return ir.Literal(value.value, BOOL, value.span)
         case int() | float() if value.unit:
-            return ir.Literal(sign * _nanoseconds(value), DURATION, value.span)
+            return ir.Literal(_nanoseconds(value), DURATION, value.span)
         case int():
-            return ir.Literal(sign * value.value, INT, value.span)
+            return ir.Literal(value.value, INT, value.span)
         case float():
-            return ir.Literal(sign * value.value, FLOAT, value.span)
+            return ir.Literal(value.value, FLOAT, value.span)
     return ir.Literal(value.value, STRING, value.span)
 
 

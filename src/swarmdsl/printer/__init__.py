@@ -1,0 +1,107 @@
+"""From the intermediate representation back to the text of a model.
+
+`lower(parse(print_system(system)))` equals `normalized(system)`; `printer/normal.py` says
+what that changes, which is nothing for most systems that come from one file. Constants,
+enums, aliases and libraries are not in the representation any more: their values and what
+is used of them stand in the text, a topic that is monitored has an event of its own.
+
+A system that no model leads to, built by hand or by an importer, may have no text; then
+`UnprintableError` says why: a transition that waits for nothing or for another state's end,
+or leads to a state that another one of its name hides; a number that is infinite.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import deque
+from collections.abc import Callable, Iterator
+from typing import TypeVar
+
+from swarmdsl.ir import System
+from swarmdsl.printer.architecture import print_component, print_member
+from swarmdsl.printer.composition import (
+    print_environment,
+    print_fitness,
+    print_optimization,
+    print_swarm,
+)
+from swarmdsl.printer.interfaces import print_event, print_function, print_interface
+from swarmdsl.printer.layout import UnprintableError, documented
+from swarmdsl.printer.machines import print_machine
+from swarmdsl.printer.names import Names, make_names, own_operations
+from swarmdsl.printer.normal import normalized
+from swarmdsl.printer.reuse import find_reuse
+from swarmdsl.syntax_advice import keywords
+
+T = TypeVar("T")
+
+_PACKAGE_NAME = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*", re.ASCII)
+
+
+def print_system(system: System) -> str:
+    """The system as one file.
+
+    A package whose name the language does not have is left out: the file must be called so.
+    """
+    system = normalized(system)
+    declarations = list(_declarations(system, make_names(system)))
+    if _is_package_name(system.name):
+        declarations.insert(0, documented(system.doc, [f"package {system.name}"]))
+    return "\n".join("".join(f"{line}\n" for line in lines) for lines in declarations)
+
+
+def _declarations(system: System, names: Names) -> Iterator[list[str]]:
+    """The lines of each declaration.
+
+    A component brings functions and services with it, its operations. It stands after those
+    before them, so that all come back in their order.
+    """
+    operations = {each.name: own_operations(each, system) for each in system.components}
+    offered = {name for own in operations.values() for name in own}
+    services = {system.function(name).communication.type for name in offered}
+    interfaces, functions = deque(system.interfaces), deque(system.functions)
+
+    def some_interfaces() -> Iterator[list[str]]:
+        for interface in _taken(interfaces, lambda each: each.type not in services):
+            yield print_interface(interface, names)
+
+    def some_functions() -> Iterator[list[str]]:
+        for function in _taken(functions, lambda each: each.name not in offered):
+            yield print_function(function, names)
+
+    yield from some_interfaces()
+    yield from (print_event(event, names) for event in system.events)
+    yield from some_functions()
+    for component in system.components:
+        yield print_component(component, system, names)
+        for name in operations[component.name]:
+            if functions[0].name != name or interfaces[0].type != functions[0].communication.type:
+                raise UnprintableError(f"operation `{name}` is not in the order of the components")
+            functions.popleft()
+            interfaces.popleft()
+        yield from some_interfaces()
+        yield from some_functions()
+    yield from (print_member(member, system, names) for member in system.members)
+    machines = {machine.name: machine for machine in system.machines}
+    for machine in system.machines:
+        reuse = find_reuse(machine, machines)
+        assert reuse is not None  # the system is in its normal form
+        yield print_machine(machine, reuse, names)
+    yield from map(print_environment, system.environments)
+    yield from (print_fitness(fitness, names) for fitness in system.fitness)
+    yield from map(print_swarm, system.swarms)
+    yield from map(print_optimization, system.optimizations)
+
+
+def _taken(items: deque[T], wanted: Callable[[T], bool]) -> Iterator[T]:
+    """Take the items at the start that are wanted."""
+    while items and wanted(items[0]):
+        yield items.popleft()
+
+
+def _is_package_name(name: str) -> bool:
+    """Whether it can stand after `package`."""
+    return _PACKAGE_NAME.fullmatch(name) is not None and name.partition(".")[0] not in keywords()
+
+
+__all__ = ["UnprintableError", "normalized", "print_system"]

@@ -1,0 +1,61 @@
+"""Expressions as the language writes them."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from swarmdsl.expressions import UNITS
+from swarmdsl.ir import Expression, Literal
+from swarmdsl.ir.types import DURATION
+from swarmdsl.printer.layout import UnprintableError, quoted
+from swarmdsl.translate import Dialect, translate
+
+
+def expression(value: Expression) -> str:
+    """An expression with the parentheses that it needs."""
+    return translate(value, _DIALECT)
+
+
+def delay(value: Expression) -> str:
+    """The same after `after`, where a `/` would begin the effects of the transition."""
+    text = expression(value)
+    return f"({text})" if "/" in text or "%" in text else text
+
+
+def default(value: Expression | None) -> str:
+    """` = value`, or nothing."""
+    return "" if value is None else f" = {expression(value)}"
+
+
+def _literal(literal: Literal) -> str:
+    match literal.value:
+        case bool():
+            return "true" if literal.value else "false"
+        case int() if literal.type == DURATION:
+            return _duration(literal.value)
+        case float() if not isfinite(literal.value):
+            raise UnprintableError(f"{literal.value} is no number that can be written")
+        case str():
+            return quoted(literal.value)
+        case value:
+            return repr(value)
+
+
+def _duration(nanoseconds: int) -> str:
+    """A length of time in the longest unit of which it is a whole number, else in `us`."""
+    if nanoseconds < 0:
+        return f"-{_duration(-nanoseconds)}"
+    if nanoseconds == 0:
+        return "0 s"
+    for unit, length in sorted(UNITS.items(), key=lambda item: -item[1]):
+        if nanoseconds % length == 0:
+            return f"{nanoseconds // length} {unit}"
+    whole, rest = divmod(nanoseconds, UNITS["us"])
+    return f"{whole}.{rest:03}".rstrip("0") + " us"
+
+
+def _name(name: str) -> str:
+    return name
+
+
+_DIALECT = Dialect(_literal, _name, _name, "event", {}, {})

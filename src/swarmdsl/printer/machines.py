@@ -1,0 +1,210 @@
+"""State machines as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from swarmdsl.ir import (
+    Activity,
+    Assignment,
+    DoneTrigger,
+    Effect,
+    EventTrigger,
+    Expression,
+    OutcomeTrigger,
+    Send,
+    State,
+    StateKind,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    Variable,
+)
+from swarmdsl.printer.expressions import default, delay, expression
+from swarmdsl.printer.interfaces import print_params
+from swarmdsl.printer.layout import UnprintableError, block, documented
+from swarmdsl.printer.names import Names
+from swarmdsl.printer.paths import Level, Place, level, top
+from swarmdsl.printer.reuse import Reuse
+
+
+def print_machine(machine: StateMachine, reuse: Reuse, names: Names) -> list[str]:
+    """A machine; states that reuse another one say so."""
+    place = top(machine)
+    endless = "endless " if machine.endless else ""
+    printer = _Printer(reuse, names)
+    return documented(
+        machine.doc,
+        block(
+            f"{endless}statemachine {machine.name}",
+            [
+                *print_params(machine.params, names),
+                *(line for each in reuse.variables for line in _variable(each, names)),
+            ],
+            [f"initial {place.path(machine.initial, place.outer)}"],
+            printer.states(machine.states, place),
+        ),
+    )
+
+
+def _variable(variable: Variable, names: Names) -> list[str]:
+    line = f"var {variable.name} : {names.type(variable.type)}{default(variable.initial)}"
+    return documented(variable.doc, [line])
+
+
+@dataclass(frozen=True)
+class _Printer:
+    """Prints the states of one machine."""
+
+    reuse: Reuse
+    names: Names
+
+    def states(self, states: Iterable[State], place: Place) -> list[str]:
+        return [
+            line for state in states for line in documented(state.doc, self._state(state, place))
+        ]
+
+    def _state(self, state: State, place: Place) -> list[str]:
+        match state.kind:
+            case StateKind.FINAL:
+                return [f"final {state.name}"]
+            case StateKind.HISTORY:
+                deep = "deep " if state.deep else ""
+                (resume,) = state.transitions
+                assert resume.target is not None
+                target = place.path(resume.target, place.outer[:1])
+                return [f"{deep}history {state.name} -> {target}"]
+            case StateKind.CHOICE:
+                branches = [_branch(each, place) for each in state.transitions]
+                return block(f"choice {state.name}", branches)
+            case StateKind.REGION:
+                return block(f"region {state.name}", *self._content(state, place))
+            case StateKind.PARALLEL:
+                regions = self.states(state.states, place.inside(state))
+                return block(
+                    f"parallel state {state.name}",
+                    self._own(state),
+                    regions,
+                    self._transitions(state, place),
+                )
+        transitions = self._transitions(state, place)
+        if state.submachine is not None:
+            head = f"state {state.name} = {state.submachine}"
+            use = self.reuse.uses[state.id]
+            if use.bindings:
+                head += f"({_arguments(use.bindings)})"
+            lines = [*self._own(replace(state, entry=use.entry)), *transitions]
+            return block(head, lines) if lines else [head]
+        if state.kind is StateKind.COMPOSITE:
+            content = self._content(state, place)
+            return block(f"state {state.name}", self._own(state), *content, transitions)
+        return block(f"state {state.name}", [*self._own(state), *transitions])
+
+    def _content(self, state: State, place: Place) -> tuple[list[str], list[str]]:
+        """The initial state and the states of a composite state or region."""
+        assert state.initial is not None
+        initial = place.path(state.initial, (level(state),))
+        return [f"initial {initial}"], self.states(state.states, place.inside(state))
+
+    def _own(self, state: State) -> list[str]:
+        """What a state does: its activity, and its effects on entry and exit."""
+        lines = []
+        if state.activity is not None:
+            lines.append(_activity(state.activity, self.names))
+        if state.entry:
+            lines.append(f"entry / {_effects(state.entry)}")
+        if state.exit:
+            lines.append(f"exit / {_effects(state.exit)}")
+        return lines
+
+    def _transitions(self, state: State, place: Place) -> list[str]:
+        levels = place.from_state(state)
+        return [_transition(each, state, place, levels) for each in state.transitions]
+
+
+def _transition(
+    transition: Transition, state: State, place: Place, levels: tuple[Level, ...]
+) -> str:
+    guard, effects, target = transition.guard, transition.effects, transition.target
+    parts = ["internal"] if transition.internal else []
+    if transition.triggers:
+        parts.append(_triggers(transition.triggers, state))
+    elif guard is None or target is None:
+        # A state that does nothing and has nothing in it is complete at once.
+        if state.kind is not StateKind.SIMPLE or state.activity is not None:
+            raise UnprintableError(f"a transition of `{state.id}` waits for nothing")
+        parts.append("on done")
+    if guard is not None:
+        parts.append(f"[{expression(guard)}]")
+    if effects:
+        parts.append(f"/ {_effects(effects)}")
+    elif target is None:
+        raise UnprintableError(f"a transition of `{state.id}` has no effect")
+    if target is not None:
+        parts.append(f"-> {place.path(target, levels)}")
+    return " ".join(parts)
+
+
+def _branch(branch: Transition, place: Place) -> str:
+    assert branch.target is not None
+    parts = ["else" if branch.guard is None else f"[{expression(branch.guard)}]"]
+    if branch.effects:
+        parts.append(f"/ {_effects(branch.effects)}")
+    return " ".join([*parts, f"-> {place.path(branch.target, place.from_choice())}"])
+
+
+def _triggers(triggers: tuple[Trigger, ...], state: State) -> str:
+    timed = [trigger for trigger in triggers if isinstance(trigger, TimeTrigger)]
+    if not timed:
+        return "on " + ", ".join(_trigger(trigger, state) for trigger in triggers)
+    if len(timed) < len(triggers):
+        raise UnprintableError(f"a transition of `{state.id}` waits for a time and for more")
+    return ", ".join(f"after {delay(trigger.delay)}" for trigger in timed)
+
+
+def _trigger(trigger: Trigger, owner: State) -> str:
+    match trigger:
+        case EventTrigger(event=event):
+            return event
+        case OutcomeTrigger(state=owner.id, outcome=outcome):
+            return outcome
+        case DoneTrigger(state=state, final=final):
+            region = next((each for each in owner.states if each.id == state), None)
+            if state == owner.id or (region is not None and region.kind is StateKind.REGION):
+                done = "done" if region is None else f"{region.name}.done"
+                return done if final is None else f"{done}.{final.removeprefix(f'{state}.')}"
+    raise UnprintableError(f"a transition of `{owner.id}` waits for another state")
+
+
+def _effects(effects: tuple[Effect, ...]) -> str:
+    return ", ".join(map(_effect, effects))
+
+
+def _effect(effect: Effect) -> str:
+    match effect:
+        case Assignment(variable=variable, path=path, value=value):
+            return f"{'.'.join((variable, *path))} = {expression(value)}"
+        case Send(event=event, arguments=arguments):
+            return f"send {event}({_arguments(arguments)})" if arguments else f"send {event}"
+
+
+def _activity(activity: Activity, names: Names) -> str:
+    text = f"do {names.function(activity.function)}"
+    if activity.goal_callback is not None:
+        text += f"(by {activity.goal_callback})"
+    elif activity.arguments:
+        text += f"({_arguments(activity.arguments)})"
+    if activity.result_callback is not None:
+        text += f" gives by {activity.result_callback}"
+    elif activity.results:
+        results = (
+            f"{each.field} => {'.'.join((each.variable, *each.path))}" for each in activity.results
+        )
+        text += f" gives ({', '.join(results)})"
+    return text
+
+
+def _arguments(arguments: Iterable[tuple[str, Expression]]) -> str:
+    return ", ".join(f"{name} = {expression(value)}" for name, value in arguments)

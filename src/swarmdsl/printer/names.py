@@ -1,0 +1,57 @@
+"""How things of a system are called in its text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from swarmdsl.ir import Array, Component, Function, Named, Primitive, System, Type
+from swarmdsl.ir.types import PRIMITIVES
+
+
+@dataclass(frozen=True)
+class Names:
+    """`own` are the interfaces that the model declares itself.
+
+    `operations` are the functions that components offer, as `Component.operation`.
+    """
+
+    own: frozenset[Named]
+    operations: Mapping[str, str]
+
+    def type(self, type_: Type) -> str:
+        """A type as written in the model."""
+        match type_:
+            case Array(element=element, size=size, bounded=bounded):
+                return f"{self.type(element)}[{'<=' if bounded else ''}{size or ''}]"
+            case Named(name=name) if type_ in self.own and name not in PRIMITIVES:
+                return name
+            case Primitive() | Named():
+                return str(type_)
+
+    def function(self, name: str) -> str:
+        """A function that a state does, as written there."""
+        return self.operations.get(name, name)
+
+
+def make_names(system: System) -> Names:
+    """Gather what has another name in the text than in the system."""
+    return Names(
+        frozenset(known.type for known in system.interfaces if not known.external),
+        {
+            name: f"{component.name}.{operation_name(system.function(name))}"
+            for component in system.components
+            for name in own_operations(component, system)
+        },
+    )
+
+
+def own_operations(component: Component, system: System) -> tuple[str, ...]:
+    """The functions that a component offers itself, without those of its base."""
+    base = next((each for each in system.components if each.name == component.base), None)
+    return component.operations[len(base.operations) if base is not None else 0 :]
+
+
+def operation_name(function: Function) -> str:
+    """What a function is called in the component that offers it."""
+    return function.communication.name.rpartition("/")[2]
