@@ -457,6 +457,31 @@ def test_by_way_of_which_state_a_construct_comes_in(compiled: Compile, findings:
     assert [each.related for each in left_out] == [of_m.related]
 
 
+def test_variables_of_a_reused_machine(compiled: Compile, findings: Findings) -> None:
+    """They start anew each time it is entered, which is no effect that the model has."""
+    system = compiled(
+        """
+        statemachine Inner {
+          var name : string = "x"
+          initial A
+          state A { do drive(speed = 0.0, name = name) on succeeded, aborted -> B }
+          final B
+        }
+        statemachine M {
+          initial First
+          state First { on Start -> Second }
+          state Second = Inner { on done -> Stop }
+          final Stop
+        }
+        """
+    )
+    found = [each for each in findings(system, "cpswarm") if "`M.c" in each.message]
+
+    assert [each.name for each in found] == ["complete-by-hand"]
+    assert found[0].message.endswith("nothing gives `userdata.second_name` its first value")
+    assert [label.span.text for label in found[0].related] == ["Second"]
+
+
 def test_a_machine_that_waits_for_nothing(compiled: Compile, findings: Findings) -> None:
     system = compiled("endless statemachine M { initial A state A { on Start -> B } state B { } }")
     (found,) = findings(system, "cpswarm")

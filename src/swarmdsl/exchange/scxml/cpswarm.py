@@ -14,7 +14,7 @@ from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.scxml.calls import Call, call_of
-from swarmdsl.exchange.scxml.profile import in_profile
+from swarmdsl.exchange.scxml.profile import in_profile, without_first_values
 from swarmdsl.exchange.scxml.threads import (
     OUTCOMES,
     TARGET,
@@ -50,7 +50,8 @@ _UNSUPPORTED = {
 def cpswarm(machine: StateMachine, system: System, report: Diagnostics) -> etree._Element | None:
     """The document of a machine; None when the dialect cannot express it, which is reported."""
     found = Diagnostics()
-    for feature, origin in used_features(replace(system, machines=(machine,))):
+    written = without_first_values(machine)
+    for feature, origin in used_features(replace(system, machines=(written,))):
         if feature in _UNSUPPORTED:
             _refuse(found, feature.value, origin)
     if not found.has_errors:

@@ -16,7 +16,7 @@ HELP = "`--option scxml.profile=portable` asks for SCXML without it"
 def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
     """What was found when the file of a machine was made, in words of the profile."""
     uses: dict[Span, State] = {}
-    for place, state in _reused(machine.states):
+    for place, state in _reused(machine):
         uses.setdefault(place, state)
     for each in found:
         if each.name in ("unsupported-construct", "bad-identifier"):
@@ -31,13 +31,36 @@ def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[D
         yield each
 
 
-def _reused(states: Iterable[State]) -> Iterator[tuple[Span, State]]:
-    """The places in machines that are reused, each with the state that reuses it."""
-    for state in states:
-        if state.submachine is None:
-            yield from _reused(state.states)
-        else:
-            yield from ((place, state) for inner in state.states for place in _places(inner))
+def without_first_values(machine: StateMachine) -> StateMachine:
+    """The machine without the effects that give variables of reused machines their first value.
+
+    The model does not have them as effects, and what is missing is said of the variable.
+    """
+    places = {variable.origin for variable in machine.variables}
+
+    def kept(state: State) -> State:
+        entry = state.entry
+        if state.submachine is not None:
+            entry = tuple(effect for effect in entry if effect.origin not in places)
+        return replace(state, entry=entry, states=tuple(map(kept, state.states)))
+
+    return replace(machine, states=tuple(map(kept, machine.states)))
+
+
+def _reused(machine: StateMachine) -> Iterator[tuple[Span, State]]:
+    """The places in machines that are reused, each with the outermost state that reuses it."""
+    declared = {variable.origin for variable in machine.variables}
+
+    def visit(states: Iterable[State]) -> Iterator[tuple[Span, State]]:
+        for state in states:
+            if state.submachine is None:
+                yield from visit(state.states)
+                continue
+            first_values = (effect for effect in state.entry if effect.origin in declared)
+            for place in _places((*first_values, *state.states)):
+                yield place, state
+
+    return visit(machine.states)
 
 
 def _places(node: Any) -> Iterator[Span]:
