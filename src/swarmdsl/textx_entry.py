@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from textx import GeneratorDesc, LanguageDesc, TextXError, TextXSemanticError
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+
+if TYPE_CHECKING:
+    from swarmdsl.project.settings import Settings
 
 
 def _metamodel(**_params: Any) -> Any:
@@ -28,7 +31,17 @@ def _check(model: Any, _metamodel: Any) -> None:
 
     path = getattr(model, "_tx_filename", None)
     if path is not None:
-        _raise_errors(compiler.check([Path(path)]).report)
+        _raise_errors(compiler.check([Path(path)], _settings(Path(path))).report)
+
+
+def _settings(path: Path) -> Settings:
+    """What the project file of a model says."""
+    from swarmdsl.project import find_settings
+
+    report = Diagnostics()
+    settings = find_settings([path], report)
+    _raise_errors(report)
+    return settings
 
 
 def _raise_errors(report: Diagnostics) -> None:
@@ -55,7 +68,7 @@ def _generator(target: str, description: str) -> GeneratorDesc:
         output_path: str | None,
         overwrite: bool,
         _debug: bool,
-        **options: str | bool,
+        **given: str | bool,
     ) -> None:
         from swarmdsl import compiler
         from swarmdsl.emit import Request
@@ -64,9 +77,12 @@ def _generator(target: str, description: str) -> GeneratorDesc:
             raise TextXError("give a .swarm file to generate from")
         path = Path(model._tx_filename)
         # An option without a value arrives as True.
-        texts = {name: "true" if value is True else str(value) for name, value in options.items()}
+        texts = {name: "true" if value is True else str(value) for name, value in given.items()}
         out = Path(output_path) if output_path else path.parent
-        result = compiler.build([path], [Request(target, texts)], out, force=overwrite)
+        settings = _settings(path)
+        options = {**settings.targets.get(target, {}), **texts}
+        request = Request(target, options)
+        result = compiler.build([path], [request], out, settings, force=overwrite)
         _raise_errors(result.report)
 
     return GeneratorDesc("swarm", target, description, generate)

@@ -106,3 +106,19 @@ def test_the_metamodel_is_textx_s_own_and_checks(good):
     made = textx_entry.swarm.metamodel()
     assert made is not metamodel()
     assert type(made.model_from_file(str(Path(good)))).__name__ == "Model"
+
+
+def test_the_project_file_counts(tmp_path, good):
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib" / "kit.swarm").write_text("package kit\nevent Go : std_msgs/Empty\n")
+    good.write_text("import kit.*\n" + good.read_text().removeprefix("package lamps\n"))
+    assert "no library has a package `kit`" in textx("check", good).stderr
+    settings = '[project]\nlibraries = ["lib"]\n[targets.scxml]\nprofile = "portable"\n'
+    (tmp_path / "swarm.toml").write_text(settings)
+
+    assert textx("check", good).returncode == 0
+    out = tmp_path / "out"
+    assert textx("generate", good, "--target", "scxml", "-o", out).returncode == 0
+    assert [path.name for path in (out / "scxml").iterdir()] == ["Blinking.scxml"]
+    (tmp_path / "swarm.toml").write_text("[nothing]\n")
+    assert f"{tmp_path / 'swarm.toml'}:1:2: " in textx("check", good).stderr

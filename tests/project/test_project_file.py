@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
+
+from swarmdsl import explain
 
 from .conftest import ISLAND, MODEL
 
@@ -243,3 +246,27 @@ def test_the_project_names_the_system(swarmc, project) -> None:
     project({"swarm.toml": "[project]\nname = 'beacons.sea'\n", "lamps.swarm": MODEL})
 
     assert swarmc("build", "--dump-ir").out.startswith("System beacons.sea\n")
+
+
+def test_the_documented_project_file_is_right(swarmc, project) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "project.md").read_text(encoding="utf-8")
+    documented = page.partition("```toml\n")[2].partition("```")[0]
+    files = {"swarm.toml": documented, "models/lamps.swarm": ISLAND, "lib/readme.txt": ""}
+    root = project(files)
+    ran = swarmc("build")
+
+    assert (ran.code, ran.out) == (0, "")
+    assert made(root / "generated") == {"scxml", "adf"}
+
+
+@pytest.mark.parametrize("code", ["SW0011", "SW0012", "SW0013", "SW0014", "SW0015"])
+def test_examples_of_the_pages_are_wrong_in_this_way(swarmc, project, code) -> None:
+    blocks = explain.page(code).split("```toml\n")[1:]
+    wrong, *right = (block.partition("```")[0] for block in blocks)
+    root = project({"swarm.toml": wrong, "models/m.swarm": MODEL, "../models/x.txt": ""})
+    printed = swarmc("check", "--format", "concise").out.splitlines()
+    assert [re.findall(r"\[(SW\d+)\]", line) for line in printed] == [[code]]
+
+    for text in right:
+        (root / "swarm.toml").write_text(text, encoding="utf-8")
+        assert swarmc("check").code == 0
