@@ -15,6 +15,7 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.scopes import FileScope, report_unresolved
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
+    Branch,
     Choice,
     Container,
     DoneTrigger,
@@ -27,6 +28,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
+    walk,
 )
 
 V = TypeVar("V", bound=Vertex | Region)
@@ -59,6 +61,14 @@ def content(state: Vertex | Container) -> Container | None:
     if isinstance(state, State) and state.machine is not None:
         return state.machine.target
     return state if isinstance(state, (State, StateMachine, Region)) else None
+
+
+def all_resolved(container: Container) -> bool:
+    """Whether each transition and initial state inside leads to a state that was found."""
+    arrows = (Initial, Transition, Branch)
+    return all(
+        node.target.target is not None for node in walk(container) if isinstance(node, arrows)
+    )
 
 
 def _link_container(
@@ -174,8 +184,8 @@ def _link_done(
         container = trigger.region.target
         if container is None:
             return
-    if trigger.final is not None:
-        finals = [v for v in vertices(container) if isinstance(v, FinalState)] if container else []
+    if trigger.final is not None and container is not None:
+        finals = [v for v in vertices(container) if isinstance(v, FinalState)]
         _link_among(trigger.final, "final state", finals, scope, report)
 
 

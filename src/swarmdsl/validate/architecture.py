@@ -72,7 +72,7 @@ def _check_params_given(member: Member, use: BehaviorUse, context: Context) -> N
 def _check_part(part: Part, context: Context) -> None:
     context.check_repeated((value.name for value in part.values), "param")
     component = part.component.target
-    if component is None:
+    if component is None or component in context.damaged:
         return
     params = {str(item.name): item for item in component.items if isinstance(item, Param)}
     for value in part.values:

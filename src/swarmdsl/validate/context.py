@@ -13,15 +13,13 @@ from swarmdsl.load import Project
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
-    ActionType,
-    AliasType,
+    Declaration,
     EventTrigger,
     Expression,
     Field,
     Interface,
     MessageType,
     Param,
-    ServiceType,
     StructType,
     TypeRef,
     Variable,
@@ -31,11 +29,16 @@ from swarmdsl.syntax import (
 
 @dataclass(frozen=True)
 class Context:
-    """Passed to every rule."""
+    """Passed to every rule.
+
+    `damaged` are the declarations with a piece that could not be parsed: of what they seem
+    to lack nothing can be said.
+    """
 
     report: Diagnostics
     interfaces: dict[Named, Interface]
     typing: Typing
+    damaged: set[Declaration]
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
         """Check the type of an expression that could be parsed."""
@@ -109,13 +112,10 @@ def make_context(project: Project, report: Diagnostics) -> Context:
     """Gather the interfaces of all files."""
     interfaces: dict[Named, Interface] = {}
     messages: dict[Named, list[Field]] = {}
+    damaged = {node for file in project.files for node in file.parsed.damaged}
     for file, declaration in project.declarations():
-        match declaration:
-            case StructType() | MessageType():
-                messages[interface_name(file, declaration.name)] = declaration.fields
-            case AliasType() | ServiceType() | ActionType():
-                pass
-            case _:
-                continue
-        interfaces[interface_name(file, declaration.name)] = declaration
-    return Context(report, interfaces, Typing(messages, report))
+        if isinstance(declaration, Interface):
+            interfaces[interface_name(file, declaration.name)] = declaration
+        if isinstance(declaration, (StructType, MessageType)) and declaration not in damaged:
+            messages[interface_name(file, declaration.name)] = declaration.fields
+    return Context(report, interfaces, Typing(messages, report), damaged)

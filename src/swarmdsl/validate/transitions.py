@@ -68,7 +68,7 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
 def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
     """A state without content is never done, nor is content without a final state."""
     simple = isinstance(of, State) and of.machine is None and not _has_states(of)
-    if not simple and completes(of):
+    if not simple and completes(of, context):
         return
     help_ = "add a final state to it"
     if isinstance(of, Parallel):
