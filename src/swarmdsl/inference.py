@@ -120,7 +120,7 @@ class Typing:
             )
         elif not fits(found, wanted):
             help_ = None
-            if wanted == DURATION and isinstance(tree, Value) and not tree.unit:
+            if wanted == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
             self.report.report(
                 "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_

@@ -15,6 +15,7 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.scopes import FileScope, report_unresolved
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
+    Branch,
     Choice,
     Container,
     DoneTrigger,
@@ -28,6 +29,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
+    walk,
 )
 
 V = TypeVar("V", bound=Vertex | Region)
@@ -60,6 +62,13 @@ def content(state: Vertex | Container) -> Container | None:
     if isinstance(state, State) and state.machine is not None:
         return state.machine.target
     return state if isinstance(state, (State, StateMachine, Region)) else None
+
+
+def all_resolved(container: Container) -> bool:
+    """Whether each transition and initial state inside leads to a state that was found."""
+    arrows = (Initial, Transition, Branch, History)
+    refs = [node.target for node in walk(container) if isinstance(node, arrows)]
+    return all(ref.target is not None for ref in refs if ref is not None)
 
 
 def _link_container(
@@ -178,8 +187,8 @@ def _link_done(
         container = trigger.region.target
         if container is None:
             return
-    if trigger.final is not None:
-        finals = [v for v in vertices(container) if isinstance(v, FinalState)] if container else []
+    if trigger.final is not None and container is not None:
+        finals = [v for v in vertices(container) if isinstance(v, FinalState)]
         _link_among(trigger.final, "final state", finals, scope, report)
 
 

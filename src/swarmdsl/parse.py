@@ -18,7 +18,7 @@ from functools import cache
 from itertools import pairwise
 from typing import Any
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.expressions import parse_expression, unquoted
 from swarmdsl.resources import grammar
 from swarmdsl.scan import DocComment, Scan, scan
@@ -78,9 +78,8 @@ def parse(source: Source, report: Diagnostics) -> Parsed:
     """Parse a file; whatever is wrong with it is reported and left out of the tree."""
     scanned = scan(source, report)
     with _deep_recursion():
-        parsed = None if scanned.faults else _parse_whole(source)
-        if parsed is None:
-            parsed = _parse_by_declaration(source, scanned, report)
+        parsed = _parse_by_declaration(source, scanned, report) if scanned.faults else None
+        parsed = parsed or _parse_whole(source) or _parse_with_recovery(source, scanned, report)
     _attach_docs(parsed, scanned.docs, report)
     for node in walk(parsed.model):
         if isinstance(node, Expression):
@@ -98,6 +97,20 @@ def _parse_whole(source: Source) -> Parsed | None:
         return None
 
 
+def _parse_with_recovery(source: Source, scanned: Scan, report: Diagnostics) -> Parsed:
+    """Parse a file that has a syntax error, which is reported in any case."""
+    from textx import TextXSyntaxError
+
+    before = len(report)
+    parsed = _parse_by_declaration(source, scanned, report)
+    if len(report) == before:  # each declaration is right, but not all of them together
+        try:
+            _tree(source, source.text, 0)
+        except TextXSyntaxError as error:
+            report_syntax_error(error, source, 0, source.text, report)
+    return parsed
+
+
 def _parse_by_declaration(source: Source, scanned: Scan, report: Diagnostics) -> Parsed:
     model = Model(Span(source, 0, len(source.text)), None, [], [], [])
     parsed = Parsed(model)
@@ -111,7 +124,14 @@ def _parse_by_declaration(source: Source, scanned: Scan, report: Diagnostics) ->
         if piece is None:
             continue
         misplaced = piece.package or (piece.imports[0] if piece.imports else None)
-        if misplaced and (model.declarations or (piece.package and model.imports)):
+        if piece.package and model.package:
+            report.report(
+                "syntax-error",
+                piece.package.span,
+                message="a file has one package",
+                related=(Label(model.package.span, "it is given here"),),
+            )
+        elif misplaced and (model.declarations or (piece.package and model.imports)):
             report.report(
                 "syntax-error",
                 misplaced.span,

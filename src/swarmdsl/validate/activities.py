@@ -57,6 +57,8 @@ def _check_activity(activity: Activity, context: Context) -> None:
     sent: list[Field] | None = None
     received: list[Field] | None = None
     words = ("", "")
+    if known in context.damaged:
+        known = None
     match known:
         case ActionType():
             sent, received, words = known.goal, known.result, ("goal", "result")

@@ -166,7 +166,7 @@ def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Co
 def _check_part(part: Part, context: Context) -> None:
     context.check_repeated((value.name for value in part.values), "param")
     component = part.component.target
-    if component is None:
+    if component is None or component in context.damaged:
         return
     params = {str(param.name): param for param in all_items(component, Param)}
     for value in part.values:

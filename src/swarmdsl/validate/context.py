@@ -13,6 +13,7 @@ from swarmdsl.load import Project
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
+    Declaration,
     EventTrigger,
     Expression,
     Interface,
@@ -26,11 +27,16 @@ from swarmdsl.syntax import (
 
 @dataclass(frozen=True)
 class Context:
-    """Passed to every rule."""
+    """Passed to every rule.
+
+    `damaged` are the declarations with a piece that could not be parsed: of what they seem
+    to lack nothing can be said.
+    """
 
     report: Diagnostics
     interfaces: Interfaces
     typing: Typing
+    damaged: set[Declaration]
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
         """Check the type of an expression that could be parsed."""
@@ -120,5 +126,8 @@ def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
 
 def make_context(project: Project, report: Diagnostics) -> Context:
     """Gather the interfaces of all files."""
-    interfaces = Interfaces(project.declarations())
-    return Context(report, interfaces, Typing(interfaces, report))
+    damaged = {node for file in project.files for node in file.parsed.damaged}
+    interfaces = Interfaces(
+        (file, node) for file, node in project.declarations() if node not in damaged
+    )
+    return Context(report, interfaces, Typing(interfaces, report), damaged)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from swarmdsl.link_machines import regions, vertices
+from swarmdsl.link_machines import all_resolved, regions, vertices
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
-    Branch,
     Choice,
     Container,
     History,
@@ -16,7 +15,6 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
-    walk,
 )
 from swarmdsl.validate.context import Context
 
@@ -29,9 +27,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     container without initial state any may be the first, of two states with one name only one
     can be meant, and where a name was not resolved it may have meant any state.
     """
-    arrows = (Initial, Transition, Branch, History)
-    named = [node.target for node in walk(machine) if isinstance(node, arrows)]
-    if any(target is not None and target.target is None for target in named):
+    if not all_resolved(machine):
         return
     around: dict[Vertex | Region, Container] = {}
     _collect(machine, around)

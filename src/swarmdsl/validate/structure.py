@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles, leaves_first
-from swarmdsl.link_machines import content, regions, vertices
+from swarmdsl.link_machines import all_resolved, content, regions, vertices
 from swarmdsl.load import Project
 from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.suggest import suggest
@@ -36,7 +36,7 @@ _MOST_STATES = 10_000
 
 def check_structure(machine: StateMachine, context: Context) -> None:
     """Check a machine and all its states."""
-    if not machine.endless and not _finals(machine):
+    if not machine.endless and not completes(machine, context):
         context.report.report(
             "missing-final",
             machine.name.span,
@@ -265,15 +265,15 @@ def _check_choice(choice: Choice, context: Context) -> None:
         )
 
 
-def _finals(container: Container | None) -> list[FinalState]:
-    if container is None:
-        return []
-    return [state for state in vertices(container) if isinstance(state, FinalState)]
+def completes(state: Container, context: Context) -> bool:
+    """Whether a state can become done: each region, or itself, has a final state.
 
-
-def completes(state: State | Parallel | Region | Container) -> bool:
-    """Whether a state can become done: each region, or itself, has a final state."""
+    Where something is missing it may be one: a name that was not resolved can mean it, and
+    text that could not be parsed declare it.
+    """
     if isinstance(state, Parallel):
-        return all(completes(region) for region in regions(state))
+        return all(completes(region, context) for region in regions(state))
     inside = content(state)
-    return inside is None or bool(_finals(inside))
+    if inside is None or inside in context.damaged or not all_resolved(inside):
+        return True
+    return any(isinstance(vertex, FinalState) for vertex in vertices(inside))

@@ -75,7 +75,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
     simple = isinstance(of, State) and of.machine is None and not _has_states(of)
     if simple and not _activities(of) and trigger.final is None:
         return  # a state that does nothing is done at once
-    if completes(of) and not simple:
+    if not simple and completes(of, context):
         return
     help_ = "add a final state to it"
     if isinstance(of, Parallel):
