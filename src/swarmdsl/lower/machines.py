@@ -282,7 +282,8 @@ def _transition(
         guard=lower_optional(transition.guard, context),
         effects=tuple(_effect(effect, context) for effect in transition.effects),
         target=_target(transition.target, frame) if transition.target is not None else None,
-        internal=transition.internal,
+        # Without a target a transition is internal anyway.
+        internal=transition.internal and transition.target is not None,
         origin=transition.span,
     )
     if len(waiting) < len(transition.triggers):
