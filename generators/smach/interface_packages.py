@@ -36,6 +36,7 @@ def interface_packages(
     )
     for package in found:
         names.check_interface_package(package.name, package.interfaces, behavior, report)
+    names.check_other_interfaces(system, by_name, behavior, report)
     _check_cycles(found, report)
     return found
 

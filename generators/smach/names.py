@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.ir import (
+    Action,
     Constant,
     Event,
     Field,
@@ -32,6 +33,11 @@ _IMPORTED = (
     *("actionlib", "actionlib_msgs", "rospy", "smach", "smach_ros"),
 )
 _PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
+# The messages that ROS makes of an action.
+_OF_AN_ACTION = (
+    *("Action", "Goal", "Result", "Feedback"),
+    *("ActionGoal", "ActionResult", "ActionFeedback"),
+)
 _FIELD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 
@@ -92,14 +98,28 @@ def check_interface_package(
     elif name == behavior:
         use = "the package of its interfaces: the package with the behaviour has that name"
         _bad(report, name, use, at, help="give that one another name with the option `package`")
-    known: dict[str, Span | None] = {}
+    owners: dict[str, Interface] = {}
     for interface in interfaces:
         _check_interface(interface, report)
-        first = known.setdefault(interface.type.name, interface.origin)
-        if first is not interface.origin:
-            related = (Label(first, "the first is here"),) if first else ()
-            use = "two interfaces of a package"
-            _bad(report, interface.type.name, use, interface.origin, related=related)
+        made = [interface.type.name]
+        if isinstance(interface, Action):
+            made += (interface.type.name + part for part in _OF_AN_ACTION)
+        for name in made:
+            owner = owners.setdefault(name, interface)
+            if owner is not interface:
+                related = (Label(owner.origin, "the first is here"),) if owner.origin else ()
+                _bad(report, name, "two messages of a package", interface.origin, related=related)
+
+
+def check_other_interfaces(
+    system: System, defined: Iterable[str], behavior: str, report: Diagnostics
+) -> None:
+    """What packages elsewhere define cannot be in one that is generated."""
+    generated = {behavior, *defined}
+    for interface in system.interfaces:
+        if interface.external and interface.type.package in generated:
+            use = "a package of others: a package of that name is generated"
+            _bad(report, interface.type.package, use, interface.origin)
 
 
 def _check_interface(interface: Interface, report: Diagnostics) -> None:

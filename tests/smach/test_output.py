@@ -248,6 +248,12 @@ def test_a_machine_that_no_member_uses_when_some_member_uses_one(generate: Gener
     assert {"scripts/watch", "scripts/unused"} <= set(files)
 
 
+def test_behaviour_of_a_component_gets_a_node(generate: Generate) -> None:
+    text = MODEL[: MODEL.index("member")].replace("duration", "duration = 1 s")
+    files = generate(f"{text}\ncontroller Brain {{ behavior Unused }}")
+    assert [path for path in files if path.startswith("scripts/")] == ["scripts/unused"]
+
+
 def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
     """The model above, and the examples without constructs that the target does not have."""
     systems = [compiled(MODEL)]

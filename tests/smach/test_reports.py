@@ -1,8 +1,13 @@
 """What the target cannot express or name is reported where it stands."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Severity
+from swarmdsl.emit import Request
 
 Reported = Callable[..., list[tuple[str, str, str]]]
 
@@ -110,6 +115,18 @@ def test_unsupported(body: str, place: str, construct: str, reported: Reported) 
             "the name of a field or constant",
         ),
         (
+            f"{_machine(SMALL)}\naction Go {{ }}\nstruct GoGoal {{ x : int32 }}",
+            "GoGoal",
+            "GoGoal",
+            "two messages of a package",
+        ),
+        (
+            f"{_machine(SMALL)}\nstruct S {{ x : int32 }}\nmessage p/T {{ x : int32 }}",
+            "p/T",
+            "p",
+            "a package of others: a package of that name is generated",
+        ),
+        (
             f"{_machine(SMALL)}\nstruct S {{ x : int32 }}".replace("package p", "package smach"),
             "S",
             "smach",
@@ -195,3 +212,64 @@ def test_wide_strings_are_none_of_ros_1(reported: Reported) -> None:
 
 def test_nothing_without_a_machine(generate: Callable[..., dict[str, object]]) -> None:
     assert generate("package p\nstruct S { x : int32 }") == {}
+
+
+DEEP = "initial Deep state Deep { on E -> End }"
+BEFORE = "initial A state A { on E -> Box } final End"
+
+
+@pytest.mark.parametrize(
+    ("body", "place", "construct"),
+    [
+        (
+            f"{BEFORE} state Box {{ initial In state In {{ on E -> End }} }}".replace(
+                "-> Box", "-> Box.In"
+            ),
+            "on E -> Box.In",
+            "a transition into the inside of a state",
+        ),
+        (
+            f"{BEFORE} state Box {{ initial In.Deep state In {{ {DEEP} }} }}",
+            "Box",
+            "a transition into the inside of a state",
+        ),
+        (
+            f"{BEFORE} state Box {{ initial In state In {{ on E -> End }} internal on E -> In }}",
+            "internal on E -> In",
+            "an internal transition",
+        ),
+        (
+            f"{BEFORE} state Box {{ initial In history Back -> In state In {{ on E -> End }} }}",
+            "Back",
+            "a history",
+        ),
+    ],
+)
+def test_features(body: str, place: str, construct: str, tmp_path: Path) -> None:
+    found = _built(tmp_path, {"model": _machine(body)})
+    message = f"target `smach` cannot express {construct}"
+    assert ("unsupported-construct", message, place) in found
+
+
+def test_packages_whose_interfaces_need_each_other(tmp_path: Path) -> None:
+    first = (
+        'package a\nimport "b.swarm"\nmessage A { b : B }\nstruct C { x : int32 }\n'
+        f"event E : A\nstatemachine M {{ {SMALL} }}\n"
+    )
+    found = _built(tmp_path, {"a": first, "b": "package b\nstruct B { more : a/C }\n"})
+    construct = "packages whose interfaces need each other (a -> b -> a)"
+    message = f"target `smach` cannot express {construct}"
+    assert found == [("unsupported-construct", message, "A")]
+
+
+def _built(folder: Path, texts: dict[str, str]) -> list[tuple[str, str, str]]:
+    """The errors of a build of these files, the first being the one that is named."""
+    for name, text in texts.items():
+        (folder / f"{name}.swarm").write_text(text, encoding="utf-8")
+    path = folder / f"{next(iter(texts))}.swarm"
+    report = compiler.build([path], [Request("smach", {})], folder / "out").report
+    return [
+        (found.name, found.message, found.primary.span.text if found.primary else "")
+        for found in report
+        if found.severity is Severity.ERROR
+    ]
