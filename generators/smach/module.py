@@ -65,7 +65,7 @@ class Module:
     functions: list[Function] = field(default_factory=list)
     callbacks: list[tuple[str, str, Span | None]] = field(default_factory=list)
     sent: dict[str, None] = field(default_factory=dict)
-    message_keys: dict[str, str] = field(default_factory=dict)
+    message_keys: dict[tuple[str, str], str] = field(default_factory=dict)
     _names: set[str] = field(default_factory=set)
 
     @property
@@ -102,12 +102,12 @@ class Module:
         self.imports.name(self.imports.types.package, "events")
         return f"events.{self.events[name]}"
 
-    def message_key(self, event: str) -> str:
-        """The userdata key that holds the last message of an event that was taken."""
-        if event not in self.message_keys:
+    def message_key(self, event: str, region: str) -> str:
+        """The userdata key that holds the last message of an event that a region took."""
+        if (event, region) not in self.message_keys:
             taken = {*self.keys, *self.message_keys.values()}
-            self.message_keys[event] = fresh(f"{snake_case(event)}_event", taken)
-        return self.message_keys[event]
+            self.message_keys[event, region] = fresh(f"{snake_case(event)}_event", taken)
+        return self.message_keys[event, region]
 
     def unsupported(self, construct: str, at: Span | None, hint: str | None = None) -> None:
         """Report what this target cannot express."""

@@ -44,6 +44,13 @@ class Targets:
         for state in module.machine.walk():
             self.parent.update((child.id, state.id) for child in state.states)
 
+    def region(self, state: State) -> str:
+        """The region that a state is in, the innermost; `""` where it is in none."""
+        around = self.parent[state.id]
+        while around and self.states[around].kind is not StateKind.REGION:
+            around = self.parent[around]
+        return around
+
     def is_inside(self, scope: Scope, branch: Branch) -> bool:
         """Whether the target is in this very scope; effects of what leaves it come later."""
         target = branch.transition.target

@@ -152,7 +152,7 @@ class _Structure:
                 name = self.module.add_function(
                     (state.id, word), "userdata", lines, place(effects[0].origin)
                 )
-                keywords.append((word, Source(name)))
+                keywords.append((f"on_{word}", Source(name)))
         doc = f"Build state {state.id}, with what begins and ends it."
         return concurrence(self.module, slot, function, doc, members, places, keywords=keywords)
 

@@ -71,7 +71,7 @@ def _monitor(
     chosen = reachable(transitions)
     leaving = [transition for transition in chosen if transition.target is not None]
     needs_message = any(effects_use_event(transition.effects) for transition in leaving)
-    key = module.message_key(event) if needs_message else None
+    key = module.message_key(event, targets.region(state)) if needs_message else None
     routes = _routes(event, chosen, key)
     around = {
         outcome: targets.parent[transition.target]

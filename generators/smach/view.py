@@ -167,7 +167,7 @@ def _values(module: Module) -> tuple[Value, ...]:
         )
         statement = f"{STEP}{USERDATA}.{variable.name} = {text}"
         found.append(Value(statement, _comments(variable.origin, variable.doc)))
-    for event, key in module.message_keys.items():
+    for (event, _), key in module.message_keys.items():
         type_ = module.system.event(event).type
         statement = f"{STEP}{USERDATA}.{key} = {default_value(type_, module.imports)}"
         found.append(Value(statement, ()))

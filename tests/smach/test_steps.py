@@ -467,3 +467,33 @@ def test_only_one_of_two_ways_out_has_its_effects(robot: Run) -> None:
     work.world.publish("go")
     assert work.ended() == "End"
     assert _said(work) == ["inner"]
+
+
+def test_regions_keep_their_messages_apart(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        endless statemachine Work {
+          initial Both
+          parallel state Both {
+            region Left {
+              initial A
+              state A { on Go [event.level == 1] / send Said(id = event.id) -> A2 }
+              state A2 { on Stop / send Said(id = event.id) -> A }
+            }
+            region Right {
+              initial B
+              state B { on Go [event.level == 2] / send Said(id = event.id) -> B }
+            }
+          }
+        }"""
+    )
+    work.start()
+    for _ in range(20):
+        work.wait_in("Both/Left/A", "Both/Right/B")
+        work.world.publish("go", level=1, id="left")
+        work.world.publish("go", level=2, id="right")
+        work.wait_in("Both/Left/A2", "Both/Right/B")
+        work.world.publish("stop", id="stop")
+    work.wait_in("Both/Left/A", "Both/Right/B")
+    assert sorted(_said(work)) == ["left"] * 20 + ["right"] * 20 + ["stop"] * 20
