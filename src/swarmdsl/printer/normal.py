@@ -3,8 +3,8 @@
 What lowering made of one file is in this form already, but for the last two points, which
 are rare there too:
 
-- The interfaces of the model belong to the package of the system. Where several packages
-  declare one name, the package stands before it, as lowering does for other declarations.
+- The interfaces of the model belong to the package of the system. Where another package
+  declares that name as well, the package stands before it, as in names of other declarations.
 - A member or component has each param that its behaviour needs a value for. Lowering drops
   the default of a machine where its members do not agree on one.
 - Where the states of a reused machine are not those that lowering puts in place, the
@@ -34,27 +34,27 @@ def _one_package(system: System) -> System:
     offered = {name for component in system.components for name in component.operations}
     services = {system.function(name).communication.type for name in offered}
     own = [each.type for each in system.interfaces if not each.external]
-    taken = Counter(
-        [
-            *(type_.name for type_ in own),
-            *(each.name for each in system.events),
-            *(each.name for each in system.functions if each.name not in offered),
-            *(each.name for each in system.components),
-            *(each.name for each in system.members),
-            *(each.name for each in system.machines),
-            *(each.name for each in system.environments),
-            *(each.name for each in system.swarms),
-            *(each.name for each in system.fitness),
-        ]
-    )
+    others = {
+        *(each.name for each in system.events),
+        *(each.name for each in system.functions if each.name not in offered),
+        *(each.name for each in system.components),
+        *(each.name for each in system.members),
+        *(each.name for each in system.machines),
+        *(each.name for each in system.environments),
+        *(each.name for each in system.swarms),
+        *(each.name for each in system.fitness),
+    }
+    count = Counter(type_.name for type_ in own)
+    taken = {*others, *count}
     types: dict[Named, Named] = {}
     for type_ in own:
         name = type_.name
-        if taken[name] > 1 and type_ not in services:
+        shared = name in others or (count[name] > 1 and type_.package != package)
+        if shared and type_ not in services:
             name = f"{type_.package}_{name}"
             while name in taken:
                 name += "_"
-            taken[name] = 1
+            taken.add(name)
         types[type_] = Named(package, name)
     if all(old == new for old, new in types.items()):
         return system
