@@ -21,8 +21,10 @@ class Staging:
         self._staged: dict[Path, Path] = {}
         self._folders: list[Path] = []
 
-    def add(self, path: Path, content: bytes, executable: bool = False) -> None:
-        """Write the content of a file beside its place."""
+    def add(
+        self, path: Path, content: bytes, executable: bool = False, mode: int | None = None
+    ) -> None:
+        """Write the content of a file beside its place; `mode` replaces the usual permissions."""
         with _blamed_on(path):
             self._make_folder(path.parent)
             with suppress(FileNotFoundError):
@@ -34,6 +36,8 @@ class Staging:
             flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
             with os.fdopen(os.open(beside, flags, 0o777 if executable else 0o666), "wb") as file:
                 file.write(content)
+            if mode is not None:
+                beside.chmod(mode)
 
     def move_in_place(self) -> Iterator[Path]:
         """Replace the files one by one, in the order they were added; yield each one done."""
