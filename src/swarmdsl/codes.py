@@ -56,6 +56,7 @@ CODES: dict[str, Code] = {
     "ambiguous-name": Code("SW0203", "error", "`{name}` could mean several things here"),
     "wrong-kind": Code("SW0204", "error", "`{name}` is {actual}, not {expected}"),
     "reserved-event-name": Code("SW0205", "error", "an event cannot be called `{name}`"),
+    "naming-style": Code("SW0206", "warning", "{kind} `{name}` is not in {style}"),
     # ---- swarm composition
     "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
     "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),

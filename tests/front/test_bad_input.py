@@ -113,7 +113,7 @@ def test_any_character_may_stand_in_comments_and_texts(check: Check) -> None:
         ("/* " + "*" * LONG + f"*/\n{START}", []),
         ("/* " + "x" * LONG + f"\n{START}", [("unterminated-comment", 1, 1)]),
         ("/// " + "x" * LONG + f"\n{START}", []),
-        ("event " + "x" * LONG + " : std_msgs/Empty\n", []),
+        ("event " + "X" * LONG + " : std_msgs/Empty\n", []),
         (START[:-1] + "x " * (LONG // 2), [("syntax-error", 1, 31)]),
         (START[:-1] + f' on "{"x" * LONG}"\n', []),
         (START[:-1] + f' on "{"x" * LONG}\n', [("unterminated-text", 1, 33)]),
@@ -170,7 +170,7 @@ def test_nesting_without_end(check: Check, text: str) -> None:
 
 
 def test_a_name_of_ten_thousand_characters(check: Check) -> None:
-    name = "x" * 10_000
+    name = "X" * 10_000
 
     assert check(f"event {name} : std_msgs/Empty\n") == []
     assert check(f"event Start : {name}\n") == [("unresolved-name", 1, 15)]

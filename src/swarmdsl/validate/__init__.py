@@ -45,6 +45,7 @@ from swarmdsl.validate.optimization import (
 )
 from swarmdsl.validate.reachability import check_reachability
 from swarmdsl.validate.structure import check_structure, check_submachines
+from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
 
 
@@ -61,6 +62,7 @@ def validate(project: Project, report: Diagnostics) -> None:
             continue
         check_values(declaration, context)
         check_known(declaration, context)
+        check_style(declaration, context)
         match declaration:
             case Event():
                 check_event(declaration, context)

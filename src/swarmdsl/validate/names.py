@@ -62,7 +62,7 @@ Named = (
 N = TypeVar("N", bound=Named)
 
 # SCXML's own events start like this (SCXML 1.0, 5.10.1); `done` is a keyword anyway.
-_RESERVED_EVENTS = ("error",)
+RESERVED_EVENTS = ("error",)
 
 
 def check_names(project: Project, report: Diagnostics) -> None:
@@ -72,7 +72,7 @@ def check_names(project: Project, report: Diagnostics) -> None:
         name = str(declaration.name)
         key = name if "/" in name else (file.package, name)
         _check_first(key, declaration, top_level, report)
-        if isinstance(declaration, Event) and name in _RESERVED_EVENTS:
+        if isinstance(declaration, Event) and name in RESERVED_EVENTS:
             report.report(
                 "reserved-event-name",
                 declaration.name.span,
