@@ -194,7 +194,7 @@ def test_json_without_a_place():
     assert (found["file"], found["line"], found["end_column"]) == (None, None, None)
 
 
-@pytest.mark.parametrize("format_", FORMATS)
+@pytest.mark.parametrize("format_", sorted({*FORMATS} - {"sarif"}))  # which is a document
 def test_nothing_found_is_nothing_printed(format_):
     assert rendered(Diagnostics(), format_) == ""
 

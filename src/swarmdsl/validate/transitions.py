@@ -195,7 +195,7 @@ def _check_endless_steps(machine: StateMachine, context: Context) -> None:
         match state:
             case Choice(branches=branches):
                 refs = [branch.target for branch in branches if branch.otherwise]
-            case State(items=items) if not _activities(state) and not _has_states(state):
+            case State(items=items, machine=None) if not (_activities(state) or _has_states(state)):
                 refs = [
                     item.target
                     for item in items
