@@ -1,0 +1,30 @@
+"""The pages about the language show files in the layout they describe."""
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.format import formatted
+from swarmdsl.source import Source
+
+from ..docs.pages import blocks
+
+SHOWN = [block for block in blocks("swarm") if str(block.page) == "docs/formatting.md"]
+
+
+@pytest.mark.parametrize("block", SHOWN, ids=str)
+def test_blocks_are_formatted(block):
+    assert formatted(Source("block", block.text), Diagnostics()) == block.text
+
+
+def test_broken_lines():
+    """What is shown of long lines is what becomes of them."""
+    (lines,) = (
+        block.text
+        for block in blocks("text")
+        if str(block.page) == "docs/formatting.md" and block.text.startswith("do ")
+    )
+    inside = "".join(f"    {line}\n" for line in lines.splitlines())
+    text = f"statemachine M {{\n  state S {{\n{inside}  }}\n}}\n"
+    flat = text.replace("\n      gives", " gives").replace("(\n        auct", "(auct")
+    assert flat != text
+    assert formatted(Source("block", flat), Diagnostics()) == text
