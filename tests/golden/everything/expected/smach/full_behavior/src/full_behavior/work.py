@@ -5,16 +5,16 @@ import rospy
 import smach
 import smach_ros
 from actionlib_msgs.msg import GoalStatus
+from full.msg import Found, GotoAction, GotoGoal, Pose2D
+from full.srv import Beep, BeepRequest
 
 from full_behavior import events
 from full_behavior.containers import Concurrence, StateMachine
-from full_behavior.msg import Found, GotoAction, GotoGoal, Pose2D
-from full_behavior.srv import Beep, BeepRequest
-from full_behavior.states import Decision, Monitor, Timer
+from full_behavior.states import Decision, Monitor, Timer, step
 
 
-def work():
-    """State machine Work."""
+def build():
+    """Build state machine Work."""
     events.SEEN.advertise()
     userdata = initial_userdata()
     machine = StateMachine(['Stop', 'preempted'], userdata)
@@ -99,7 +99,7 @@ def _main_a(userdata):
 
 
 def _main_a_go(userdata):
-    """Build state Main.A.Go, with what may end it."""
+    """Build state Main.A.Go, with what begins and ends it."""
     concurrence = Concurrence(
         ['succeeded', 'aborted', 'Seen', 'timeout', 'preempted'],
         {
@@ -117,8 +117,8 @@ def _main_a_go(userdata):
             smach_ros.SimpleActionState(
                 'cmd/goto',
                 GotoAction,
-                goal_cb=_main_a_go_goal,
-                result_cb=_main_a_go_result,
+                goal_cb=step(_main_a_go_goal),
+                result_cb=step(_main_a_go_result),
                 input_keys=['where', 'speed'],
                 output_keys=['ok'],
             ),
@@ -129,7 +129,7 @@ def _main_a_go(userdata):
             Monitor(
                 events.SEEN,
                 'Main.A.Go',
-                ['Seen'],
+                {'Seen': 'Main.A'},
                 choose=_main_a_go_choose_seen,
                 message_key='seen_event',
             ),
@@ -154,13 +154,27 @@ def _main_b(userdata):
         # model.swarm:60
         StateMachine.add(
             'Ok',
-            Monitor(events.LOW, 'Main.B.Ok', ['Low'], choose=_main_b_ok_choose_low),
+            Monitor(events.LOW, 'Main.B.Ok', {'Low': 'Main.B'}, choose=_main_b_ok_choose_low),
             transitions={'Low': 'Lo', 'preempted': 'preempted'},
         )
     return machine
 
 
 def _landing(userdata):
+    """Build state Landing, with what begins and ends it."""
+    concurrence = Concurrence(
+        ['Ok', 'Bad', 'preempted'],
+        {'Ok': {'Landing': 'Ok'}, 'Bad': {'Landing': 'Bad'}},
+        userdata,
+        on_entry=_landing_entry,
+    )
+    with concurrence:
+        # model.swarm:66
+        Concurrence.add('Landing', _landing_states(userdata))
+    return concurrence
+
+
+def _landing_states(userdata):
     """Build state Landing."""
     machine = StateMachine(['Ok', 'Bad', 'preempted'], userdata)
     with machine:
@@ -263,3 +277,8 @@ def _landing_down_on_aborted(userdata):
         userdata.landing_tries = userdata.landing_tries + 1
         return 'Down'
     return 'Bad'
+
+
+def _landing_entry(userdata):
+    # model.swarm:27
+    userdata.landing_tries = 0

@@ -10,8 +10,8 @@ from blinker_behavior.containers import Concurrence, StateMachine
 from blinker_behavior.states import Monitor
 
 
-def blinking():
-    """State machine Blinking."""
+def build():
+    """Build state machine Blinking."""
     userdata = smach.UserData()
     machine = StateMachine(['Off', 'preempted'], userdata)
     with machine:
@@ -30,7 +30,7 @@ def blinking():
 
 
 def _blink(userdata):
-    """Build state Blink, with what may end it."""
+    """Build state Blink, with what begins and ends it."""
     concurrence = Concurrence(
         ['succeeded', 'aborted', 'Stop', 'preempted'],
         {
@@ -44,5 +44,5 @@ def _blink(userdata):
         # blinker.swarm:14
         Concurrence.add('Blink', smach_ros.SimpleActionState('cmd/blink', BlinkAction))
         # blinker.swarm:18
-        Concurrence.add('Stop', Monitor(events.STOP, 'Blink', ['Stop']))
+        Concurrence.add('Stop', Monitor(events.STOP, 'Blink', {'Stop': ''}))
     return concurrence

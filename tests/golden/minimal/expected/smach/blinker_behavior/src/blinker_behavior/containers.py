@@ -16,6 +16,8 @@ import traceback
 
 import smach
 
+from blinker_behavior.states import Condition, step
+
 
 class StateMachine(smach.StateMachine):
     """A StateMachine that answers 'preempted' whenever it was preempted."""
@@ -43,11 +45,24 @@ class Concurrence(smach.Concurrence):
     the first child to end with one of these counts, and the others are preempted. A child that
     ends otherwise is complete and the others go on; when all are complete the outcome is
     `default_outcome`, unless that is 'preempted': then the container stays.
+
+    `on_entry(userdata)` runs before the children, `on_exit(userdata)` when all of them have ended,
+    however that was. Where a Condition holds at the start, the children do not run at all.
     """
 
-    def __init__(self, outcomes, outcome_map, userdata, default_outcome='preempted'):
+    def __init__(
+        self,
+        outcomes,
+        outcome_map,
+        userdata,
+        default_outcome='preempted',
+        on_entry=None,
+        on_exit=None,
+    ):
         super().__init__(outcomes, default_outcome=default_outcome, outcome_map=outcome_map)
         self.userdata = userdata
+        self._on_entry = step(on_entry) if on_entry else None
+        self._on_exit = step(on_exit) if on_exit else None
         self._deciding = {
             decided_by: outcome
             for outcome, criteria in outcome_map.items()
@@ -63,9 +78,12 @@ class Concurrence(smach.Concurrence):
         self._child_outcomes = dict.fromkeys(self._states)
         self._decision = self._failure = None
         self.call_start_cbs()
+        if self._on_entry:
+            self._on_entry(self.userdata)
+        self._decision = self._decided_at_once()
         threads = [
             threading.Thread(name='concurrent_split:' + label, target=self._run, args=(label,))
-            for label in self._states
+            for label in ([] if self._decision else self._states)
         ]
         for thread in threads:
             thread.daemon = True
@@ -82,6 +100,8 @@ class Concurrence(smach.Concurrence):
                 thread.join(0.05)
         if self._failure is not None:
             raise smach.InvalidUserCodeError(self._failure)
+        if self._on_exit:
+            self._on_exit(self.userdata)
         outcome = self._decision
         if self.preempt_requested():
             self.service_preempt()
@@ -111,6 +131,12 @@ class Concurrence(smach.Concurrence):
             self._decision = self._decision or self._decide(label, outcome)
             self._done_cond.notify_all()
         self.call_transition_cbs()
+
+    def _decided_at_once(self):
+        for label, child in self._states.items():
+            if isinstance(child, Condition):
+                return self._decide(label, child.holds(self.userdata))
+        return None
 
     def _decide(self, label, outcome):
         decided = self._deciding.get((label, outcome))

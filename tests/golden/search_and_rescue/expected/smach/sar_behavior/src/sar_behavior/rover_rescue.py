@@ -15,21 +15,21 @@ from geometry_msgs.msg import PoseStamped
 
 from sar_behavior import events
 from sar_behavior.containers import Concurrence, StateMachine
-from sar_behavior.states import Decision, Monitor
+from sar_behavior.states import Decision, Monitor, step
 
 
-def rover_rescue():
-    """A rover offers itself for found targets and drives to the one it was given."""
+def build():
+    """Build state machine RoverRescue."""
     userdata = initial_userdata()
     machine = StateMachine(['Parked', 'preempted'], userdata)
     with machine:
-        # behaviours.swarm:77
+        # behaviours.swarm:78
         StateMachine.add(
             'Idle',
-            Monitor(events.MISSION_START, 'Idle', ['MissionStart']),
+            Monitor(events.MISSION_START, 'Idle', {'MissionStart': ''}),
             transitions={'MissionStart': 'Mission', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:81
+        # behaviours.swarm:82
         StateMachine.add(
             'Mission',
             _mission(userdata),
@@ -41,9 +41,9 @@ def rover_rescue():
 def initial_userdata():
     """Params as ROS has them, and the first values of variables."""
     userdata = smach.UserData()
-    # behaviours.swarm:72
-    userdata.task_id = ''
     # behaviours.swarm:73
+    userdata.task_id = ''
+    # behaviours.swarm:74
     userdata.task_pose = PoseStamped()
     userdata.target_found_event = TargetPositionEvent()
     return userdata
@@ -57,9 +57,9 @@ def _mission(userdata):
         userdata,
     )
     with concurrence:
-        # behaviours.swarm:82
+        # behaviours.swarm:83
         Concurrence.add('Rescue', _mission_rescue(userdata))
-        # behaviours.swarm:99
+        # behaviours.swarm:101
         Concurrence.add('Watch', _mission_watch(userdata))
     return concurrence
 
@@ -68,18 +68,18 @@ def _mission_rescue(userdata):
     """Build region Mission.Rescue."""
     machine = StateMachine(['Stuck', 'preempted'], userdata)
     with machine:
-        # behaviours.swarm:84
+        # behaviours.swarm:85
         StateMachine.add(
             'Ready',
             Monitor(
                 events.TARGET_FOUND,
                 'Mission.Rescue.Ready',
-                ['TargetFound'],
+                {'TargetFound': 'Mission.Rescue'},
                 message_key='target_found_event',
             ),
             transitions={'TargetFound': 'Ready_TargetFound', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:85
+        # behaviours.swarm:86
         StateMachine.add(
             'Ready_TargetFound',
             Decision(
@@ -90,26 +90,26 @@ def _mission_rescue(userdata):
             ),
             transitions={'Bid': 'Bid', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:87
+        # behaviours.swarm:88
         StateMachine.add(
             'Bid',
             smach_ros.SimpleActionState(
                 'cmd/task_allocation_bid',
                 TaskAllocationAction,
-                goal_cb=_mission_rescue_bid_goal,
-                result_cb=_mission_rescue_bid_result,
+                goal_cb=step(_mission_rescue_bid_goal),
+                result_cb=step(_mission_rescue_bid_result),
                 input_keys=['task_id', 'task_pose'],
                 output_keys=['task_id', 'task_pose'],
             ),
             transitions={'succeeded': 'Drive', 'aborted': 'Ready', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:92
+        # behaviours.swarm:94
         StateMachine.add(
             'Drive',
             smach_ros.SimpleActionState(
                 'cmd/moveto',
                 MoveToAction,
-                goal_cb=_mission_rescue_drive_goal,
+                goal_cb=step(_mission_rescue_drive_goal),
                 input_keys=['task_pose'],
             ),
             transitions={'succeeded': 'Ready', 'aborted': 'Stuck', 'preempted': 'preempted'},
@@ -121,17 +121,19 @@ def _mission_watch(userdata):
     """Build region Mission.Watch."""
     machine = StateMachine(['Aborted', 'preempted'], userdata)
     with machine:
-        # behaviours.swarm:101
+        # behaviours.swarm:103
         StateMachine.add(
             'Watching',
-            Monitor(events.MISSION_ABORT, 'Mission.Watch.Watching', ['MissionAbort']),
+            Monitor(
+                events.MISSION_ABORT, 'Mission.Watch.Watching', {'MissionAbort': 'Mission.Watch'}
+            ),
             transitions={'MissionAbort': 'Aborted', 'preempted': 'preempted'},
         )
     return machine
 
 
 def _mission_rescue_ready_on_target_found(userdata):
-    # behaviours.swarm:85
+    # behaviours.swarm:86
     event = userdata.target_found_event
     userdata.task_id = event.id
     userdata.task_pose = event.pose
@@ -139,17 +141,17 @@ def _mission_rescue_ready_on_target_found(userdata):
 
 
 def _mission_rescue_bid_goal(userdata, goal):
-    # behaviours.swarm:88
+    # behaviours.swarm:89
     return TaskAllocationGoal(auctioneer='', task_id=userdata.task_id, task_pose=userdata.task_pose)
 
 
 def _mission_rescue_bid_result(userdata, status, result):
-    # behaviours.swarm:88
+    # behaviours.swarm:89
     if status == GoalStatus.SUCCEEDED:
         userdata.task_id = result.task_id
         userdata.task_pose = result.task_pose
 
 
 def _mission_rescue_drive_goal(userdata, goal):
-    # behaviours.swarm:93
+    # behaviours.swarm:95
     return MoveToGoal(goal=userdata.task_pose)

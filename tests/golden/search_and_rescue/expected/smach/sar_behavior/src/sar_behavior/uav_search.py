@@ -19,22 +19,22 @@ from uav_mavros_takeoff.msg import TakeOffAction, TakeOffGoal
 
 from sar_behavior import events
 from sar_behavior.containers import Concurrence, StateMachine
-from sar_behavior.states import Monitor
+from sar_behavior.states import Monitor, step
 
 
-def uav_search():
-    """A UAV searches the area, and stays above what it found until a rover is there."""
+def build():
+    """Build state machine UavSearch."""
     userdata = initial_userdata()
     machine = StateMachine(['preempted'], userdata)
     with machine:
-        # behaviours.swarm:21
+        # behaviours.swarm:20
         # The mission proper; an abort ends it wherever it stands.
         StateMachine.add(
             'Mission',
             _mission(userdata),
             transitions={'to_Abort': 'Abort', 'MissionAbort': 'Abort', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:56
+        # behaviours.swarm:57
         StateMachine.add(
             'Abort', _abort(userdata), transitions={'Landed': 'Mission', 'preempted': 'preempted'}
         )
@@ -50,23 +50,23 @@ def initial_userdata():
     userdata.target_id = ''
     # behaviours.swarm:15
     userdata.target_pose = PoseStamped()
-    # behaviours.swarm:16
-    userdata.rover = ''
     return userdata
 
 
 def _mission(userdata):
-    """Build state Mission, with what may end it."""
+    """Build state Mission, with what begins and ends it."""
     concurrence = Concurrence(
         ['to_Abort', 'MissionAbort', 'preempted'],
         {'to_Abort': {'Mission': 'to_Abort'}, 'MissionAbort': {'MissionAbort': 'MissionAbort'}},
         userdata,
     )
     with concurrence:
-        # behaviours.swarm:21
+        # behaviours.swarm:20
         Concurrence.add('Mission', _mission_states(userdata))
-        # behaviours.swarm:53
-        Concurrence.add('MissionAbort', Monitor(events.MISSION_ABORT, 'Mission', ['MissionAbort']))
+        # behaviours.swarm:54
+        Concurrence.add(
+            'MissionAbort', Monitor(events.MISSION_ABORT, 'Mission', {'MissionAbort': ''})
+        )
     return concurrence
 
 
@@ -74,31 +74,31 @@ def _mission_states(userdata):
     """Build state Mission."""
     machine = StateMachine(['to_Abort', 'preempted'], userdata)
     with machine:
-        # behaviours.swarm:24
+        # behaviours.swarm:23
         StateMachine.add(
             'Idle',
-            Monitor(events.MISSION_START, 'Mission.Idle', ['MissionStart']),
+            Monitor(events.MISSION_START, 'Mission.Idle', {'MissionStart': 'Mission'}),
             transitions={'MissionStart': 'TakeOff', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:27
+        # behaviours.swarm:26
         StateMachine.add(
             'TakeOff',
             smach_ros.SimpleActionState(
                 'cmd/takeoff',
                 TakeOffAction,
-                goal_cb=_mission_take_off_goal,
+                goal_cb=step(_mission_take_off_goal),
                 input_keys=['altitude'],
             ),
             transitions={'succeeded': 'Coverage', 'aborted': 'to_Abort', 'preempted': 'preempted'},
         )
-        # behaviours.swarm:32
+        # behaviours.swarm:31
         StateMachine.add(
             'Coverage',
             smach_ros.SimpleActionState(
                 'uav_coverage',
                 CoverageAction,
-                goal_cb=_mission_coverage_goal,
-                result_cb=_mission_coverage_result,
+                goal_cb=step(_mission_coverage_goal),
+                result_cb=step(_mission_coverage_result),
                 input_keys=['altitude'],
                 output_keys=['target_id', 'target_pose'],
             ),
@@ -114,10 +114,8 @@ def _mission_states(userdata):
             smach_ros.SimpleActionState(
                 'cmd/task_allocation_auction',
                 TaskAllocationAction,
-                goal_cb=_mission_select_rover_goal,
-                result_cb=_mission_select_rover_result,
+                goal_cb=step(_mission_select_rover_goal),
                 input_keys=['target_id', 'target_pose'],
-                output_keys=['rover'],
             ),
             transitions={
                 'succeeded': 'Tracking',
@@ -131,7 +129,7 @@ def _mission_states(userdata):
             smach_ros.SimpleActionState(
                 'uav_tracking',
                 TrackingAction,
-                goal_cb=_mission_tracking_goal,
+                goal_cb=step(_mission_tracking_goal),
                 input_keys=['target_id', 'altitude'],
             ),
             transitions={
@@ -146,8 +144,8 @@ def _mission_states(userdata):
             smach_ros.SimpleActionState(
                 'uav_local_coverage',
                 CoverageAction,
-                goal_cb=_mission_local_coverage_goal,
-                result_cb=_mission_local_coverage_result,
+                goal_cb=step(_mission_local_coverage_goal),
+                result_cb=step(_mission_local_coverage_result),
                 input_keys=['altitude'],
                 output_keys=['target_id', 'target_pose'],
             ),
@@ -160,7 +158,7 @@ def _abort(userdata):
     """Build state Abort."""
     machine = StateMachine(['Landed', 'preempted'], userdata)
     with machine:
-        # behaviours.swarm:59
+        # behaviours.swarm:60
         StateMachine.add(
             'Land',
             smach_ros.ServiceState('cmd/land', Empty),
@@ -170,17 +168,17 @@ def _abort(userdata):
 
 
 def _mission_take_off_goal(userdata, goal):
-    # behaviours.swarm:28
+    # behaviours.swarm:27
     return TakeOffGoal(altitude=userdata.altitude)
 
 
 def _mission_coverage_goal(userdata, goal):
-    # behaviours.swarm:33
+    # behaviours.swarm:32
     return CoverageGoal(altitude=userdata.altitude)
 
 
 def _mission_coverage_result(userdata, status, result):
-    # behaviours.swarm:33
+    # behaviours.swarm:32
     if status == GoalStatus.SUCCEEDED:
         userdata.target_id = result.target_id
         userdata.target_pose = result.target_pose
@@ -191,12 +189,6 @@ def _mission_select_rover_goal(userdata, goal):
     return TaskAllocationGoal(
         auctioneer='', task_id=userdata.target_id, task_pose=userdata.target_pose
     )
-
-
-def _mission_select_rover_result(userdata, status, result):
-    # behaviours.swarm:38
-    if status == GoalStatus.SUCCEEDED:
-        userdata.rover = result.winner
 
 
 def _mission_tracking_goal(userdata, goal):

@@ -10,8 +10,8 @@ from submachine_behavior.containers import StateMachine
 from submachine_behavior.states import Decision
 
 
-def insist():
-    """Beep until it works, three times at most."""
+def build():
+    """Build state machine Insist."""
     userdata = initial_userdata()
     machine = StateMachine(['Ok', 'Failed', 'preempted'], userdata)
     with machine:

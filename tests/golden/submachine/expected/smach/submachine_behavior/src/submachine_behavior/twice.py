@@ -5,12 +5,12 @@ import smach
 import smach_ros
 from std_srvs.srv import Empty
 
-from submachine_behavior.containers import StateMachine
+from submachine_behavior.containers import Concurrence, StateMachine
 from submachine_behavior.states import Decision
 
 
-def twice():
-    """State machine Twice."""
+def build():
+    """Build state machine Twice."""
     userdata = initial_userdata()
     machine = StateMachine(['Silent', 'Done', 'preempted'], userdata)
     with machine:
@@ -54,6 +54,20 @@ def initial_userdata():
 
 
 def _first(userdata):
+    """Build state First, with what begins and ends it."""
+    concurrence = Concurrence(
+        ['Ok', 'Failed', 'preempted'],
+        {'Ok': {'First': 'Ok'}, 'Failed': {'First': 'Failed'}},
+        userdata,
+        on_entry=_first_entry,
+    )
+    with concurrence:
+        # model.swarm:30
+        Concurrence.add('First', _first_states(userdata))
+    return concurrence
+
+
+def _first_states(userdata):
     """Build state First."""
     machine = StateMachine(['Ok', 'Failed', 'preempted'], userdata)
     with machine:
@@ -79,6 +93,20 @@ def _first(userdata):
 
 
 def _second(userdata):
+    """Build state Second, with what begins and ends it."""
+    concurrence = Concurrence(
+        ['Ok', 'Failed', 'preempted'],
+        {'Ok': {'Second': 'Ok'}, 'Failed': {'Second': 'Failed'}},
+        userdata,
+        on_entry=_second_entry,
+    )
+    with concurrence:
+        # model.swarm:34
+        Concurrence.add('Second', _second_states(userdata))
+    return concurrence
+
+
+def _second_states(userdata):
     """Build state Second."""
     machine = StateMachine(['Ok', 'Failed', 'preempted'], userdata)
     with machine:
@@ -111,12 +139,22 @@ def _first_try_on_aborted(userdata):
     return 'Failed'
 
 
+def _first_entry(userdata):
+    # model.swarm:11
+    userdata.first_tries = 0
+
+
 def _second_try_on_aborted(userdata):
     # model.swarm:18
     if userdata.second_tries < 3:
         userdata.second_tries = userdata.second_tries + 1
         return 'Try'
     return 'Failed'
+
+
+def _second_entry(userdata):
+    # model.swarm:11
+    userdata.second_tries = 0
 
 
 def _second_on_ok(userdata):
