@@ -6,6 +6,7 @@ import random
 import re
 from collections.abc import Callable
 from pathlib import Path
+from shutil import copytree, ignore_patterns
 from time import perf_counter
 
 import pytest
@@ -81,12 +82,10 @@ MUTATIONS: list[Mutation] = [
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Copies of the models, each in a folder with the files that it imports."""
+    """Copies of the models, each with the files that it imports."""
     root = tmp_path_factory.mktemp("models")
-    for path in MODELS:
-        copy = root / path.relative_to(ROOT)
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
+    for part in ("examples", "tests/golden"):
+        copytree(ROOT / part, root / part, ignore=ignore_patterns("expected"))
     return root
 
 
