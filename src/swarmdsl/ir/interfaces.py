@@ -139,8 +139,3 @@ class Function:
     params: tuple[Param, ...]
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
-
-    @property
-    def outcomes(self) -> tuple[str, ...]:
-        """How a call can end."""
-        return ("succeeded", "aborted", "preempted")

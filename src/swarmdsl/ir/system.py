@@ -40,10 +40,6 @@ class System:
         """The function of that name."""
         return next(function for function in self.functions if function.name == name)
 
-    def machine(self, name: str) -> StateMachine:
-        """The state machine of that name."""
-        return next(machine for machine in self.machines if machine.name == name)
-
     def interface(self, type_: object) -> Interface | None:
         """What is known of an interface's fields; None for one the model does not describe."""
         return next((known for known in self.interfaces if known.type == type_), None)

@@ -1,0 +1,145 @@
+"""Nodes of composition.tx: swarms, where they are and what makes them good."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from swarmdsl.syntax.nodes import Documented, Node
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax.architecture import Member
+    from swarmdsl.syntax.interfaces import Param
+    from swarmdsl.syntax.nodes import Expression, Ref, TypeRef, Word
+
+
+@dataclass(slots=True, eq=False)
+class Multiplicity(Node):
+    """`3`, `1..5`, `2..*` or `*`, the bounds as written."""
+
+    lower: str
+    upper: str
+
+
+@dataclass(slots=True, eq=False)
+class Role(Documented):
+    """`name : Member[multiplicity]`."""
+
+    name: Word
+    member: Ref[Member]
+    multiplicity: Multiplicity | None
+
+
+@dataclass(slots=True, eq=False)
+class EnvironmentUse(Node):
+    """`environment Name` in a swarm."""
+
+    environment: Ref[Environment]
+
+
+@dataclass(slots=True, eq=False)
+class Swarm(Documented):
+    """`swarm Name { ... }`."""
+
+    name: Word
+    items: list[EnvironmentUse | FitnessUse | Role]
+
+
+@dataclass(slots=True, eq=False)
+class FitnessUse(Node):
+    """`fitness Name` in a swarm."""
+
+    fitness: Ref[Fitness]
+
+
+@dataclass(slots=True, eq=False)
+class FitnessInput(Documented):
+    """`in name : Type`, measured in a run."""
+
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Objective(Node):
+    """`maximize expression` or `minimize expression`."""
+
+    goal: Literal["maximize", "minimize"]
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Fitness(Documented):
+    """`fitness Name { ... }`."""
+
+    name: Word
+    items: list[FitnessInput | Param | Objective]
+
+
+@dataclass(slots=True, eq=False)
+class Setting(Node):
+    """`steps 1000`, `evaluations 50` or `seed 42`."""
+
+    name: Literal["steps", "evaluations", "seed"]
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class CountRange(Node):
+    """`count of role in lower .. upper`."""
+
+    role: Ref[Role]
+    lower: Expression
+    upper: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ParamRange(Node):
+    """`role.param in lower .. upper step step`."""
+
+    role: Ref[Role]
+    param: Ref[Param]
+    lower: Expression
+    upper: Expression
+    step: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Optimization(Documented):
+    """`optimize Swarm { ... }`."""
+
+    swarm: Ref[Swarm]
+    items: list[Setting | CountRange | ParamRange]
+
+
+@dataclass(slots=True, eq=False)
+class World(Node):
+    """`world "file"`."""
+
+    file: Word
+
+
+@dataclass(slots=True, eq=False)
+class Size(Node):
+    """`size 100 m x 100 m`, the lengths as written."""
+
+    width: str
+    depth: str
+    height: str
+
+
+_METRES = {"mm": 0.001, "cm": 0.01, "km": 1000.0, "m": 1.0}
+
+
+def in_metres(length: str) -> float:
+    """A length as written, `10 m` for instance, in metres."""
+    unit = next(unit for unit in _METRES if length.endswith(unit))
+    return float(length.removesuffix(unit)) * _METRES[unit]
+
+
+@dataclass(slots=True, eq=False)
+class Environment(Documented):
+    """`environment Name { ... }`."""
+
+    name: Word
+    items: list[World | Size]

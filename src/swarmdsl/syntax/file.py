@@ -1,0 +1,80 @@
+"""Nodes of swarm.tx: a whole file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from swarmdsl.syntax.architecture import Component, Member
+from swarmdsl.syntax.behaviour import StateMachine
+from swarmdsl.syntax.composition import Environment, Fitness, Swarm
+from swarmdsl.syntax.interfaces import (
+    ActionType,
+    AliasType,
+    Constant,
+    EnumType,
+    Event,
+    Function,
+    MessageType,
+    ServiceType,
+    StructType,
+)
+from swarmdsl.syntax.nodes import Documented, Node
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax.composition import Optimization
+    from swarmdsl.syntax.nodes import Word
+
+
+@dataclass(slots=True, eq=False)
+class Package(Documented):
+    """`package name`."""
+
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportFile(Node):
+    """`import "file"`."""
+
+    path: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportRos(Node):
+    """`import ros "folder"`."""
+
+    path: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportLibrary(Node):
+    """`import package.Name` or `import package.*`."""
+
+    name: str
+
+
+Import = ImportFile | ImportRos | ImportLibrary
+Interface = StructType | EnumType | AliasType | MessageType | ServiceType | ActionType
+Declaration = (
+    Interface
+    | Constant
+    | Event
+    | Function
+    | Component
+    | Member
+    | StateMachine
+    | Swarm
+    | Environment
+    | Fitness
+)
+
+
+@dataclass(slots=True, eq=False)
+class Model(Node):
+    """A whole file."""
+
+    package: Package | None
+    imports: list[Import]
+    declarations: list[Declaration]
+    optimizations: list[Optimization]
