@@ -6,6 +6,7 @@ The textX grammar only finds where an expression ends; precedence is settled her
 from __future__ import annotations
 
 import re
+from decimal import Decimal
 from functools import cache
 from math import isinf
 
@@ -105,15 +106,22 @@ def _quantity(text: str) -> tuple[int | float, str]:
     return (int(digits) if digits.isdigit() else float(digits)), unit
 
 
+def nanoseconds(text: str, unit: str) -> int:
+    """The length of a duration, exactly as written, which a float may not be."""
+    return round(Decimal(text.removesuffix(unit).rstrip()) * UNITS[unit])
+
+
 def _too_large(token: object) -> bool:
     if not isinstance(token, Token) or token.type != "QUANTITY":
         return False
     if len(token) > _MOST_DIGITS:
         return True
     value, unit = _quantity(token)
+    if isinstance(value, float) and isinf(value):
+        return True
     if unit:
-        return value * UNITS[unit] > _LONGEST
-    return value > _LARGEST if isinstance(value, int) else isinf(value)
+        return nanoseconds(token, unit) > _LONGEST
+    return isinstance(value, int) and value > _LARGEST
 
 
 def _report_unexpected(error: UnexpectedInput, span: Span, report: Diagnostics) -> None:

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 
 from swarmdsl import ir
 from swarmdsl.enums import numbers
-from swarmdsl.expressions import UNITS
+from swarmdsl.expressions import nanoseconds
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
 from swarmdsl.source import Span
@@ -113,15 +112,9 @@ def _literal(value: Value) -> ir.Literal:
         case bool():
             return ir.Literal(value.value, BOOL, value.span)
         case int() | float() if value.unit:
-            return ir.Literal(_nanoseconds(value), DURATION, value.span)
+            return ir.Literal(nanoseconds(value.span.text, value.unit), DURATION, value.span)
         case int():
             return ir.Literal(value.value, INT, value.span)
         case float():
             return ir.Literal(value.value, FLOAT, value.span)
     return ir.Literal(value.value, STRING, value.span)
-
-
-def _nanoseconds(duration: Value) -> int:
-    """The length of a duration: exactly as written, which a float may not be."""
-    number = duration.span.text.removesuffix(duration.unit).rstrip()
-    return round(Fraction(number) * UNITS[duration.unit])

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.inheritance import lineage
+from swarmdsl.inheritance import all_items, lineage
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
@@ -122,15 +122,15 @@ def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
 
 
 def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
-    """The named items, inherited ones first; an own param may replace an inherited one."""
+    """The named items, inherited ones first, without params that others take the place of."""
     kinds = (Port, Param, Operation, Part)
     own = [item for item in owner.items if isinstance(item, kinds)]
-    params = {str(item.name) for item in own if isinstance(item, Param)}
+    params = all_items(owner, Param)
     inherited = [
         item
         for base in reversed(lineage(owner)[1:])
         for item in base.items
-        if isinstance(item, kinds) and not (isinstance(item, Param) and str(item.name) in params)
+        if isinstance(item, kinds) and (item in params or not isinstance(item, Param))
     ]
     return [*inherited, *own]
 

@@ -1,0 +1,32 @@
+"""A system to text and back through the whole front end."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Severity
+from swarmdsl.ir import System
+from swarmdsl.printer import print_system
+
+
+def compiled(*paths: Path) -> System:
+    """The system of a valid model; warnings are fine."""
+    result = compiler.check(list(paths))
+    errors = [
+        (found.code, found.message, found.primary and found.primary.span.text)
+        for found in result.report
+        if found.severity is Severity.ERROR
+    ]
+    assert result.system is not None, errors
+    return result.system
+
+
+def printed_and_compiled(system: System, folder: Path) -> System:
+    """What comes back from the text of a system."""
+    path = folder / f"{system.name}.swarm"
+    path.write_text(print_system(system), encoding="utf-8")
+    try:
+        return compiled(path)
+    except AssertionError as error:
+        raise AssertionError(f"{error}\n{path.read_text(encoding='utf-8')}") from None

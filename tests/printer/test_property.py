@@ -1,0 +1,29 @@
+"""Whatever a system is made of, its text means the same."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+
+from swarmdsl.ir import System
+from swarmdsl.printer import normalized
+
+from .round_trip import printed_and_compiled
+from .systems import systems
+
+
+@pytest.mark.filterwarnings("ignore:Generating overly large repr")
+@settings(
+    max_examples=80,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    phases=[Phase.generate],  # shrinking would take minutes
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+@given(systems())
+def test_the_text_of_a_system_means_that_system(tmp_path: Path, system: System) -> None:
+    assert normalized(system) == system
+    assert printed_and_compiled(system, tmp_path) == system
