@@ -8,7 +8,7 @@ so that what is printed never depends on fine points of the target's grammar.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from swarmdsl.ir import (
@@ -42,8 +42,9 @@ class Dialect:
 
     `operators` renames those the target spells otherwise; `literal`, `variable` and
     `param` print a leaf; `event` is the message of the triggering event; `functions`
-    renames the built-in functions, to `.name` where the target has a property instead.
-    `modulo` prints `%`, whose result has the sign of the divisor in the language.
+    renames the built-in functions, to `.name` where the target has a property instead, or
+    prints a call from its arguments. `modulo` prints `%`, whose result has the sign of the
+    divisor in the language, `quotient` prints `/`, the division of real numbers.
     """
 
     literal: Callable[[Literal], str]
@@ -51,8 +52,9 @@ class Dialect:
     param: Callable[[str], str]
     event: str
     operators: Mapping[str, str]
-    functions: Mapping[str, str]
+    functions: Mapping[str, str | Callable[[Sequence[str]], str]]
     modulo: Callable[[str, str], str] = "{} % {}".format
+    quotient: Callable[[str, str], str] = "{} / {}".format
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
@@ -75,11 +77,13 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
         case FieldAccess(base=base, field=field):
             return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
         case Call(function=function, arguments=arguments):
-            name = dialect.functions.get(function, function)
-            if name.startswith("."):
-                return f"{_operand(arguments[0], _PRIMARY, dialect)}{name}", _PRIMARY
-            values = ", ".join(translate(argument, dialect) for argument in arguments)
-            return f"{name}({values})", _PRIMARY
+            written = dialect.functions.get(function, function)
+            if isinstance(written, str) and written.startswith("."):
+                return f"{_operand(arguments[0], _PRIMARY, dialect)}{written}", _PRIMARY
+            values = [translate(argument, dialect) for argument in arguments]
+            if not isinstance(written, str):
+                return written(values), _PRIMARY
+            return f"{written}({', '.join(values)})", _PRIMARY
         case Unary(operator="not", operand=operand):
             level = _PRECEDENCE["not"]
             word = dialect.operators.get("not", "not ")
@@ -94,6 +98,8 @@ def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
             second = _operand(right, level + 1, dialect)
             if operator == "%":
                 return dialect.modulo(first, second), level
+            if operator == "/":
+                return dialect.quotient(first, second), level
             return f"{first} {dialect.operators.get(operator, operator)} {second}", level
 
 

@@ -7,16 +7,18 @@ import math
 import operator
 import shutil
 import subprocess
+from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from swarmdsl import cpp
 from swarmdsl.exchange import constants
 from swarmdsl.exchange.scxml import ecmascript
 from swarmdsl.ir import Binary, Call, EventData, Expression, Literal, Named, Unary, VariableRef
-from swarmdsl.ir.types import BOOL, FLOAT, INT, Array
+from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING, Array
 from swarmdsl.translate import Dialect, python_literal, translate
 
 PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
@@ -173,6 +175,57 @@ def test_ecmascript_has_the_value_of_the_language() -> None:
     assert {text: (type(v) is bool, v) for text, v in found.items()} == {
         text: (type(v) is bool, v) for text, v in expected.items()
     }
+
+
+def in_cpp(texts: list[str], folder: Path) -> list[Any]:
+    """The values of texts in one C++ program; truth values are told from numbers."""
+    compiler = shutil.which("g++")
+    if compiler is None:
+        pytest.skip("no C++ compiler (install g++)")
+    lines = "".join(f"  show({text});\n" for text in texts)
+    program = folder / "values.cpp"
+    program.write_text(
+        "#include <algorithm>\n#include <cmath>\n#include <cstdio>\n#include <string>\n"
+        'void show(bool value) { std::puts(value ? "true" : "false"); }\n'
+        'void show(double value) { std::printf("%.17g\\n", value); }\n'
+        "void show(int value) { show(static_cast<double>(value)); }\n"
+        "void show(const std::string& value) {\n"
+        '  for (unsigned char c : value) std::printf("%02x", c);\n'
+        '  std::puts("");\n}\n'
+        f"int main() {{\n{lines}  return 0;\n}}\n",
+        encoding="utf-8",
+    )
+    subprocess.run([compiler, "-std=c++11", program, "-o", folder / "values"], check=True)
+    run = subprocess.run([folder / "values"], capture_output=True, text=True, check=True)
+    return run.stdout.split()
+
+
+CPP = cpp.dialect(str, str, "event")
+
+
+def test_cpp_has_the_value_of_the_language(tmp_path: Path) -> None:
+    expected: dict[str, Any] = {}
+
+    @QUICK
+    @given(EXPRESSIONS)
+    def collect(expression: Expression) -> None:
+        expected[translate(expression, CPP)] = defined_value(expression)
+
+    collect()
+    found = dict(zip(expected, in_cpp(list(expected), tmp_path), strict=True))
+    for text, known in expected.items():
+        if isinstance(known, bool):
+            assert found[text] == str(known).lower(), text
+        else:
+            assert float(found[text]) == pytest.approx(known, rel=1e-12), text
+
+
+def test_texts_in_cpp(tmp_path: Path) -> None:
+    texts = ["", 'a "b" \\ c', "\t1\n", "é🚁", "\x017", "%d ??/"]
+
+    written = [cpp.literal(Literal(text, STRING)) for text in texts]
+    found = in_cpp([f"{text} + std::string(1, 'x')" for text in written], tmp_path)
+    assert [bytes.fromhex(text).decode() for text in found] == [f"{text}x" for text in texts]
 
 
 @pytest.mark.parametrize(
