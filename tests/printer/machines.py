@@ -231,10 +231,12 @@ class _Filler:
 
     @staticmethod
     def _same_region(target: State, around: tuple[State, ...]) -> bool:
-        for outer, region in pairwise(around):
-            if outer.kind is PARALLEL and target.id.startswith(f"{outer.id}."):
-                return target.id.startswith(f"{region.id}.")
-        return True
+        """Whether a target is in no other region of the parallel states around."""
+        return all(
+            target.id.startswith(f"{region.id}.")
+            for outer, region in pairwise(around)
+            if outer.kind is PARALLEL and target.id.startswith(f"{outer.id}.")
+        )
 
     def _branches(self, targets: list[State]) -> tuple[Transition, ...]:
         guards = [self._guard(self.data.leaves) for _ in range(self.draw(st.integers(0, 2)))]
