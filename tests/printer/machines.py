@@ -112,9 +112,9 @@ def _skeleton(
     draw: st.DrawFn, prefix: str, depth: int, docs: st.SearchStrategy[str]
 ) -> tuple[State, ...]:
     """States without transitions; the first can be entered."""
-    kinds = [SIMPLE, SIMPLE, FINAL, CHOICE]
+    kinds = [SIMPLE, FINAL, FINAL, CHOICE]
     if depth:
-        kinds += [COMPOSITE, PARALLEL]
+        kinds += [COMPOSITE, PARALLEL, PARALLEL]
     if prefix:
         kinds.append(HISTORY)
     names = draw(st.permutations(STATES))
@@ -257,7 +257,7 @@ class _Filler:
         if activity is not None:
             kinds.append("outcome")
         elif ends:
-            kinds.append("done")
+            kinds += ["done"] * 3
         quiet = [each for each in targets if self._quiet(each)]
         if quiet:
             kinds += ["eventless", "at once"] if state.kind is SIMPLE else ["eventless"]

@@ -76,7 +76,9 @@ def systems(draw: st.DrawFn) -> System:
         draw, names, types, interfaces, functions, package.replace(".", "_")
     )
     world = World({each.type: each for each in interfaces}, events, functions, docs, types)
-    behaviours = [machines(draw, names.pop(), world) for _ in range(draw(st.integers(0, 2)))]
+    behaviours = [
+        machines(draw, names.pop(), world) for _ in range(draw(st.sampled_from([1, 2, 0])))
+    ]
     members = _members(draw, names, types, components, behaviours)
     fitness = [_fitness(draw, names.pop()) for _ in range(draw(st.integers(0, 1)))]
     environments = [

@@ -217,6 +217,22 @@ def test_a_file_without_package_keeps_its_name(tmp_path: Path) -> None:
     assert print_system(system) == "message Pose {\n  x : float64\n}\n"
 
 
+def test_what_is_called_like_a_type_of_the_language(tmp_path: Path) -> None:
+    text = "package p\nstruct string { x : float64 }\nmessage Use { a : p/string b : string }"
+    system = _system(tmp_path, text)
+
+    assert "a : p/string\n  b : string\n" in print_system(system)
+    assert printed_and_compiled(system, tmp_path) == system
+
+
+def test_what_is_inherited_is_not_said_again(tmp_path: Path) -> None:
+    (tmp_path / "parts.swarm").write_text(PARTS, encoding="utf-8")
+    text = print_system(_system(tmp_path, MISSION))
+
+    assert "sensor Eye extends mission_first_Cam {\n  param rate : float64 = 9\n}\n" in text
+    assert "member Fast extends Bot {\n  param speed : float64 = 1e+300\n}\n" in text
+
+
 @pytest.mark.parametrize(
     ("change", "reason"),
     [
