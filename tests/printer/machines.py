@@ -112,9 +112,9 @@ def _skeleton(
     draw: st.DrawFn, prefix: str, depth: int, docs: st.SearchStrategy[str]
 ) -> tuple[State, ...]:
     """States without transitions; the first can be entered."""
-    kinds = [SIMPLE, SIMPLE, FINAL, CHOICE]
+    kinds = [SIMPLE, FINAL, FINAL, CHOICE]
     if depth:
-        kinds += [COMPOSITE, PARALLEL]
+        kinds += [COMPOSITE, PARALLEL, PARALLEL]
     if prefix:
         kinds.append(HISTORY)
     names = draw(st.permutations(STATES))
@@ -231,10 +231,12 @@ class _Filler:
 
     @staticmethod
     def _same_region(target: State, around: tuple[State, ...]) -> bool:
-        for outer, region in pairwise(around):
-            if outer.kind is PARALLEL and target.id.startswith(f"{outer.id}."):
-                return target.id.startswith(f"{region.id}.")
-        return True
+        """Whether a target is in no other region of the parallel states around."""
+        return all(
+            target.id.startswith(f"{region.id}.")
+            for outer, region in pairwise(around)
+            if outer.kind is PARALLEL and target.id.startswith(f"{outer.id}.")
+        )
 
     def _branches(self, targets: list[State]) -> tuple[Transition, ...]:
         guards = [self._guard(self.data.leaves) for _ in range(self.draw(st.integers(0, 2)))]
@@ -255,7 +257,7 @@ class _Filler:
         if activity is not None:
             kinds.append("outcome")
         elif ends:
-            kinds.append("done")
+            kinds += ["done"] * 3
         quiet = [each for each in targets if self._quiet(each)]
         if quiet:
             kinds += ["eventless", "at once"] if state.kind is SIMPLE else ["eventless"]

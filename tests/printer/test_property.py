@@ -16,7 +16,7 @@ from .systems import systems
 
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
-    max_examples=80,
+    max_examples=400,
     derandomize=True,
     database=None,
     deadline=None,

@@ -7,7 +7,8 @@ is used of them stand in the text, a topic that is monitored has an event of its
 
 A system that no model leads to, built by hand or by an importer, may have no text; then
 `UnprintableError` says why: a transition that waits for nothing or for another state's end,
-or leads to a state that another one of its name hides; a number that is infinite.
+or leads to a state that another one of its name hides; a number that is infinite. A system
+in which nothing is declared has no text either: a file that says nothing is no model.
 """
 
 from __future__ import annotations
