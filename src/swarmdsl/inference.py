@@ -261,6 +261,8 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
         return True
     if isinstance(found, Array) and isinstance(wanted, Array):
         return fits(found.element, wanted.element) and wanted.size in (None, found.size)
+    if isinstance(found, Primitive) and isinstance(wanted, Primitive) and found.name == wanted.name:
+        return True  # texts of different bounds
     if is_number(found) and is_number(wanted):
         return wanted in _FLOAT_TYPES or found not in _FLOAT_TYPES
     return False
