@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.ir import Binary, Literal, Named, State, System, Transition
+from swarmdsl.ir import Binary, Literal, Named, State, StateMachine, System, Transition
 from swarmdsl.ir.types import FLOAT, INT
 from swarmdsl.printer import UnprintableError, normalized, print_system
 
@@ -109,6 +109,10 @@ endless statemachine Work {
 """
 
 
+def machine_of(system: System, name: str) -> StateMachine:
+    return next(machine for machine in system.machines if machine.name == name)
+
+
 @pytest.mark.parametrize("model", MODELS, ids=lambda path: path.relative_to(ROOT).as_posix())
 def test_models_mean_the_same_as_their_text(model: Path, tmp_path: Path) -> None:
     system = compiled(model)
@@ -133,11 +137,11 @@ def test_what_is_not_as_lowering_puts_it_in_place_is_printed_as_states(tmp_path:
     *others, outer = system.machines
     odd = replace(outer, variables=tuple(replace(each, doc="Changed.") for each in outer.variables))
     system = replace(system, machines=(*others, odd))
-    states = list(normalized(system).machine("Outer").walk())
+    states = list(machine_of(normalized(system), "Outer").walk())
 
     assert {state.submachine for state in states} == {None}
     assert [state.id for state in states] == [state.id for state in outer.walk()]
-    assert normalized(system).machine("Middle") == system.machine("Middle")
+    assert machine_of(normalized(system), "Middle") == machine_of(system, "Middle")
     assert printed_and_compiled(system, tmp_path) == normalized(system)
 
 
@@ -170,7 +174,7 @@ def test_numbers_of_enums_and_of_constants_are_plain_numbers(tmp_path: Path) -> 
     (tmp_path / "parts.swarm").write_text(PARTS, encoding="utf-8")
     system = _system(tmp_path, MISSION)
     (mode,) = [each for each in system.interfaces if each.type.name == "Mode"]
-    work = system.machine("Work")
+    work = machine_of(system, "Work")
     guard = work.states[1].transitions[0].guard
 
     assert [constant.value for constant in mode.constants] == [
