@@ -63,6 +63,7 @@ CODES: dict[str, Code] = {
     "impossible-size": Code("SW0303", "error", "the size `{size}` {fault}"),
     "missing-objective": Code("SW0304", "error", "fitness `{name}` has no objective"),
     "empty-range": Code("SW0305", "error", "this range {fault}"),
+    "impossible-setting": Code("SW0306", "error", "`{name}` must be at least {least}"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(

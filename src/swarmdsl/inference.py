@@ -175,7 +175,7 @@ class Typing:
             )
             return None
         if call.function == "len":
-            self._require(call, call.function, types, lambda t: t == STRING or isinstance(t, Array))
+            self._require(call, call.function, types, lambda t: is_text(t) or isinstance(t, Array))
             return INT
         if call.function == "sqrt":
             self._require(call, call.function, types, is_number)
@@ -202,7 +202,8 @@ class Typing:
         if operator in ("==", "!="):
             compared = any(isinstance(known, (Named, Array)) for known in types)
             enums = left == right and isinstance(left, Named) and self._is_enum(left)
-            if (compared and not enums) or not (fits(left, right) or fits(right, left)):
+            unfit = (compared and not enums) or not (fits(left, right) or fits(right, left))
+            if None not in types and unfit:
                 self._bad_operands(tree, operator, types)
             return BOOL
         if operator in ("<", "<=", ">", ">="):
@@ -213,7 +214,7 @@ class Typing:
             return None
         if operator in ("+", "-") and _all_durations(types):
             return DURATION
-        if operator == "+" and left == right == STRING:
+        if operator == "+" and is_text(left) and is_text(right):
             return STRING
         if operator in ("*", "/") and left == DURATION and is_number(right):
             return DURATION
@@ -260,7 +261,11 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
     if found is None or wanted is None or found == wanted:
         return True
     if isinstance(found, Array) and isinstance(wanted, Array):
-        return fits(found.element, wanted.element) and wanted.size in (None, found.size)
+        if wanted.size is None or (wanted.bounded and found.size is not None):
+            enough = wanted.size is None or (found.size or 0) <= wanted.size
+        else:
+            enough = wanted.size == found.size and not found.bounded
+        return enough and fits(found.element, wanted.element)
     if isinstance(found, Primitive) and isinstance(wanted, Primitive) and found.name == wanted.name:
         return True  # texts of different bounds
     if is_number(found) and is_number(wanted):
@@ -292,6 +297,11 @@ def assignable(tree: ExpressionTree) -> bool:
         case FieldUse(base=base):
             return assignable(base)
     return False
+
+
+def is_text(type_: Type | None) -> bool:
+    """Whether it is a text, of whatever length."""
+    return isinstance(type_, Primitive) and type_.name in ("string", "wstring")
 
 
 def is_number(type_: Type | None) -> bool:

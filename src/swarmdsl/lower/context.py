@@ -109,14 +109,17 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
             for use in all_items(declaration, BehaviorUse):
                 if use.machine.target is not None:
                     behaving.setdefault(use.machine.target, []).append(declaration)
-    operations = {
-        item: f"{snake_case(names[declaration])}_{item.name}"
-        for _, declaration in pairs
-        if isinstance(declaration, Component)
-        for item in declaration.items
-        if isinstance(item, Operation)
-    }
-    monitors = _monitors(pairs, set(names.values()))
+    taken = set(names.values())
+    operations: dict[Operation, str] = {}
+    for _, declaration in pairs:
+        for item in declaration.items if isinstance(declaration, Component) else ():
+            if isinstance(item, Operation):
+                name = f"{snake_case(names[declaration])}_{item.name}"
+                while name in taken:
+                    name += "_"
+                taken.add(name)
+                operations[item] = name
+    monitors = _monitors(pairs, taken)
     typing = Typing(Interfaces(project.declarations()), Diagnostics())
     return Context(names, operations, monitors, typing, behaving, enums=enums)
 

@@ -48,6 +48,11 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
         context.check_single(places, f"setting `{name}`")
     for setting in settings:
         context.check_constant(setting.value, INT)
+        value, least = _number(setting.value), 0 if setting.name == "seed" else 1
+        if value is not None and value < least:
+            context.report.report(
+                "impossible-setting", setting.value.span, name=setting.name, least=least
+            )
     varied: dict[str, list[ParamRange | CountRange]] = {}
     for item in optimization.items:
         match item:
@@ -135,6 +140,14 @@ def _check_range(
     width = _number(step) if step is not None else None
     if step is not None and width is not None and width <= 0:
         context.report.report("empty-range", step.span, fault="has a step that is not positive")
+    elif step is not None and _is_wider(width, low, high):
+        context.report.report("empty-range", step.span, fault="is narrower than its step")
+
+
+def _is_wider(step: float | None, low: float | None, high: float | None) -> bool:
+    if step is None or low is None or high is None:
+        return False
+    return step > high - low >= 0
 
 
 def _number(expression: Expression) -> float | None:
