@@ -352,7 +352,11 @@ def test_time_is_sent_on_entry_and_cancelled_on_exit(parsed: Any) -> None:
 
     assert sent == [
         {"event": "after.A.1", "id": "after.A.1", "delay": "1500ms"},
-        {"event": "after.A.2", "id": "after.A.2", "delayexpr": 'Math.ceil(pause) + "ms"'},
+        {
+            "event": "after.A.2",
+            "id": "after.A.2",
+            "delayexpr": 'Math.max(0, Math.ceil(pause)) + "ms"',
+        },
         {"event": "after.A.3", "id": "after.A.3", "delay": "1ms"},
     ]
     cancelled = [cancel.get("sendid") for cancel in state.iterfind(f"{S}onexit/{S}cancel")]

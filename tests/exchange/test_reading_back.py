@@ -327,7 +327,12 @@ class Teller:
                     yield ("outcome", state, "preempted")
             case TimeTrigger(delay=delay):
                 text = self.text(delay)
-                yield ("after", f"{text}ms" if str(text).isdigit() else f'Math.ceil({text}) + "ms"')
+                yield (
+                    "after",
+                    f"{text}ms"
+                    if str(text).isdigit()
+                    else f'Math.max(0, Math.ceil({text})) + "ms"',
+                )
             case DoneTrigger(state=state, final=None):
                 finals = [c.id for c in self.all[state].states if c.kind is StateKind.FINAL]
                 told = {

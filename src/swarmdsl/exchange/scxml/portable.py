@@ -127,7 +127,9 @@ class _StateWriter:
         leave = add(element, "onexit")
         for delay in waiting:
             event = self.events.timer(state, delay)
-            given = {"delayexpr": f'Math.ceil({translate(delay, self.dialect)}) + "ms"'}
+            # A time that is over before it begins is over at once, as in the other targets.
+            length = translate(delay, self.dialect)
+            given = {"delayexpr": f'Math.max(0, Math.ceil({length})) + "ms"'}
             if isinstance(delay, Literal):
                 # Some engines take whole numbers only; none may fire too early.
                 given = {"delay": f"{math.ceil(delay.milliseconds)}ms"}
