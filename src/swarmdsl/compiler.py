@@ -33,6 +33,8 @@ def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
     """Find everything that is wrong with the model in these files and what they import."""
     report = Diagnostics(settings.levels)
     project = load(paths, report, settings.libraries)
+    if not paths:
+        report.report("nothing-to-compile", path="[]")
     link(project, report)
     validate(project, report)
     if report.has_errors:

@@ -121,11 +121,37 @@ def test_places_of_any_document(values: dict[str, Any]) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "line", "column", "key"),
+    [
+        ("a = 1\na = 2\n", 2, 1, "a"),
+        ("a = 1\n'a' = [[2], {b = '='}] # =\n", 2, 1, "'a'"),
+        ('[t]\na = 1\n  a = """\n = """\n', 3, 3, "a"),
+        ("a.b = 1\na . b.c = 1\n", 2, 1, "a . b.c"),
+        ("a = {}\na.b = 1\n", 2, 1, "a.b"),
+        ("a = [{ b = { c = 1, c = 2 } }]\n", 1, 21, "c"),
+        ("[t]\na = 1\n[t]\nb = [", 3, 2, "t"),
+        ("[t.u]\n[[t . u]]\n", 2, 3, "t . u"),
+        ("a = [1]\n[[a]]\n", 2, 3, "a"),
+        ("a = 1\n[a.b]\n", 2, 2, "a.b"),
+    ],
+)
+def test_what_is_given_twice_is_named(text: str, line: int, column: int, key: str) -> None:
+    report = Diagnostics()
+
+    assert parse_toml(Source("x.toml", text), report) is None
+    (found,) = report
+    assert found.message == f"`x.toml` is not TOML: `{key}` overwrites what is given before it"
+    assert found.primary is not None
+    span = found.primary.span
+    assert span.text == key
+    assert span.source.line_column(span.start) == (line, column)
+
+
+@pytest.mark.parametrize(
     ("text", "line", "column"),
     [
         ("[project", 1, 9),
         ("a = 1\nb = [1,\n", 3, 1),
-        ("a = 1\na = 2\n", 2, 6),
         ('x = "open\n', 1, 10),
         ("x = \x01\n", 1, 5),
         (f"x = {'[' * 500}", None, None),

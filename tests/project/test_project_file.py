@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import explain
+from swarmdsl import compiler, explain
 
 from .conftest import ISLAND, MODEL
 
@@ -27,6 +27,14 @@ PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
                 "3:2: error[SW0012] `swarm.toml` has no `lints`",
                 "5:7: error[SW0013] `out` takes text, not a whole number",
             ],
+        ),
+        (
+            "[project]\nname = 'a'\nname = 'b'\n",
+            ["3:1: error[SW0011] `swarm.toml` is not TOML: `name` overwrites what is given"],
+        ),
+        (
+            "[project]\nsources = [ ]",
+            ["2:11: error[SW0013] `sources` takes files and folders, not nothing"],
         ),
         ("project = 3", ["1:11: error[SW0013] `project` takes a table: `[project]`, not a whole"]),
         (
@@ -107,6 +115,13 @@ def test_a_project_file_may_say_nothing(swarmc, project, toml) -> None:
     project({"swarm.toml": toml, "models/lamps.swarm": MODEL})
 
     assert swarmc("check").err == "no errors in 1 file\n"
+
+
+def test_nothing_to_compile_is_no_system() -> None:
+    result = compiler.check([])
+
+    assert [found.name for found in result.report] == ["nothing-to-compile"]
+    assert result.system is None
 
 
 def test_sources_are_those_of_the_project_wherever_one_is(swarmc, project, monkeypatch) -> None:

@@ -73,6 +73,8 @@ class _Reader:
         return name
 
     def _sources(self) -> Iterator[Path]:
+        if self._get(("project", "sources")) == []:
+            self._report_wrong(("project", "sources"), "files and folders", "nothing")
         for _, path in self._paths(("project", "sources")):
             yield path
 

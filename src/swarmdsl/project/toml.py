@@ -40,6 +40,9 @@ SCALAR: /\d{4}-\d\d-\d\d \d\d:[\d:.]+([zZ]|[+-][\d:]+)?|[^\s,\[\]{}#"'=]+/
 %ignore /[ \t\n]+|#[^\n]*/
 """
 
+# How tomli begins to say that something is given twice, or inside of what is closed.
+_OVERWRITING = ("cannot overwrite", "cannot declare", "cannot mutate", "duplicate inline table")
+
 
 class Place(NamedTuple):
     """Where a value stands, and the key before it; the same for an item of an array."""
@@ -64,14 +67,36 @@ def parse_toml(source: Source, report: Diagnostics) -> Document | None:
     except (ValueError, RecursionError) as error:
         at = getattr(error, "pos", 0)
         reason = str(getattr(error, "msg", error))
-        report.report(
-            "bad-toml",
-            Span(source, at, at),
-            path=source.name,
-            reason=reason[:1].lower() + reason[1:],
-        )
+        place = Span(source, at, at)
+        reason = reason[:1].lower() + reason[1:]
+        if reason.startswith(_OVERWRITING):
+            place = _last_key(source, at)
+            reason = f"`{place.text}` overwrites what is given before it"
+        report.report("bad-toml", place, path=source.name, reason=reason)
         return None
     return Document(source, values, _Places(source).find())
+
+
+def _last_key(source: Source, end: int) -> Span:
+    """The key of the pair, or of the header but for its brackets, that ends at `end`."""
+    parser = _parser().parse_interactive(source.text[:end])
+    tokens = list(parser.exhaust_lexer())
+    last = len(tokens) - 1
+    depth = 0
+    for at in reversed(range(len(tokens))):
+        depth += (tokens[at] in ("]", "}")) - (tokens[at] in ("[", "[[", "{"))
+        if depth < 0:
+            break
+        if tokens[at] == "=" and depth == 0:
+            last = at - 1
+            break
+    first = last
+    while first > 1 and tokens[first - 1] == ".":
+        first -= 2
+    begin, stop = tokens[first].start_pos, tokens[last].end_pos
+    assert begin is not None
+    assert stop is not None
+    return Span(source, begin, stop)
 
 
 @cache
