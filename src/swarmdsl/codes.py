@@ -74,6 +74,7 @@ CODES: dict[str, Code] = {
     "inheritance-cycle": Code("SW0405", "error", "`{name}` extends itself"),
     "unknown-setting": Code("SW0406", "error", "there is no setting `{name}`"),
     "unconnected-port": Code("SW0407", "warning", "nothing is connected to `{port}`"),
+    "driven-twice": Code("SW0408", "warning", "`{port}` gets data from two connectors"),
     # ---- state machines
     "missing-initial": Code("SW0501", "error", "{owner} has no initial state"),
     "missing-final": Code("SW0502", "error", "{owner} has no final state"),

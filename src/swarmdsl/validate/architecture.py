@@ -87,6 +87,7 @@ def check_member(member: Member, context: Context) -> None:
     settings = [item for item in member.items if isinstance(item, CommunicationSettings)]
     context.check_single([item.span for item in settings], "the communication")
     _check_connected(member, context)
+    _check_driven_once(member, context)
     for use in all_items(member, BehaviorUse):
         _check_params_given(member, use, context)
     for item in member.items:
@@ -119,6 +120,29 @@ def _check_connected(member: Member, context: Context) -> None:
                     related=(Label(port.name.span, "declared here"),),
                     help=f"add `connect ... -> {part.name}.{port.name}`, or give the port a topic",
                 )
+
+
+def _check_driven_once(member: Member, context: Context) -> None:
+    """Check that no port gets its data from two connectors."""
+    first: dict[tuple[Part | None, Port], Connector] = {}
+    for connector in all_items(member, Connector):
+        end, source = connector.target, connector.source.port.target
+        if source is None or end.port.target is None:
+            continue
+        if "start" not in _places(connector.source, source) or "end" not in _places(
+            end, end.port.target
+        ):
+            continue  # leads the wrong way, which is reported
+        place = (end.part.target if end.part is not None else None, end.port.target)
+        earlier = first.setdefault(place, connector)
+        if earlier is not connector:
+            context.report.report(
+                "driven-twice",
+                end.span,
+                port=end.span.text,
+                related=(Label(earlier.span, "already connected here"),),
+                help="what comes from two sides mixes on one topic: give each a port of its own",
+            )
 
 
 def _check_settings(settings: CommunicationSettings, context: Context) -> None:
