@@ -6,11 +6,12 @@ lack may stand in the piece.
 
 from __future__ import annotations
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.load import Project
 from swarmdsl.syntax import (
     Component,
     Constant,
+    Declaration,
     EnumType,
     Environment,
     Event,
@@ -24,7 +25,7 @@ from swarmdsl.validate.activities import check_activities
 from swarmdsl.validate.architecture import check_component, check_inheritance, check_member
 from swarmdsl.validate.composition import check_environment, check_swarm
 from swarmdsl.validate.conflicts import check_conflicts
-from swarmdsl.validate.context import make_context
+from swarmdsl.validate.context import Context, make_context
 from swarmdsl.validate.dataflow import check_events, check_variables
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
@@ -57,43 +58,51 @@ def validate(project: Project, report: Diagnostics) -> None:
     check_inheritance(project, report)
     check_message_cycles(context)
     check_topics(project, report)
+    in_libraries = Diagnostics()
     for file, declaration in project.declarations():
-        if file.library or declaration in file.parsed.damaged:
-            continue
-        check_values(declaration, context)
-        check_known(declaration, context)
-        check_style(declaration, context)
-        match declaration:
-            case Event():
-                check_event(declaration, context)
-            case Function():
-                check_function(declaration, context)
-            case Component():
-                check_component(declaration, context)
-            case Member():
-                check_member(declaration, context)
-            case StateMachine():
-                check_structure(declaration, context)
-                check_transitions(declaration, context)
-                check_reachability(declaration, context)
-                check_activities(declaration, context)
-                check_expressions(declaration, context)
-                check_guards(declaration, context)
-                check_variables(declaration, context)
-                check_conflicts(declaration, context)
-            case Constant():
-                check_constant(declaration, context)
-            case EnumType():
-                check_enum(declaration, context)
-            case Fitness():
-                check_fitness(declaration, context)
-            case Swarm():
-                check_swarm(declaration, context)
-            case Environment():
-                check_environment(declaration, context)
+        if declaration not in file.parsed.damaged:
+            found = in_libraries if file.library else report
+            _check(declaration, context.reporting_to(found))
+    # Whoever uses a library cannot mend what is only a warning there.
+    report.include(found for found in in_libraries if found.severity is Severity.ERROR)
     check_events(project, context)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
+
+
+def _check(declaration: Declaration, context: Context) -> None:
+    """Run the rules of a declaration."""
+    check_values(declaration, context)
+    check_known(declaration, context)
+    check_style(declaration, context)
+    match declaration:
+        case Event():
+            check_event(declaration, context)
+        case Function():
+            check_function(declaration, context)
+        case Component():
+            check_component(declaration, context)
+        case Member():
+            check_member(declaration, context)
+        case StateMachine():
+            check_structure(declaration, context)
+            check_transitions(declaration, context)
+            check_reachability(declaration, context)
+            check_activities(declaration, context)
+            check_expressions(declaration, context)
+            check_guards(declaration, context)
+            check_variables(declaration, context)
+            check_conflicts(declaration, context)
+        case Constant():
+            check_constant(declaration, context)
+        case EnumType():
+            check_enum(declaration, context)
+        case Fitness():
+            check_fitness(declaration, context)
+        case Swarm():
+            check_swarm(declaration, context)
+        case Environment():
+            check_environment(declaration, context)
 
 
 __all__ = ["validate"]

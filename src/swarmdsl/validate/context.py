@@ -17,8 +17,10 @@ from swarmdsl.syntax import (
     EventTrigger,
     Expression,
     Interface,
+    MessageType,
     MonitorTrigger,
     Param,
+    StructType,
     TypeRef,
     Variable,
     Word,
@@ -37,6 +39,10 @@ class Context:
     interfaces: Interfaces
     typing: Typing
     damaged: set[Declaration]
+
+    def reporting_to(self, report: Diagnostics) -> Context:
+        """The same with another collector."""
+        return replace(self, report=report, typing=replace(self.typing, report=report))
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
         """Check the type of an expression that could be parsed."""
@@ -74,7 +80,9 @@ class Context:
         element = ref.type.element if isinstance(ref.type, Array) else ref.type
         known = self.interfaces.get(element, wanted) if isinstance(element, Named) else None
         unknown = isinstance(element, Named) and known is None
-        fine = element is ref.type and (unknown or isinstance(known, wanted))
+        # A struct is a message that the model defines.
+        kinds = (MessageType, StructType) if wanted is MessageType else wanted
+        fine = element is ref.type and (unknown or isinstance(known, kinds))
         if ref.type is not None and not fine:
             self.report.report(
                 "interface-kind",
