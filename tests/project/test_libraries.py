@@ -247,3 +247,21 @@ def outline(node: object) -> object:
         return (str(node.name), node.type.name, node.type.bound or "", node.type.array or "")
     parts = ("fields", "request", "response", "goal", "result", "feedback")
     return {part: outline(getattr(node, part)) for part in parts if hasattr(node, part)}
+
+
+def test_what_is_wrong_in_a_library_is_told_and_no_more(tmp_path) -> None:
+    (tmp_path / "kit").mkdir()
+    wrong = "package kit.wrong\nstatemachine Idle { state wait final Done }\n"
+    (tmp_path / "kit" / "wrong.swarm").write_text(wrong, encoding="utf-8")
+    (tmp_path / "model.swarm").write_text(
+        "import kit.wrong.*\n"
+        "statemachine Main { initial A state A = Idle { on done -> Z } final Z }\n",
+        encoding="utf-8",
+    )
+
+    found = compiler.check([tmp_path / "model.swarm"])
+
+    # Not that `wait` is no style of a state: that is the library's own affair.
+    assert [(each.name, each.primary.span.line) for each in found.report] == [
+        ("missing-initial", 2)
+    ]
