@@ -3,6 +3,7 @@
 from swarmdsl.generator import ALL_FEATURES, Feature, Generator
 
 from .options import Options
+from .package import chosen_machines
 from .render import emit
 
 generator = Generator(
@@ -11,4 +12,5 @@ generator = Generator(
     emit=emit,
     options_type=Options,
     supports=ALL_FEATURES - {Feature.INTO_STATE, Feature.HISTORY, Feature.INTERNAL},
+    machines=chosen_machines,
 )

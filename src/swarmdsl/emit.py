@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
-from swarmdsl.features import Use, used_features
+from swarmdsl.features import unsupported
 from swarmdsl.generator import Generator, OutputFile
 from swarmdsl.ir import System
 from swarmdsl.options import parse_options
@@ -20,6 +21,8 @@ _UNABLE = frozenset({"unsupported-construct", "bad-identifier", "generator-faile
 
 Output = dict[str, list[OutputFile]]
 """The files of each target, in the order of the requests."""
+
+_Made = TypeVar("_Made")
 
 _LOG = logging.getLogger(__name__)
 
@@ -39,12 +42,11 @@ class Request:
 
 def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Output:
     """What the requested targets make of the system; incomplete when errors were reported."""
-    uses = list(used_features(system))
     output: Output = {}
     left_out: dict[str, Diagnostics] = {}
     for request in _merged(requests, report):
         found = Diagnostics()
-        files = _emit_target(system, request, uses, found)
+        files = _emit_target(system, request, found)
         if not request.required and _is_unable(found):
             left_out[request.target] = found
             continue
@@ -78,9 +80,7 @@ def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
     return list(merged.values())
 
 
-def _emit_target(
-    system: System, request: Request, uses: Iterable[Use], report: Diagnostics
-) -> list[OutputFile] | None:
+def _emit_target(system: System, request: Request, report: Diagnostics) -> list[OutputFile] | None:
     generator = plugins.load(request.target)
     if generator is None:
         hint = suggest(request.target, plugins.target_names(), "targets")
@@ -89,16 +89,18 @@ def _emit_target(
     if isinstance(generator, plugins.Broken):
         _report_broken(request.target, generator.reason, report)
         return None
-    for feature, place in uses:
-        if feature not in generator.supports:
-            report.report(
-                "unsupported-construct", place, target=request.target, construct=feature.value
-            )
+    uses = _run(
+        generator, lambda: unsupported(generator.machines(system), generator.supports), report
+    )
+    for feature, place in uses or ():
+        report.report(
+            "unsupported-construct", place, target=request.target, construct=feature.value
+        )
     options = parse_options(generator, request.options, report)
     if report.has_errors:
         return None
-    files = _run(generator, system, options, request, report)
-    if files is None:
+    files = _run(generator, lambda: generator.emit(system, options, report), report)
+    if files is None or not _are_files(files, request.target, report):
         return None
     for file in files:
         if not stays_inside(file.path):
@@ -109,26 +111,30 @@ def _emit_target(
 
 
 def _run(
-    generator: Generator, system: System, options: object, request: Request, report: Diagnostics
-) -> list[OutputFile] | None:
+    generator: Generator, make: Callable[[], Iterable[_Made]], report: Diagnostics
+) -> list[_Made] | None:
+    """What a generator makes; None when it fails."""
     if generator.target in plugins.BUILT_IN:
-        return list(generator.emit(system, options, report))
+        return list(make())
     try:
-        files = list(generator.emit(system, options, report))
+        return list(make())
     # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
     except (Exception, SystemExit) as error:
-        _LOG.debug("running the generator of target %s", request.target, exc_info=True)
-        _report_broken(request.target, plugins.describe(error), report)
+        _LOG.debug("running the generator of target %s", generator.target, exc_info=True)
+        _report_broken(generator.target, plugins.describe(error), report)
         return None
+
+
+def _are_files(files: Iterable[object], target: str, report: Diagnostics) -> bool:
     for file in files:
         if not (
             isinstance(file, OutputFile)
             and isinstance(file.path, str)
             and isinstance(file.text, str)
         ):
-            _report_broken(request.target, f"it returned {file!r:.80}, not an `OutputFile`", report)
-            return None
-    return files
+            _report_broken(target, f"it returned {file!r:.80}, not an `OutputFile`", report)
+            return False
+    return True
 
 
 def _report_broken(target: str, reason: str, report: Diagnostics) -> None:

@@ -5,7 +5,7 @@ A target that cannot express one of them is stopped before its generator runs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.generator import Feature
 from swarmdsl.ir import (
@@ -42,6 +42,34 @@ def used_features(system: System) -> Iterator[Use]:
     """Every use of a feature, in document order."""
     for machine in system.machines:
         yield from _in_machine(machine)
+
+
+def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) -> Iterator[Use]:
+    """The uses of what a target does not support, one a cause."""
+    for machine in machines:
+        causes = _causes_of_entering(machine)
+        for feature, place in _in_machine(machine):
+            if feature in supports:
+                continue
+            if feature is Feature.INTO_STATE and place in causes and not causes[place] <= supports:
+                continue
+            yield feature, place
+
+
+def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]]:
+    """What makes a transition lead into a state and is a use of a feature itself."""
+    histories = {state.id for state in machine.walk() if state.kind is StateKind.HISTORY}
+    found: dict[Span | None, set[Feature]] = {}
+    for state in machine.walk():
+        for transition in state.transitions:
+            causes = found.setdefault(transition.origin, set())
+            if transition.internal:
+                causes.add(Feature.INTERNAL)
+            if state.id in histories or transition.target in histories:
+                causes.add(Feature.HISTORY)
+    # Transitions without a place cannot be told apart.
+    found.pop(None, None)
+    return found
 
 
 def _in_machine(machine: StateMachine) -> Iterator[Use]:

@@ -12,7 +12,7 @@ from enum import Enum
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import System
+from swarmdsl.ir import StateMachine, System
 from swarmdsl.source import Span
 
 API_VERSION = 1
@@ -76,6 +76,11 @@ def option(default: Any, text: str, choices: tuple[str, ...] = ()) -> Any:
     return field(default=default, metadata={"help": text, "choices": choices})
 
 
+def all_machines(system: System) -> tuple[StateMachine, ...]:
+    """Every state machine of the system."""
+    return system.machines
+
+
 @dataclass(frozen=True)
 class Generator:
     """One target.
@@ -83,7 +88,8 @@ class Generator:
     `emit(system, options, report)` returns the files; `options` is an instance of
     `options_type`, a frozen dataclass of str, bool and int fields made with `option`.
     What it finds wrong with the model goes to `report`. Before it is called the core has
-    reported every construct outside `supports`, and does not call it when there is one.
+    reported every construct outside `supports` in the machines that `machines(system)`
+    names, those it writes, and does not call it when there is one.
     """
 
     target: str
@@ -92,6 +98,7 @@ class Generator:
     options_type: type = NoOptions
     supports: frozenset[Feature] = ALL_FEATURES
     api_version: int = API_VERSION
+    machines: Callable[[System], Iterable[StateMachine]] = all_machines
 
 
 __all__ = [

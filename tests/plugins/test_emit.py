@@ -1,6 +1,7 @@
 """What the core checks before and after a generator runs."""
 
 import logging
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -82,6 +83,13 @@ def test_a_construct_a_target_cannot_express_is_reported_at_each_place(built_in)
         ("unsupported-construct", "after 2 s"),
     ]
     assert found[0].message == "target `a` cannot express a transition after a time"
+
+
+def test_machines_a_target_does_not_write_may_use_anything(built_in):
+    able = generator("a", "x", supports=ALL_FEATURES - {Feature.TIMEOUT})
+    built_in(replace(able, machines=lambda system: ()))
+    output, found = run(TIMED, Request("a"))
+    assert (list(output), found) == (["a"], [])
 
 
 def test_a_target_nobody_asked_for_by_name_is_left_out(built_in):
@@ -191,6 +199,14 @@ def test_a_generator_of_others_that_fails_is_named(install, caplog, body, reason
     assert "target `x`" in found.message
     assert reason in found.message
     assert any(record.exc_info for record in caplog.records) == ("raise" in body)
+
+
+def test_a_generator_of_others_that_cannot_name_its_machines_is_named(install):
+    source = CRASHING.format(body="").replace("emit)", "emit, machines=lambda system: 1 / 0)")
+    install("x", source)
+    output, (found,) = run(EMPTY, Request("x"))
+    assert (output, found.name) == ({}, "generator-failed")
+    assert "ZeroDivisionError" in found.message
 
 
 def test_a_broken_generator_that_nobody_asked_for_is_left_out(install, built_in):

@@ -2,8 +2,8 @@
 
 import pytest
 
-from swarmdsl.features import used_features
-from swarmdsl.generator import Feature
+from swarmdsl.features import unsupported, used_features
+from swarmdsl.generator import ALL_FEATURES, Feature
 
 MODEL = """
 action m/Work {
@@ -106,6 +106,48 @@ def test_every_use_is_found(found, feature, starts):
 
 def test_there_is_a_case_for_every_feature(found):
     assert set(found) == set(Feature)
+
+
+HISTORY = """
+event Low  : m/Level
+event High : m/Level
+endless statemachine M {
+  initial Out
+  state Out { on High -> Box.Back  on Low -> Box.In }
+  state Box {
+    initial In
+    history Back -> In
+    state In { on High -> Out }
+    internal on Low -> In
+  }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("missing", "places"),
+    [
+        (
+            {Feature.INTO_STATE},
+            ["on High -> Box.Back", "on Low -> Box.In", "internal on Low -> In"],
+        ),
+        (
+            {Feature.INTO_STATE, Feature.HISTORY},
+            ["on Low -> Box.In", "internal on Low -> In", "Back"],
+        ),
+        (
+            {Feature.INTO_STATE, Feature.INTERNAL},
+            ["on High -> Box.Back", "on Low -> Box.In", "internal on Low -> In"],
+        ),
+        (
+            {Feature.INTO_STATE, Feature.INTERNAL, Feature.HISTORY},
+            ["on Low -> Box.In", "internal on Low -> In", "Back"],
+        ),
+    ],
+)
+def test_one_cause_is_reported_once(compiled, missing, places):
+    found = unsupported(compiled(HISTORY).machines, ALL_FEATURES - missing)
+    assert [place.text for _, place in found] == places
 
 
 def test_a_plain_machine_uses_nothing(compiled, examples):

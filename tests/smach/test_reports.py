@@ -218,6 +218,9 @@ DEEP = "initial Deep state Deep { on E -> End }"
 BEFORE = "initial A state A { on E -> Box } final End"
 
 
+BACK = "state Box { initial In history Back -> In state In { on E -> End } }"
+
+
 @pytest.mark.parametrize(
     ("body", "place", "construct"),
     [
@@ -238,8 +241,14 @@ BEFORE = "initial A state A { on E -> Box } final End"
             "internal on E -> In",
             "an internal transition",
         ),
+        (f"{BEFORE} {BACK}", "Back", "a history"),
         (
-            f"{BEFORE} state Box {{ initial In history Back -> In state In {{ on E -> End }} }}",
+            f"initial A state A {{ on E -> Box.Back }} final End {BACK}",
+            "Back",
+            "a history",
+        ),
+        (
+            f"{BEFORE} state Box {{ initial In history Back -> In.Deep state In {{ {DEEP} }} }}",
             "Back",
             "a history",
         ),
@@ -248,7 +257,14 @@ BEFORE = "initial A state A { on E -> Box } final End"
 def test_features(body: str, place: str, construct: str, tmp_path: Path) -> None:
     found = _built(tmp_path, {"model": _machine(body)})
     message = f"target `smach` cannot express {construct}"
-    assert ("unsupported-construct", message, place) in found
+    assert found == [("unsupported-construct", message, place)]
+
+
+def test_machines_that_get_no_node_may_use_anything(tmp_path: Path) -> None:
+    model = f"{_machine(SMALL)} statemachine Unused {{ {BEFORE} {BACK} }}"
+    message = "target `smach` cannot express a history"
+    assert _built(tmp_path, {"model": model}) == [("unsupported-construct", message, "Back")]
+    assert _built(tmp_path, {"model": f"{model} member R {{ behavior M }}"}) == []
 
 
 def test_packages_whose_interfaces_need_each_other(tmp_path: Path) -> None:
