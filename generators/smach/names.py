@@ -45,14 +45,17 @@ _INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 def package_name(system: System, option: str, report: Diagnostics) -> str:
     """The name of the package: that of the option, else made from the system's."""
     name = option or f"{snake_case(system.name)}_behavior"
-    if not is_ros_package_name(name) or name in _IMPORTED:
-        if option:
-            fault = f"`{option}` cannot be the name of the package: {_PACKAGE_NAMES}"
-            report.report("bad-option", target=TARGET, fault=fault)
-        else:
-            hint = "give the package a name with the option `package`"
-            _bad(report, name, "a ROS package name", system.origin, help=hint)
+    if not option and package_fault(name) is not None:
+        hint = "give the package a name with the option `package`"
+        _bad(report, name, "a ROS package name", system.origin, help=hint)
     return name
+
+
+def package_fault(name: str) -> str | None:
+    """Why a package cannot have this name; None if it can."""
+    if is_ros_package_name(name) and name not in _IMPORTED:
+        return None
+    return f"`{name}` cannot be the name of the package: {_PACKAGE_NAMES}"
 
 
 def module_names(machines: Iterable[StateMachine], report: Diagnostics) -> dict[str, str]:

@@ -15,7 +15,7 @@ from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
 from .interface_packages import InterfacePackage, interface_packages
 from .module import TARGET, Container, Function, Module
-from .options import Options, check_options
+from .options import Options
 from .python import Call, Source, comment_lines, docstring, file_name, layout, place
 from .statements import STEP
 from .structure import build
@@ -75,7 +75,6 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     machines = package.chosen_machines(system)
     if not machines:
         return None
-    check_options(options, report)
     name = names.package_name(system, options.package, report)
     modules = names.module_names(machines, report)
     interfaces = interface_packages(system, name, report)

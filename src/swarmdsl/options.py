@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import Field, dataclass, fields
 from typing import Any, get_type_hints
 
@@ -24,6 +24,7 @@ class Option:
     default: str | bool | int
     help: str
     choices: tuple[str, ...]
+    fault: Callable[[Any], str | None]
 
     @property
     def takes(self) -> str:
@@ -56,6 +57,7 @@ def _option(field: Field[Any], type_: type) -> Option:
         field.default,  # type: ignore[arg-type]  # plugins.load has seen that there is one
         field.metadata.get("help", ""),
         tuple(field.metadata.get("choices", ())),
+        field.metadata.get("fault", lambda _: None),
     )
 
 
@@ -70,7 +72,7 @@ def parse_options(
     `places` are those of the values that stand in a file.
     """
     known = options_of(generator)
-    values = {}
+    values: dict[str, str | bool | int] = {}
     for name, text in given.items():
         place = places[name] if places else None
         if name not in known:
@@ -79,11 +81,15 @@ def parse_options(
             report.report("bad-option", place, target=generator.target, fault=fault, help=hint)
             continue
         value = known[name].parse(text)
-        if value is None:
-            fault = f"option `{name}` takes {known[name].takes}, not `{text}`"
-            report.report("bad-option", place, target=generator.target, fault=fault)
-            continue
-        values[name] = value
+        wrong = (
+            f"option `{name}` takes {known[name].takes}, not `{text}`"
+            if value is None
+            else known[name].fault(value)
+        )
+        if wrong is not None:
+            report.report("bad-option", place, target=generator.target, fault=wrong)
+        elif value is not None:
+            values[name] = value
     return generator.options_type(**values)
 
 

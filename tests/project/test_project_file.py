@@ -60,7 +60,24 @@ package = 1.5
                 "2:7: error[SW0013] `adf` takes a table of options, not a truth value",
                 "3:10: error[SW0901] no target called `scmxl`",
                 "5:1: error[SW0904] target `scxml`: there is no option `profil`",
-                "7:11: error[SW0013] `package` takes text, a whole number or a truth value, not",
+                "7:11: error[SW0013] `package` takes text, not a number",
+            ],
+        ),
+        (
+            """[targets.smach]
+license = 3
+version = '1.x'
+email = "nope"
+package = 'Bad Name'
+[targets.scxml]
+profile = true
+""",
+            [
+                "2:11: error[SW0013] `license` takes text, not a whole number",
+                "3:1: error[SW0904] target `smach`: `1.x` is no version: three numbers",
+                "4:1: error[SW0904] target `smach`: `nope` is no e-mail address",
+                "5:1: error[SW0904] target `smach`: `Bad Name` cannot be the name of the package",
+                "7:11: error[SW0013] `profile` takes `both`, `portable` or `cpswarm`, not a truth",
             ],
         ),
         (

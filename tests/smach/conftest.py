@@ -25,6 +25,7 @@ from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
+from swarmdsl.options import parse_options
 from swarmdsl.plugins import load
 
 HERE = Path(__file__).parent
@@ -48,7 +49,8 @@ def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]
     """What the generator makes of a system, and what it reports."""
     generator = load("smach")
     report = Diagnostics()
-    files = list(generator.emit(system, generator.options_type(**options), report))
+    chosen = parse_options(generator, options, report)
+    files = [] if report.has_errors else list(generator.emit(system, chosen, report))
     return files, report
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostics, Label, Level
 from swarmdsl.generator import Generator
-from swarmdsl.options import parse_options
+from swarmdsl.options import Option, options_of, parse_options
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
 from swarmdsl.project.toml import Document, Keys
@@ -109,20 +109,25 @@ class _Reader:
                 hint = suggest(target, known, "targets")
                 self._report.report("unknown-target", place, name=target, help=hint)
                 continue
-            options = dict(self._options(keys))
-            if options and isinstance(generator := plugins.load(target), Generator):
+            generator = plugins.load(target) if self._get(keys) else None
+            known_options = options_of(generator) if isinstance(generator, Generator) else {}
+            options = dict(self._options(keys, known_options))
+            if isinstance(generator, Generator):
                 places = {name: self._pair_place((*keys, name)) for name in options}
                 parse_options(generator, options, self._report, places)
             yield target, options
 
-    def _options(self, keys: Keys) -> Iterator[tuple[str, str]]:
+    def _options(self, keys: Keys, known: dict[str, Option]) -> Iterator[tuple[str, str]]:
         """The options of a target as they are written on a command line."""
         table = self._get(keys)
         if not isinstance(table, dict):
             self._report_wrong(keys, "a table of options", _kind(table))
             return
         for name, value in table.items():
-            if isinstance(value, bool):
+            option = known.get(name)
+            if option is not None and type(value) is not option.type:
+                self._report_wrong((*keys, name), option.takes, _kind(value))
+            elif isinstance(value, bool):
                 yield name, str(value).lower()
             elif isinstance(value, (str, int)):
                 yield name, str(value)
