@@ -39,19 +39,30 @@ class Libraries:
     def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
         """The files of a package; reported when no library has it."""
         package = statement.name.rpartition(".")[0]
-        parts = package.split(".")
-        for library in self._search_path(nearby) if package else ():
-            place = library.joinpath(*parts)
-            if place.with_suffix(SUFFIX).is_file():
-                return [place.with_suffix(SUFFIX)]
-            if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
-                return files
+        files = self._files(package, nearby) if package else []
+        if files:
+            return files
         self._report.report(
             "unknown-package",
             place_of(statement),
             name=package or statement.name,
             help=self._advice(statement, package, nearby),
         )
+        return []
+
+    def is_package(self, name: str, nearby: Path) -> bool:
+        """Whether a library has a package of this name."""
+        return bool(self._files(name, nearby))
+
+    def _files(self, package: str, nearby: Path) -> list[Path]:
+        """The files of a package, none when no library has it."""
+        parts = package.split(".")
+        for library in self._search_path(nearby):
+            place = library.joinpath(*parts)
+            if place.with_suffix(SUFFIX).is_file():
+                return [place.with_suffix(SUFFIX)]
+            if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
+                return files
         return []
 
     def _search_path(self, nearby: Path) -> Iterator[Path]:
@@ -102,7 +113,7 @@ def _folder_of(module: str) -> Path:
     raise FileNotFoundError(f"no {SUFFIX} file lies in the folder of `{module}`")
 
 
-def imported_names(statement: Import) -> str | None:
+def imported_name(statement: Import) -> str | None:
     """The one name that an import brings in, None where it brings in all."""
     if isinstance(statement, ImportLibrary) and not statement.name.endswith(".*"):
         return statement.name.rpartition(".")[2]

@@ -10,13 +10,14 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.inheritance import all_items
 from swarmdsl.link_constants import open_cycles
 from swarmdsl.link_machines import link_machine
 from swarmdsl.link_types import TypeLinker
 from swarmdsl.load import Project
 from swarmdsl.scopes import FileScope, bare, kind_of, report_unresolved
+from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
     Activity,
     BehaviorUse,
@@ -102,7 +103,17 @@ def link_values(owner: Node, values: Values, scope: FileScope, report: Diagnosti
         if node.target is None:
             node.target = scope.one(node.name, Constant) or scope.one(node.name, EnumType)
         if node.target is None and node.name not in scope.lost:
-            report_unresolved("variable or param", node.name, node.span, values, None, report)
+            constants = scope.names(Constant)
+            enums = {name: scope.one(name, EnumType) for name in scope.names(EnumType)}
+            meant = [
+                f"{name}.{node.name}"
+                for name, enum in enums.items()
+                if enum is not None and any(value.name == node.name for value in enum.values)
+            ]
+            help_ = did_you_mean(node.name, [*values, *constants, *enums])
+            if meant:
+                help_ = f"write {listed(meant)}"
+            report.report("unresolved-name", node.span, kind="value", name=node.name, help=help_)
 
 
 def _link_top_level(node: Node, scope: FileScope, report: Diagnostics) -> None:
@@ -135,7 +146,12 @@ def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Para
 
 
 def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
-    return {str(item.name): item for item in items if isinstance(item, kind)}
+    """The items of a kind; of two with one name the first counts."""
+    named: dict[str, K] = {}
+    for item in items:
+        if isinstance(item, kind):
+            named.setdefault(str(item.name), item)
+    return named
 
 
 def _link_activities(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:

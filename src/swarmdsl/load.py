@@ -11,7 +11,7 @@ from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
-from swarmdsl.libraries import SUFFIX, Libraries, place_of
+from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.ros.interface_file import parse_interface
 from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
@@ -126,6 +126,9 @@ class _Loader:
             step.importer.imports.append((step.statement, file))
         files = [file for file in self._known.values() if file is not None]
         _report_cycles(files, self._report)
+        for file in files:
+            for statement in file.model.imports:
+                self._check_name(file, statement)
         return Project(_in_import_order(files))
 
     def _file(self, step: _Step) -> File | None:
@@ -157,6 +160,32 @@ class _Loader:
             case ImportLibrary():
                 for path in self._libraries.find_package(statement, folder):
                     yield _Step(path, file, statement)
+
+    def _check_name(self, file: File, statement: Import) -> None:
+        """Report the one name that an import brings in where its package does not declare it.
+
+        The import is left out then, so that what it was meant to bring in is not missed.
+        """
+        name = imported_name(statement)
+        targets = [target for found, target in file.imports if found is statement]
+        if name is None or not targets:
+            return
+        declared = [str(node.name) for target in targets for node in target.model.declarations]
+        if name in declared or any(name in target.parsed.lost_names for target in targets):
+            return
+        place = place_of(statement)
+        whole = place.text
+        help_ = did_you_mean(name, declared)
+        if self._libraries.is_package(whole, Path(file.source.name).parent):
+            help_ = f"write `import {whole}.*` for all that this package declares"
+        self._report.report(
+            "unresolved-name",
+            Span(place.source, place.end - len(name), place.end),
+            kind=f"declaration of package `{whole.rpartition('.')[0]}`",
+            name=name,
+            help=help_,
+        )
+        file.imports = [found for found in file.imports if found[0] is not statement]
 
 
 def _in_import_order(files: list[File]) -> list[File]:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label, listed
-from swarmdsl.libraries import imported_names
+from swarmdsl.libraries import imported_name
 from swarmdsl.load import File, Project
 from swarmdsl.source import Span
 from swarmdsl.suggest import closest
@@ -33,6 +33,7 @@ from swarmdsl.syntax import (
     FitnessInput,
     Function,
     History,
+    ImportLibrary,
     Member,
     MessageType,
     Node,
@@ -112,7 +113,7 @@ class FileScope:
         self.file = file
         self.own = _by_name(file)
         self._imported = [
-            (other, _by_name(other, imported_names(statement))) for statement, other in file.imports
+            (other, _by_name(other, imported_name(statement))) for statement, other in file.imports
         ]
         # Whatever is missing may stand in text that could not be parsed or read.
         self.lost = file.parsed.lost_names.union(
@@ -134,6 +135,11 @@ class FileScope:
             for other, names in [(self.file, self.own), *self._imported]
             if other.package == package and last in names
         ]
+
+    def names(self, kind: type[Declaration]) -> list[str]:
+        """The names of all declarations of this kind that the file sees."""
+        seen = [self.own, *(names for _, names in self._imported)]
+        return [name for names in seen for name, node in names.items() if isinstance(node, kind)]
 
     def one(self, name: str, kind: type[D]) -> D | None:
         """The one declaration of this kind that a name means, None when there is none."""
@@ -212,7 +218,7 @@ class FileScope:
                 kind=kind,
                 name=name,
                 related=(Label(node.name.span, "declared in a file that is not imported"),),
-                help=f'add `import "{self._way_to(file)}"`',
+                help=f"add `import {self._way_to(file, name)}`",
             )
             return
         names = {**self.own}
@@ -221,10 +227,16 @@ class FileScope:
         candidates = [key for key, node in names.items() if isinstance(node, kinds)]
         report_unresolved(kind, name, at, [*candidates, *built_in], names, report)
 
-    def _way_to(self, other: File) -> str:
-        """How an import in this file names another file."""
+    def _way_to(self, other: File, name: str) -> str:
+        """How this file imports what another file declares: that of a library by its package."""
+        for file in self._project.files:
+            for statement, target in file.imports:
+                if target is other and isinstance(statement, ImportLibrary):
+                    return f"{statement.name.rpartition('.')[0]}.{name}"
+        if other.library:
+            return f"{other.package}.{name}"
         way = os.path.relpath(other.source.name, Path(self.file.source.name).parent)
-        return Path(way).as_posix()
+        return f'"{Path(way).as_posix()}"'
 
 
 def report_unresolved(

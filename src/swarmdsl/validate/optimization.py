@@ -84,8 +84,9 @@ def check_enum(enum: EnumType, context: Context) -> None:
             "interface-kind",
             enum.underlying.span,
             name=enum.underlying.span.text,
-            actual="no integer type",
-            expected="one: the values of an enum are whole numbers",
+            actual="a type of another kind",
+            expected="an integer type",
+            help="the values of an enum are whole numbers: `uint8` for instance",
         )
         return
     name = underlying(enum).name
