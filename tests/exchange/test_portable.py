@@ -292,6 +292,19 @@ NESTED = """
 """
 
 
+def test_params_have_the_values_of_the_parts_that_run_the_machine(parsed: Any) -> None:
+    tree = parsed(
+        "param period : duration  initial On  state On { after period -> On }",
+        "virtual Beacon { param period : duration = 250 ms  behavior M }\n"
+        "member Tug { beacon : Beacon { period = 2 s } }",
+        "endless statemachine",
+    )
+
+    assert [data.get("expr") for data in tree.iter(f"{S}data") if data.get("id") == "period"] == [
+        "2000"
+    ]
+
+
 @pytest.mark.parametrize("order", [["A1", "B1", "R1"], ["R1", "A1", "B1"], ["B1", "R1", "A1"]])
 def test_nested_parallel_states_end_in_any_order(
     written: Any, walk: Walk, order: list[str]

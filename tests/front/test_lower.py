@@ -198,6 +198,38 @@ def test_members_that_disagree_leave_no_default(compiled: Compiled) -> None:
     ]
 
 
+BEACON = """
+virtual Beacon { param period : duration = 250 ms  behavior Blink }
+endless statemachine Blink {
+  param period : duration
+  initial On
+  state On { after period -> On }
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("members", "period"),
+    [
+        ("", 250_000_000),
+        ("member Tug { beacon : Beacon }", 250_000_000),
+        ("member Tug { beacon : Beacon { period = 2 s } }", 2_000_000_000),
+        ("member Tug { a : Beacon { period = 2 s }  b : Beacon { period = 2000 ms } }", 2 * 10**9),
+        ("member Tug { a : Beacon { period = 2 s } } member Pram extends Tug { }", 2 * 10**9),
+        ("member Tug { a : Beacon { period = 2 s }  b : Beacon }", None),
+        ("member Tug { a : Beacon { period = 2 s } } member Pram { b : Beacon }", None),
+    ],
+)
+def test_a_machine_of_a_component_has_the_values_of_the_parts(
+    members: str, period: int | None, compiled: Compiled
+) -> None:
+    (machine,) = compiled(f"{BEACON}{members}").machines
+
+    assert [(p.name, p.default and p.default.value) for p in machine.params] == [  # type: ignore
+        ("period", period)
+    ]
+
+
 def test_names_of_two_packages_do_not_collide(tmp_path: Path) -> None:
     (tmp_path / "a.swarm").write_text("package a.x\nevent Go : std_msgs/Empty\n")
     (tmp_path / "b.swarm").write_text(

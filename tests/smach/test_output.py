@@ -254,6 +254,19 @@ def test_behaviour_of_a_component_gets_a_node(generate: Generate) -> None:
     assert [path for path in files if path.startswith("scripts/")] == ["scripts/unused"]
 
 
+def test_params_have_the_values_of_the_parts_that_run_the_machine(generate: Generate) -> None:
+    files = generate(
+        "virtual Beacon { param period : duration = 250 ms  behavior Blink }\n"
+        "endless statemachine Blink {\n"
+        "  param period : duration\n"
+        "  initial On\n"
+        "  state On { after period -> On }\n"
+        "}\n"
+        "member Tug { beacon : Beacon { period = 2 s } }"
+    )
+    assert "rospy.get_param('~period', 2.0)" in files["src/model_behavior/blink.py"].text
+
+
 def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
     """The model above, and the examples without constructs that the target does not have."""
     systems = [compiled(MODEL)]

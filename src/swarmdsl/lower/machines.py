@@ -18,6 +18,7 @@ from swarmdsl.syntax import (
     Assignment,
     Branch,
     Choice,
+    Component,
     Container,
     DoneTrigger,
     Effect,
@@ -27,11 +28,13 @@ from swarmdsl.syntax import (
     FinalState,
     History,
     Initial,
+    Member,
     MonitorTrigger,
     NameUse,
     OutcomeTrigger,
     Parallel,
     Param,
+    Part,
     Ref,
     Region,
     Send,
@@ -222,7 +225,7 @@ def _initial(container: Container) -> Vertex:
 def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
     """The params a machine runs with: its own, and those of its members that it uses.
 
-    A default is that of the members which behave so, where they agree.
+    A default is that of the members and components which behave so, where they agree.
     """
     own = [item for item in machine.items if isinstance(item, Param)]
     used = {
@@ -230,21 +233,38 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
         for node in walk(machine)
         if isinstance(node, NameUse) and isinstance(node.target, Param)
     }
-    members = context.behaving.get(machine, [])
     given = [
-        {param.name: param for param in lower_params(all_items(m, Param), context)} for m in members
+        values for owner in context.behaving.get(machine, []) for values in _values(owner, context)
     ]
     found = []
     for param in lower_params(
         [*own, *sorted(used - set(own), key=lambda p: p.span.start)], context
     ):
-        values = [
-            params[param.name].default if param.name in params else param.default
-            for params in given
-        ] or [param.default]
+        values = [params.get(param.name, param.default) for params in given] or [param.default]
         agreed = values[0] if all(value == values[0] for value in values) else None
         found.append(replace(param, default=agreed))
     return tuple(found)
+
+
+def _values(
+    owner: Member | Component, context: Context
+) -> Iterator[dict[str, ir.Expression | None]]:
+    """The values of an owner's params: for a component, in each part that is one."""
+    defaults = {
+        param.name: param.default for param in lower_params(all_items(owner, Param), context)
+    }
+    parts = [
+        part
+        for member in context.names
+        if isinstance(member, Member)
+        for part in all_items(member, Part)
+        if part.component.target is owner
+    ]
+    for part in parts:
+        given = {str(v.name): lower_expression(v.value, context) for v in part.values}
+        yield {**defaults, **given}
+    if not parts:
+        yield defaults
 
 
 def _effects(
