@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Collection, Iterable, Mapping
 
 from swarmdsl.ir.types import Named
 from swarmdsl.link_types import interface_name, written_type
@@ -24,13 +25,21 @@ from swarmdsl.syntax import (
     walk,
 )
 
+# What the messages end with that ROS makes of an action or service.
+_MADE = re.compile(r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|Request|Response)$")
 _KINDS: dict[type[Interface], Kind] = {ServiceType: "srv", ActionType: "action"}
 
 
 class Interfaces:
     """The interfaces of a project, and behind them those that ROS comes with."""
 
-    def __init__(self, declarations: Iterable[tuple[File, Declaration]]) -> None:
+    def __init__(
+        self,
+        declarations: Iterable[tuple[File, Declaration]],
+        read: Mapping[str, Collection[str]] | None = None,
+    ) -> None:
+        """`read` are the packages whose interface files were read, with all names in them."""
+        self._read = read or {}
         self.declared: dict[Named, Interface] = {}
         self._packages: dict[str, list[str]] = {}
         for file, node in declarations:
@@ -59,12 +68,26 @@ class Interfaces:
         found = self.get(type_)
         return found.fields if isinstance(found, (StructType, MessageType)) else None
 
+    def missing(self, type_: Named) -> bool:
+        """Whether there is certainly no such interface: the files of its package were read.
+
+        What ROS makes of an action or service (`TrackGoal`, `Track_Request`) has no file.
+        """
+        known = self._read.get(type_.package)
+        made = _MADE.search(type_.name)
+        made_of = type_.name[: made.start()] if made else type_.name
+        return known is not None and type_.name not in known and made_of not in known
+
     def similar(self, type_: Named) -> Named | None:
         """What may be meant by a name of which nothing is known: one that ROS or the project has.
 
         Of a package that is not known itself nothing can be said, unless another one of
         nearly its name has the interface.
         """
+        known = self._read.get(type_.package)
+        if known is not None:
+            name = closest(type_.name, known)
+            return Named(type_.package, name) if name else None
         if type_.package in standard.packages():
             name = closest(type_.name, standard.names(type_.package))
             return Named(type_.package, name) if name else None

@@ -65,6 +65,12 @@ def scan(source: Source, report: Diagnostics) -> Scan:
                 brackets.append(start)
             case "line" if _DOC_LINE.match(token[0]) and _starts_line(text, start):
                 doc_lines.append((start, end))
+            case "line" if _DOC_LINE.match(token[0]):
+                report.report(
+                    "unattached-doc-comment",
+                    Span(source, start, end),
+                    help="it documents what follows on the next line: move it before",
+                )
             case "text":
                 for escape in _ESCAPE.finditer(text, start + 1, end - 1):
                     if escape[0] not in _ESCAPES:

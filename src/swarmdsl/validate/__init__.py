@@ -7,6 +7,7 @@ lack may stand in the piece.
 from __future__ import annotations
 
 from swarmdsl.diagnostics import Diagnostics, Severity
+from swarmdsl.libraries import SUFFIX
 from swarmdsl.load import Project
 from swarmdsl.syntax import (
     Component,
@@ -63,6 +64,9 @@ def validate(project: Project, report: Diagnostics) -> None:
         if declaration not in file.parsed.damaged:
             found = in_libraries if file.library else report
             _check(declaration, context.reporting_to(found))
+            # The files that `import ros` reads are mostly those of the same people.
+            if file.library and not file.source.name.endswith(SUFFIX):
+                check_known(declaration, context)
     # Whoever uses a library cannot mend what is only a warning there.
     report.include(found for found in in_libraries if found.severity is Severity.ERROR)
     check_events(project, context)

@@ -4,18 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.inference import Typing, constant, fits, is_number
 from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import Array, Named, Type
 from swarmdsl.load import Project
+from swarmdsl.ros.interface_file import KINDS
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Declaration,
     EventTrigger,
     Expression,
+    ImportRos,
     Interface,
     MessageType,
     MonitorTrigger,
@@ -132,10 +135,26 @@ def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
     return kind_of(known) if known is not None else "a primitive type"
 
 
+def _read_packages(project: Project) -> dict[str, set[str]]:
+    """The names in each package whose whole folder was read, not only its `msg` for instance."""
+    found: dict[str, set[str]] = {}
+    for file in project.files:
+        for statement, read in file.imports:
+            if isinstance(statement, ImportRos) and Path(statement.path).name not in KINDS:
+                for node in read.model.declarations:
+                    found.setdefault(node.name.partition("/")[0], set())
+    for _, node in project.declarations():
+        package, _, name = node.name.rpartition("/")
+        if package in found:
+            found[package].add(name)
+    return found
+
+
 def make_context(project: Project, report: Diagnostics) -> Context:
     """Gather the interfaces of all files."""
     damaged = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
-        (file, node) for file, node in project.declarations() if node not in damaged
+        ((file, node) for file, node in project.declarations() if node not in damaged),
+        _read_packages(project),
     )
     return Context(report, interfaces, Typing(interfaces, report), damaged)

@@ -74,7 +74,7 @@ def check_values(declaration: Declaration, context: Context) -> None:
 
 
 def check_known(declaration: Declaration, context: Context) -> None:
-    """An interface of a package that ROS comes with exists; nearly its name is a slip."""
+    """An interface of a package that is known exists; nearly the name of one is a slip."""
     for node in walk(declaration):
         if not isinstance(node, TypeRef):
             continue
@@ -82,10 +82,9 @@ def check_known(declaration: Declaration, context: Context) -> None:
         if not isinstance(element, Named) or context.interfaces.get(element) is not None:
             continue
         similar = context.interfaces.similar(element)
-        if similar is not None:
-            context.report.report(
-                "unknown-interface", node.span, name=element, help=f"did you mean `{similar}`?"
-            )
+        if similar is not None or context.interfaces.missing(element):
+            help_ = f"did you mean `{similar}`?" if similar is not None else None
+            context.report.report("unknown-interface", node.span, name=element, help=help_)
 
 
 def check_event(event: Event, context: Context) -> None:
