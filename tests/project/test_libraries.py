@@ -59,15 +59,15 @@ def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
 def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
     """Each place is the first that has the package when those before it are gone."""
     shipped = tmp_path / "shipped"
-    installed = install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    installed = install("kits", "kits", {"kit.swarm": KIT.format(name="place4")})
     root = project(
         {
             "models/main.swarm": USER.format(package="kit", call="go"),
-            "models/kit.swarm": KIT.format(name="0"),
-            "kit.swarm": KIT.format(name="1"),
-            "lib/kit/any.swarm": KIT.format(name="2"),
-            "../other/kit.swarm": KIT.format(name="3"),
-            "../shipped/kit.swarm": KIT.format(name="5"),
+            "models/kit.swarm": KIT.format(name="place0"),
+            "kit.swarm": KIT.format(name="place1"),
+            "lib/kit/any.swarm": KIT.format(name="place2"),
+            "../other/kit.swarm": KIT.format(name="place3"),
+            "../shipped/kit.swarm": KIT.format(name="place5"),
             "swarm.toml": "[project]\nlibraries = ['lib', '../other']\n",
         }
     )
@@ -81,7 +81,7 @@ def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
         found += [function.communication.name for function in system.functions]
         (next(place.glob("*.swarm")) if place.name == "kit" else place / "kit.swarm").unlink()
 
-    assert found == ["0", "1", "2", "3", "4", "5"]
+    assert found == [f"place{number}" for number in range(6)]
 
 
 def test_the_project_file_names_libraries(swarmc, project, monkeypatch) -> None:
@@ -110,7 +110,7 @@ def test_a_library_in_a_package_of_its_own(swarmc, project, install) -> None:
 
 
 def test_a_similar_name_in_an_installed_library(swarmc, project, install) -> None:
-    install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    install("kits", "kits", {"kit.swarm": KIT.format(name="place4")})
     project({"main.swarm": USER.format(package="kitt", call="go")})
 
     assert "did you mean `kit`?" in swarmc("check").out
@@ -128,7 +128,7 @@ def test_a_similar_name_in_an_installed_library(swarmc, project, install) -> Non
 def test_a_broken_library_does_not_break_the_others(
     swarmc, project, install, module, files, reason
 ) -> None:
-    install("kits", "kits", {"kit.swarm": KIT.format(name="4")})
+    install("kits", "kits", {"kit.swarm": KIT.format(name="place4")})
     install("abroken", module, files)
     project({"main.swarm": USER.format(package="kit", call="go")})
     ran = swarmc("check", "--format", "concise")
