@@ -8,6 +8,7 @@ from typing import TypeVar
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.inheritance import all_items, lineage
 from swarmdsl.link_machines import regions, vertices
+from swarmdsl.link_types import interface_name
 from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
@@ -21,6 +22,7 @@ from swarmdsl.syntax import (
     Fitness,
     FitnessInput,
     Function,
+    Interface,
     Member,
     MessageType,
     Node,
@@ -70,8 +72,10 @@ def check_names(project: Project, report: Diagnostics) -> None:
     top_level: dict[Hashable, Declaration] = {}
     for file, declaration in project.declarations():
         name = str(declaration.name)
-        key = name if "/" in name else (file.package, name)
-        _check_first(key, declaration, top_level, report)
+        _check_first((file.package, name), declaration, top_level, report)
+        if isinstance(declaration, Interface):
+            # `Pose` of package `geo` and `geo/Pose` are one interface.
+            _check_first(interface_name(file, name), declaration, top_level, report)
         if isinstance(declaration, Event) and name in RESERVED_EVENTS:
             report.report(
                 "reserved-event-name",
