@@ -254,3 +254,14 @@ def test_the_system_is_called_like_the_first_package(tmp_path: Path) -> None:
     assert system is not None
     assert (system.name, system.doc) == ("sar.main", "All.")
     assert [event.name for event in system.events] == ["Go"]
+
+
+def test_a_struct_is_a_message_that_an_event_can_carry(
+    compiled: Callable[[str], ir.System],
+) -> None:
+    system = compiled("struct Place { x : float64 }\nevent Seen : Place\n")
+
+    assert [(str(event.type), event.topic) for event in system.events] == [("model/Place", "seen")]
+    assert [(str(known.type), known.external) for known in system.interfaces] == [
+        ("model/Place", False)
+    ]

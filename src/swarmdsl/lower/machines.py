@@ -3,46 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from swarmdsl import ir
 from swarmdsl.inheritance import all_items
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.lower.context import Context
-from swarmdsl.lower.expressions import lower_expression, lower_optional, lower_path
+from swarmdsl.lower.expressions import lower_expression, lower_optional
 from swarmdsl.lower.interfaces import lower_params
+from swarmdsl.lower.transitions import (
+    Frame,
+    lower_activity,
+    lower_branch,
+    lower_effects,
+    lower_transitions,
+)
 from swarmdsl.naming import snake_case
 from swarmdsl.syntax import (
-    Activity,
-    Argument,
-    Assignment,
-    Branch,
     Choice,
     Component,
     Container,
-    DoneTrigger,
-    Effect,
     Entry,
-    EventTrigger,
     Exit,
     FinalState,
     History,
     Initial,
     Member,
-    MonitorTrigger,
     NameUse,
-    OutcomeTrigger,
     Parallel,
     Param,
     Part,
-    Ref,
     Region,
-    Send,
     State,
     StateMachine,
-    TimeTrigger,
-    Transition,
-    Trigger,
     Variable,
     Vertex,
     walk,
@@ -53,7 +46,7 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
     """A machine as a behaviour of its own, the machines it reuses in place."""
     params = _params(machine, context)
     builder = _Builder({param.name for param in params})
-    frame = _Frame(_ids(machine, ""), context)
+    frame = Frame(_ids(machine, ""), context)
     initial = frame.ids[_initial(machine)]
     builder.add_variables(machine, "", context)
     states = builder.states(machine, frame)
@@ -67,14 +60,6 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
         doc=machine.doc,
         origin=machine.name.span,
     )
-
-
-@dataclass(frozen=True)
-class _Frame:
-    """One use of a machine: the ids of its states there, and what its names mean."""
-
-    ids: Mapping[Vertex | Region, str]
-    context: Context
 
 
 class _Builder:
@@ -107,11 +92,11 @@ class _Builder:
                 )
         return names
 
-    def states(self, container: Container, frame: _Frame) -> tuple[ir.State, ...]:
+    def states(self, container: Container, frame: Frame) -> tuple[ir.State, ...]:
         """The states directly inside a container."""
         return tuple(self._state(state, frame) for state in vertices(container))
 
-    def _state(self, state: Vertex, frame: _Frame) -> ir.State:
+    def _state(self, state: Vertex, frame: Frame) -> ir.State:
         made = ir.State(
             id=frame.ids[state],
             name=str(state.name),
@@ -130,7 +115,7 @@ class _Builder:
                     made, kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,)
                 )
             case Choice():
-                branches = tuple(_branch(branch, frame) for branch in state.branches)
+                branches = tuple(lower_branch(branch, frame) for branch in state.branches)
                 return replace(made, kind=ir.StateKind.CHOICE, transitions=branches)
             case Parallel():
                 return replace(
@@ -141,16 +126,16 @@ class _Builder:
                         for item in state.items
                         if isinstance(item, Region)
                     ),
-                    transitions=_transitions(state, frame),
-                    entry=_effects(state, Entry, frame),
-                    exit=_effects(state, Exit, frame),
+                    transitions=lower_transitions(state, frame),
+                    entry=lower_effects(state, Entry, frame),
+                    exit=lower_effects(state, Exit, frame),
                 )
             case State():
                 made = replace(
                     made,
-                    transitions=_transitions(state, frame),
-                    entry=_effects(state, Entry, frame),
-                    exit=_effects(state, Exit, frame),
+                    transitions=lower_transitions(state, frame),
+                    entry=lower_effects(state, Entry, frame),
+                    exit=lower_effects(state, Exit, frame),
                 )
                 if state.machine is not None:
                     return self._submachine(made, state, frame)
@@ -161,9 +146,9 @@ class _Builder:
                         initial=frame.ids[_initial(state)],
                         states=self.states(state, frame),
                     )
-                return replace(made, activity=_activity(state, frame))
+                return replace(made, activity=lower_activity(state, frame))
 
-    def _region(self, region: Region, frame: _Frame) -> ir.State:
+    def _region(self, region: Region, frame: Frame) -> ir.State:
         return ir.State(
             id=frame.ids[region],
             name=str(region.name),
@@ -174,7 +159,7 @@ class _Builder:
             origin=region.name.span,
         )
 
-    def _submachine(self, made: ir.State, state: State, frame: _Frame) -> ir.State:
+    def _submachine(self, made: ir.State, state: State, frame: Frame) -> ir.State:
         assert state.machine is not None
         machine = state.machine.target
         assert machine is not None
@@ -186,7 +171,7 @@ class _Builder:
                 value = bound.get(str(item.name), item.default)
                 assert value is not None
                 values[item] = lower_expression(value, frame.context)
-        inner = _Frame(_ids(machine, made.id), frame.context.reusing(names, values))
+        inner = Frame(_ids(machine, made.id), frame.context.reusing(names, values))
         return replace(
             made,
             kind=ir.StateKind.COMPOSITE,
@@ -265,137 +250,3 @@ def _values(
         yield {**defaults, **given}
     if not parts:
         yield defaults
-
-
-def _effects(
-    state: State | Parallel, kind: type[Entry] | type[Exit], frame: _Frame
-) -> tuple[ir.Effect, ...]:
-    return tuple(
-        _effect(effect, frame.context)
-        for item in state.items
-        if isinstance(item, kind)
-        for effect in item.effects
-    )
-
-
-def _transitions(state: State | Parallel, frame: _Frame) -> tuple[ir.Transition, ...]:
-    items = [item for item in state.items if isinstance(item, Transition)]
-    return tuple(made for item in items for made in _transition(item, state, frame))
-
-
-def _transition(
-    transition: Transition, owner: State | Parallel, frame: _Frame
-) -> Iterator[ir.Transition]:
-    """One transition; two where one of the triggers is the completion of a simple state.
-
-    A state that does nothing and has nothing in it is complete at once (UML 2.5.1, 14.2.3.4):
-    a transition on that is one without trigger.
-    """
-    context = frame.context
-    types = [_message_type(trigger, context) for trigger in transition.triggers]
-    if types and types[0] is not None:
-        context = context.with_event(types[0])
-    waiting = [t for t in transition.triggers if not _at_once(t, owner)]
-    triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
-    made = ir.Transition(
-        triggers=triggers,
-        guard=lower_optional(transition.guard, context),
-        effects=tuple(_effect(effect, context) for effect in transition.effects),
-        target=_target(transition.target, frame) if transition.target is not None else None,
-        # Without a target a transition is internal anyway.
-        internal=transition.internal and transition.target is not None,
-        origin=transition.span,
-    )
-    if len(waiting) < len(transition.triggers):
-        yield replace(made, triggers=())
-    if waiting or not transition.triggers:
-        yield made
-
-
-def _message_type(trigger: Trigger, context: Context) -> ir.Type | None:
-    match trigger:
-        case EventTrigger():
-            assert trigger.event.target is not None
-            return context.type_of(trigger.event.target.type)
-        case MonitorTrigger():
-            return context.type_of(trigger.type)
-    return None
-
-
-def _at_once(trigger: Trigger, owner: State | Parallel) -> bool:
-    if not (isinstance(trigger, DoneTrigger) and trigger.region is None):
-        return False
-    return (
-        isinstance(owner, State)
-        and owner.machine is None
-        and not any(isinstance(item, (Activity, Vertex)) for item in owner.items)
-    )
-
-
-def _branch(branch: Branch, frame: _Frame) -> ir.Transition:
-    return ir.Transition(
-        triggers=(),
-        guard=lower_optional(branch.guard, frame.context),
-        effects=tuple(_effect(effect, frame.context) for effect in branch.effects),
-        target=_target(branch.target, frame),
-        origin=branch.span,
-    )
-
-
-def _target(ref: Ref[Vertex], frame: _Frame) -> str:
-    assert ref.target is not None
-    return frame.ids[ref.target]
-
-
-def _trigger(trigger: Trigger, owner: State | Parallel, frame: _Frame) -> ir.Trigger:
-    match trigger:
-        case EventTrigger():
-            return ir.EventTrigger(frame.context.name(trigger.event), trigger.span)
-        case OutcomeTrigger(outcome=outcome):
-            return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
-        case MonitorTrigger():
-            return ir.EventTrigger(frame.context.monitor(trigger).name, trigger.span)
-        case TimeTrigger(delay=delay):
-            return ir.TimeTrigger(lower_expression(delay, frame.context), trigger.span)
-        case DoneTrigger(region=region, final=final):
-            state = frame.ids[owner]
-            if region is not None:
-                state = f"{state}.{region.name}"
-            reached = f"{state}.{final.name}" if final is not None else None
-            return ir.DoneTrigger(state, reached, trigger.span)
-
-
-def _effect(effect: Effect, context: Context) -> ir.Effect:
-    match effect:
-        case Assignment():
-            variable, path = lower_path(effect.target, context)
-            value = lower_expression(effect.value, context)
-            return ir.Assignment(variable, path, value, effect.span)
-        case Send():
-            return ir.Send(
-                context.name(effect.event), _arguments(effect.arguments, context), effect.span
-            )
-
-
-def _activity(state: State, frame: _Frame) -> ir.Activity | None:
-    found = next((item for item in state.items if isinstance(item, Activity)), None)
-    if found is None:
-        return None
-    context = frame.context
-    return ir.Activity(
-        function=context.name(found.function),
-        arguments=_arguments(found.arguments, context),
-        goal_callback=str(found.goal_callback) if found.goal_callback else None,
-        results=tuple(
-            ir.ResultMapping(str(result.field), *lower_path(result.target, context), result.span)
-            for result in found.results
-        ),
-        result_callback=str(found.result_callback) if found.result_callback else None,
-        origin=found.span,
-    )
-
-
-def _arguments(
-    arguments: list[Argument], context: Context
-) -> tuple[tuple[str, ir.Expression], ...]:
-    return tuple((str(a.name), lower_expression(a.value, context)) for a in arguments)
