@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+from collections.abc import Iterable
+from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax_advice import advice, keywords, strange_character
 
 # How terminals of the grammar are called when one of them is missing.
-_PHRASES = {
+TERMINALS = {
     "IDENT": "a name",
     "QNAME": "a name",
     "WORD": "a name",
@@ -54,15 +55,28 @@ _MOST_SHOWN = 8
 _TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
 
 
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Where a parser had to stop, and what could have stood there.
+
+    `at` is the offset of the first token that does not fit, the furthest that any
+    alternative came. `expected` are the names of terminals of the grammar, and keywords and
+    symbols in backquotes.
+    """
+
+    at: int
+    expected: frozenset[str]
+
+
 def report_syntax_error(
-    error: Any, source: Source, offset: int, text: str, report: Diagnostics
+    failure: Failure, source: Source, offset: int, text: str, report: Diagnostics
 ) -> int:
-    """Report a textX syntax error in `text`, which stands at `offset`; return its place.
+    """Report a syntax error in `text`, which stands at `offset`; return its place.
 
     The place is an offset in the source, that of the first token that does not fit.
     """
-    at = error.__cause__.position
-    words = _words(error.expected_rules)
+    at = failure.at
+    words = _words(failure.expected)
     expected = _grouped(words)
     found = _TOKEN.match(text, at)
     span = Span(source, offset + at, offset + (found.end() if found else at))
@@ -113,13 +127,9 @@ def _may_begin_anew(words: set[str]) -> bool:
     return "`}`" in words or "the end of the file" in words
 
 
-def _words(rules: list[Any]) -> set[str]:
+def _words(expected: Iterable[str]) -> set[str]:
     """What could have stood here: phrases, and keywords in backquotes."""
-    return {
-        _PHRASES.get(rule.rule_name, f"`{getattr(rule, 'to_match', '')}`")
-        for rule in rules
-        if rule.rule_name != "Comment"
-    }
+    return {TERMINALS.get(terminal, terminal) for terminal in expected}
 
 
 def _grouped(words: set[str]) -> list[str]:
