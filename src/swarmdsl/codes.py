@@ -128,6 +128,7 @@ CODES: dict[str, Code] = {
     "not-constant": Code("SW0704", "error", "the value must be known when the model is compiled"),
     "no-event-data": Code("SW0705", "error", "`event` has no data here"),
     "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined by itself"),
+    "no-result": Code("SW0707", "error", "`{operator}` has no result: {fault}"),
     # ---- generators and output
     "unknown-target": Code("SW0901", "error", "no target called `{name}`"),
     "broken-generator": Code(

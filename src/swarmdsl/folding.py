@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from swarmdsl.enums import numbers
-from swarmdsl.expressions import UNITS
+from swarmdsl.expressions import nanoseconds
 from swarmdsl.syntax import (
     Call,
     Constant,
@@ -22,7 +22,7 @@ from swarmdsl.syntax import (
 
 Folded = bool | int | float | str
 
-_OPERATORS: Mapping[str, Callable[[Any, Any], Folded]] = {
+_OPERATIONS: Mapping[str, Callable[..., Folded]] = {
     "==": operator.eq,
     "!=": operator.ne,
     "<": operator.lt,
@@ -34,60 +34,126 @@ _OPERATORS: Mapping[str, Callable[[Any, Any], Folded]] = {
     "*": operator.mul,
     "/": operator.truediv,
     "%": operator.mod,
-}
-_FUNCTIONS: Mapping[str, Callable[..., Folded]] = {
     "min": min,
     "max": max,
     "abs": abs,
     "sqrt": math.sqrt,
     "len": len,
 }
+# What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.
+_WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
+
+
+class _UndefinedError(Exception):
+    """An operation on known operands has no result that any target can hold."""
 
 
 def fold(tree: ExpressionTree) -> Folded | None:
     """The value of an expression, durations in nanoseconds; None when it is not known.
 
     `and` and `or` are known where one side decides. An expression that has no value (a
-    division by zero) is None too: it is reported elsewhere.
+    division by zero) is None too: `undefined` says why.
     """
     try:
-        return _fold(tree)
-    except (ArithmeticError, ValueError, TypeError):
+        return _Folding().fold(tree)
+    except (_UndefinedError, TypeError):
         return None
 
 
-def _fold(tree: ExpressionTree) -> Folded | None:
-    match tree:
-        case Value(value=bool() | str() as value):
-            return value
-        case Value(value=value, unit=unit):
-            assert not isinstance(value, (bool, str))
-            return value * UNITS[unit] if unit else value
-        case NameUse(target=Constant(value=expression)):
-            return _fold(expression.tree) if expression.tree is not None else None
-        case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-            return numbers(enum).get(str(name))
-        case Call(function=function, arguments=arguments) if function in _FUNCTIONS:
-            values = [_fold(argument) for argument in arguments]
-            return None if None in values else _FUNCTIONS[function](*values)
-        case OperatorUse(operator="and" | "or" as word, operands=operands):
-            return _fold_logic(word == "or", operands)
-        case OperatorUse(operator="not", operands=(operand,)):
-            known = _fold(operand)
-            return None if known is None else not known
-        case OperatorUse(operands=(operand,)):
-            known = _fold(operand)
-            return -known if isinstance(known, (int, float)) else None
-        case OperatorUse(operator=word, operands=(left, right)):
-            first, second = _fold(left), _fold(right)
-            if first is None or second is None:
-                return None
-            return _OPERATORS[word](first, second)
+def undefined(tree: Call | OperatorUse, *, duration: bool = False) -> str | None:
+    """Why an operation has no result, whatever its unknown operands are; None where it has one.
+
+    It is the operation itself that is looked at: of operands without a value nothing is said.
+    `duration` says that the result is one.
+    """
+    operands = tree.arguments if isinstance(tree, Call) else tree.operands
+    values = [fold(operand) for operand in operands]
+    word = str(tree.function if isinstance(tree, Call) else tree.operator)
+    if word in ("/", "%") and _is_zero(values[-1]):
+        return "the divisor is 0"
+    if None in values or word in ("and", "or", "not"):
+        return None
+    try:
+        result = _negative(values[0]) if (word, len(values)) == ("-", 1) else _apply(word, values)
+    except _UndefinedError as error:
+        return str(error)
+    except TypeError:
+        return None
+    if duration and isinstance(result, (int, float)) and round(result) not in _LENGTHS:
+        return "it would be longer than 292 years"
     return None
 
 
-def _fold_logic(decisive: bool, operands: tuple[ExpressionTree, ...]) -> Folded | None:
-    values = [_fold(operand) for operand in operands]
-    if any(value is decisive for value in values):
-        return decisive
-    return None if None in values else not decisive
+class _Folding:
+    """One walk over an expression and the constants in it, each of which is looked at once."""
+
+    def __init__(self) -> None:
+        self._constants: dict[Constant, Folded | None] = {}
+
+    def fold(self, tree: ExpressionTree) -> Folded | None:
+        match tree:
+            case Value(value=bool() | str() as value):
+                return value
+            case Value(unit=unit, value=value):
+                return nanoseconds(tree.span.text, unit) if unit else value
+            case NameUse(target=Constant() as constant):
+                return self._constant(constant)
+            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+                return numbers(enum).get(str(name))
+            case Call(function=function, arguments=arguments) if function in _OPERATIONS:
+                return self._applied(str(function), arguments)
+            case OperatorUse(operator="and" | "or" as word, operands=operands):
+                return self._logic(word == "or", operands)
+            case OperatorUse(operator="not", operands=(operand,)):
+                known = self.fold(operand)
+                return None if known is None else not known
+            case OperatorUse(operands=(operand,)):
+                return _negative(self.fold(operand))
+            case OperatorUse(operator=word, operands=operands):
+                return self._applied(str(word), operands)
+        return None
+
+    def _constant(self, constant: Constant) -> Folded | None:
+        if constant not in self._constants:
+            tree = constant.value.tree
+            self._constants[constant] = self.fold(tree) if tree is not None else None
+        return self._constants[constant]
+
+    def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
+        values = [self.fold(operand) for operand in operands]
+        return None if None in values else _apply(word, values)
+
+    def _logic(self, decisive: bool, operands: tuple[ExpressionTree, ...]) -> Folded | None:
+        values = [self.fold(operand) for operand in operands]
+        if any(value is decisive for value in values):
+            return decisive
+        return None if None in values else not decisive
+
+
+def _apply(word: str, values: list[Any]) -> Folded:
+    try:
+        result = _OPERATIONS[word](*values)
+    except ZeroDivisionError:
+        raise _UndefinedError("the divisor is 0") from None
+    except OverflowError:
+        raise _UndefinedError("it would be too large for a `float64`") from None
+    except ValueError:
+        raise _UndefinedError(f"{values[0]} has no square root") from None
+    return _held(result)
+
+
+def _negative(value: Folded | None) -> Folded | None:
+    return _held(-value) if isinstance(value, (int, float)) else None
+
+
+def _held(result: Folded) -> Folded:
+    """The result itself, if 64 bits hold it."""
+    if isinstance(result, float) and not math.isfinite(result):
+        raise _UndefinedError("it would be too large for a `float64`")
+    if isinstance(result, int) and result not in _WHOLE:
+        raise _UndefinedError("it does not fit in 64 bits")
+    return result
+
+
+def _is_zero(value: Folded | None) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == 0

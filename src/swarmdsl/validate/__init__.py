@@ -19,6 +19,7 @@ from swarmdsl.syntax import (
     Fitness,
     Function,
     Member,
+    MessageType,
     StateMachine,
     Swarm,
 )
@@ -99,6 +100,9 @@ def _check(declaration: Declaration, context: Context) -> None:
             check_conflicts(declaration, context)
         case Constant():
             check_constant(declaration, context)
+        case MessageType():
+            for constant in declaration.constants:
+                check_constant(constant, context)
         case EnumType():
             check_enum(declaration, context)
         case Fitness():

@@ -1,0 +1,186 @@
+"""Types of expressions.
+
+A type that cannot be known (a field of a message the model does not describe, a name that
+was not resolved) is None and fits everywhere: one mistake is reported once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from math import inf
+
+from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.folding import Folded, fold, undefined
+from swarmdsl.inference.fitting import fits, is_number, range_of
+from swarmdsl.inference.operators import Operation
+from swarmdsl.interfaces import Interfaces
+from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Primitive, Type
+from swarmdsl.scopes import report_unresolved
+from swarmdsl.source import Span
+from swarmdsl.suggest import did_you_mean
+from swarmdsl.syntax import (
+    Call,
+    Constant,
+    EnumType,
+    ExpressionTree,
+    Field,
+    FieldUse,
+    FitnessInput,
+    NameUse,
+    OperatorUse,
+    Param,
+    Parameter,
+    Value,
+    Variable,
+    Word,
+)
+
+_FLOAT32 = Primitive("float32")
+_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
+
+
+@dataclass(frozen=True)
+class Typing:
+    """Infers types; `interfaces` say which fields messages have.
+
+    `event` is the type of the triggering event's message: absent where no event is at
+    hand (`has_event` False), None where it is not known.
+    """
+
+    interfaces: Interfaces
+    report: Diagnostics = field(default_factory=Diagnostics)
+    has_event: bool = False
+    event: Type | None = None
+
+    def infer(self, tree: ExpressionTree) -> Type | None:
+        """The type of an expression; what is wrong in it is reported."""
+        match tree:
+            case Value(value=value, unit=unit):
+                return _value_type(value, unit)
+            case NameUse(name="event"):
+                if not self.has_event:
+                    self.report.report(
+                        "no-event-data",
+                        tree.span,
+                        help="use it in a guard or effect of a transition on one event",
+                    )
+                return self.event
+            case NameUse(target=EnumType() as enum):
+                self.report.report(
+                    "bad-operand",
+                    tree.span,
+                    operator=enum.name,
+                    operands="its own: name one of its values",
+                    help=f"write `{enum.name}.{enum.values[0].name}`" if enum.values else None,
+                )
+                return None
+            case NameUse(target=None):
+                return None
+            case NameUse(target=Variable() | Param() | Constant() | FitnessInput() as value):
+                return value.type.type
+            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+                return self._enum_value(enum, name)
+            case FieldUse(base=base, name=name):
+                return self.field(self.infer(base), name, name.span)
+            case Call(arguments=operands) | OperatorUse(operands=operands):
+                return self._checked_result(tree, [self.infer(operand) for operand in operands])
+        raise AssertionError(tree)
+
+    def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
+        """The type of an operation on operands of these types."""
+        return Operation(tree, types, self._is_enum, self.report).result()
+
+    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> None:
+        """Report an expression whose value cannot be used as a `wanted`."""
+        if tree is None:
+            return
+        found = self.infer(tree)
+        value = fold(tree)
+        if fits(found, wanted) and value is not None:
+            self._check_size(tree, value, wanted)
+        elif not fits(found, wanted):
+            help_ = None
+            if wanted == DURATION and isinstance(tree, Value) and is_number(found):
+                help_ = f"give it a unit: `{tree.span.text} s`"
+            self.report.report(
+                "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
+            )
+
+    def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
+        """The type of an operation; one that has no result, whenever it is done, is reported."""
+        mistakes = Diagnostics()
+        type_ = replace(self, report=mistakes).result(tree, types)
+        self.report.include(mistakes)
+        fault = undefined(tree, duration=type_ == DURATION) if not mistakes else None
+        if fault is not None:
+            operator = tree.function if isinstance(tree, Call) else tree.operator
+            self.report.report("no-result", tree.span, operator=operator, fault=fault)
+        return type_
+
+    def _check_size(self, tree: ExpressionTree, value: Folded, wanted: Type | None) -> None:
+        """Report a value that is known, and too large for its type."""
+        found, help_ = f"`{value}`", None
+        match value:
+            case bool():
+                return
+            case int() if (possible := range_of(wanted)) is not None and value not in possible:
+                help_ = f"it is a number from {possible[0]} to {possible[-1]}"
+            case int() | float() if wanted == _FLOAT32 and abs(value) > _LARGEST_FLOAT32:
+                help_ = "larger numbers need a `float64`"
+            case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):
+                found = f"a text of {len(value)} characters"
+            case _:
+                return
+        self.report.report(
+            "type-mismatch", tree.span, expected=f"`{wanted}`", found=found, help=help_
+        )
+
+    def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
+        """The type of a field of a message."""
+        if isinstance(owner, Named):
+            fields = self.interfaces.fields(owner)
+            if fields is None:
+                return None
+            found = next((known for known in fields if known.name == name), None)
+            if found is not None:
+                return found.type.type
+            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
+        elif owner is not None:
+            self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
+        return None
+
+    def _is_enum(self, type_: Named) -> bool:
+        return isinstance(self.interfaces.get(type_), EnumType)
+
+    def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
+        values = [str(value.name) for value in enum.values]
+        if str(name) not in values:
+            report_unresolved(
+                f"value of enum `{enum.name}`", name, name.span, values, None, self.report
+            )
+            return None
+        return enum.type
+
+
+def report_unknown_field(
+    owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
+) -> None:
+    """Report a field that a message does not have, with those it has."""
+    names = [str(known.name) for known in fields]
+    has = f"it has {listed(names, 'and')}" if names else "it has no fields"
+    help_ = did_you_mean(name, names) or has
+    report.report("unknown-field", at, owner=owner, name=name, help=help_)
+
+
+def _value_type(value: bool | int | float | str, unit: str) -> Type:
+    if unit:
+        return DURATION
+    match value:
+        case bool():
+            return BOOL
+        case int():
+            return INT
+        case float():
+            return FLOAT
+    return STRING
