@@ -7,13 +7,18 @@ from dataclasses import fields
 import pytest
 
 from swarmdsl.parse import metamodel
-from swarmdsl.syntax import NODES
+from swarmdsl.syntax import NODES, Documented
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
 OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
+# What stands inside a line. All else begins one, and has documentation.
+INLINE = {
+    *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Assignment"),
+    *("OutcomeTrigger", "DoneTrigger", "EventTrigger", "TimeTrigger", "MonitorTrigger"),
+}
 
 
 def common_rules() -> dict[str, set[str]]:
@@ -33,3 +38,9 @@ def test_attributes_are_those_of_the_rule(rule: str) -> None:
     made = {attribute.name for attribute in fields(NODES[rule]) if attribute.init} - {"span"}
 
     assert made == common_rules()[rule]
+
+
+def test_what_stands_on_a_line_of_its_own_has_documentation() -> None:
+    documented = {name for name, node in NODES.items() if issubclass(node, Documented)}
+
+    assert set(common_rules()) - documented == {"Model", *INLINE}

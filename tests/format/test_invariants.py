@@ -15,11 +15,9 @@ from hypothesis import strategies as st
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.format import formatted
-from swarmdsl.format.marks import INLINE
 from swarmdsl.format.tokens import Kind, essence, tokenize
 from swarmdsl.ir import System
 from swarmdsl.source import Source
-from swarmdsl.syntax import NODES
 
 from ..docs.pages import blocks
 
@@ -196,9 +194,3 @@ def test_a_comment_between_any_two_tokens(snippet):
 @pytest.mark.parametrize("snippet", SNIPPETS)
 def test_the_width_of_white_space_does_not_matter(snippet):
     assert layout(snippet.replace(" ", "   ")) == layout(snippet)
-
-
-def test_each_node_begins_a_line_or_stands_in_one():
-    assert set(INLINE) <= set(NODES.values())
-    items = {name for name, node in NODES.items() if node not in INLINE}
-    assert {"Event", "State", "Transition", "Field", "Param", "Connector", "World"} <= items

@@ -12,6 +12,7 @@ from swarmdsl.ir import (
     Action,
     Activity,
     Assignment,
+    Docs,
     DoneTrigger,
     Effect,
     Event,
@@ -105,7 +106,14 @@ def machines(draw: st.DrawFn, name: str, world: World) -> StateMachine:
         tuple(params),
         endless=not ends or draw(st.booleans()),
         doc=draw(world.docs),
+        docs=docs_of(draw, world.docs, "initial"),
     )
+
+
+def docs_of(draw: st.DrawFn, docs: st.SearchStrategy[str], *names: str) -> Docs:
+    """Documentation of lines that have no nodes."""
+    drawn = [(name, draw(docs)) for name in sorted(names)]
+    return tuple((name, doc) for name, doc in drawn if doc)
 
 
 def _skeleton(
@@ -145,7 +153,7 @@ def _skeleton(
 def _with_content(draw: st.DrawFn, state: State, depth: int, docs: st.SearchStrategy[str]) -> State:
     states = _skeleton(draw, state.id, depth - 1, docs)
     first = draw(st.sampled_from([each for each in states if _enterable(each)]))
-    return replace(state, states=states, initial=first.id)
+    return replace(state, states=states, initial=first.id, docs=docs_of(draw, docs, "initial"))
 
 
 def _enterable(state: State) -> bool:
@@ -193,16 +201,25 @@ class _Filler:
         ]
         if activity is not None:
             transitions += [
-                Transition((OutcomeTrigger(state.id, each),), None, (), self._one(targets).id)
+                Transition(
+                    (OutcomeTrigger(state.id, each),),
+                    None,
+                    (),
+                    self._one(targets).id,
+                    doc=self.draw(self.world.docs),
+                )
                 for each in ("succeeded", "aborted")
             ]
+        effects = {word: self._effects(self.data.leaves) for word in ("entry", "exit")}
+        documented = [word for word, each in effects.items() if each]
+        docs = {*state.docs, *docs_of(self.draw, self.world.docs, *documented)}
         return replace(
             state,
             states=inner,
             activity=activity,
-            entry=self._effects(self.data.leaves),
-            exit=self._effects(self.data.leaves),
+            **effects,
             transitions=tuple(transitions),
+            docs=tuple(sorted(docs)),
         )
 
     def _one(self, targets: Sequence[State]) -> State:
@@ -241,7 +258,13 @@ class _Filler:
     def _branches(self, targets: list[State]) -> tuple[Transition, ...]:
         guards = [self._guard(self.data.leaves) for _ in range(self.draw(st.integers(0, 2)))]
         return tuple(
-            Transition((), guard, self._effects(self.data.leaves), self._one(targets).id)
+            Transition(
+                (),
+                guard,
+                self._effects(self.data.leaves),
+                self._one(targets).id,
+                doc=self.draw(self.world.docs),
+            )
             for guard in [*guards, None]
         )
 
@@ -302,6 +325,7 @@ class _Filler:
             effects,
             target.id if target is not None else None,
             internal,
+            self.draw(self.world.docs),
         )
 
     def _ends(self, state: State) -> list[DoneTrigger]:
@@ -372,4 +396,5 @@ class _Filler:
         gives = None
         if not results and self.draw(st.booleans()):
             gives = f"store_{function.name}"
-        return Activity(function.name, arguments, by, results, gives)
+        doc = self.draw(self.world.docs)
+        return Activity(function.name, arguments, by, results, gives, doc)

@@ -45,7 +45,7 @@ from swarmdsl.ir.types import FLOAT, INT, PRIMITIVES, STRING, Array, Primitive, 
 from swarmdsl.naming import camel_case, snake_case
 
 from .expressions import expressions, literals, texts
-from .machines import PLAIN, World, machines
+from .machines import PLAIN, World, docs_of, machines
 
 NAMES = [
     *("Uav", "count", "string", "steps", "goal", "s", "min", "_x", "world", "A1", "of", "by", "x"),
@@ -81,15 +81,7 @@ def systems(draw: st.DrawFn) -> System:
     ]
     members = _members(draw, names, types, components, behaviours)
     fitness = [_fitness(draw, names.pop()) for _ in range(draw(st.integers(0, 1)))]
-    environments = [
-        Environment(
-            names.pop(),
-            draw(st.none() | texts),
-            draw(st.none() | st.lists(st.floats(1e-9, 1e30), min_size=2, max_size=3).map(tuple)),
-            draw(docs),
-        )
-        for _ in range(draw(st.integers(0, 1)))
-    ]
+    environments = [_environment(draw, names.pop()) for _ in range(draw(st.integers(0, 1)))]
     swarms = [
         _swarm(draw, names.pop(), members, environments, fitness)
         for _ in range(draw(st.integers(0, 1)) if members else 0)
@@ -109,6 +101,14 @@ def systems(draw: st.DrawFn) -> System:
         tuple(optimizations),
         draw(docs) if named else "",
     )
+
+
+def _environment(draw: st.DrawFn, name: str) -> Environment:
+    world = draw(st.none() | texts)
+    sizes = st.lists(st.floats(1e-9, 1e30), min_size=2, max_size=3).map(tuple)
+    size = draw(st.none() | sizes)
+    given = [word for word, value in (("world", world), ("size", size)) if value is not None]
+    return Environment(name, world, size, draw(docs), docs_of(draw, docs, *given))
 
 
 def _value_type(draw: st.DrawFn, types: Sequence[Type]) -> Type:
@@ -284,8 +284,10 @@ def _members(
         base = draw(st.sampled_from(found)) if found and draw(st.booleans()) else None
         params = (base.params if base else ()) + _params(draw, [f"m{number}", f"altitude{number}"])
         machine = draw(st.sampled_from(behaviours)) if behaviours and draw(st.booleans()) else None
+        said = docs_of(draw, docs, "behavior") if machine else ()
         if machine is None and base is not None:
             machine = next((each for each in behaviours if each.name == base.behavior), None)
+            said = base.docs
         if machine is not None:
             known = {each.name for each in params}
             params += tuple(
@@ -305,6 +307,7 @@ def _members(
                     component.name,
                     tuple((name, value) for name, value in values if value is not None),
                     draw(docs),
+                    docs_of(draw, docs, *(name for name, value in values if value is not None)),
                 )
             )
         ports = (base.ports if base else ()) + _ports(draw, [f"end{number}", f"s{number}"], types)
@@ -313,7 +316,12 @@ def _members(
             (name, draw(literals(INT if name == "port" else STRING)))
             for name in draw(st.lists(st.sampled_from(["ifname", "port"]), unique=True))
         ]
-        communication = CommunicationSettings(draw(st.sampled_from(["zyre", "s"])), tuple(settings))
+        communication = CommunicationSettings(
+            draw(st.sampled_from(["zyre", "s"])),
+            tuple(settings),
+            draw(docs),
+            docs_of(draw, docs, *(name for name, _ in settings)),
+        )
         if draw(st.booleans()):
             communication = base.communication if base else None
         found.append(
@@ -327,6 +335,7 @@ def _members(
                 communication,
                 base.name if base else None,
                 draw(docs),
+                said,
             )
         )
     return found
@@ -349,7 +358,7 @@ def _connectors(
     if not pairs:
         return ()
     return tuple(
-        Connector(PortRef(a[0], a[1].name), PortRef(b[0], b[1].name))
+        Connector(PortRef(a[0], a[1].name), PortRef(b[0], b[1].name), draw(docs))
         for a, b in draw(st.lists(st.sampled_from(pairs), max_size=2))
     )
 
@@ -363,7 +372,8 @@ def _fitness(draw: st.DrawFn, name: str) -> Fitness:
     )
     assert value is not None
     goal = draw(st.sampled_from(["maximize", "minimize"]))
-    return Fitness(name, tuple(inputs), params, goal, value, draw(docs))
+    said = docs_of(draw, docs, "value")
+    return Fitness(name, tuple(inputs), params, goal, value, draw(docs), said)
 
 
 def _swarm(
@@ -391,13 +401,10 @@ def _swarm(
             )
         )
     ]
-    return Swarm(
-        name,
-        tuple(roles),
-        draw(st.sampled_from([None, *(each.name for each in environments)])),
-        draw(st.sampled_from([None, *(each.name for each in fitness)])),
-        draw(docs),
-    )
+    place = draw(st.sampled_from([None, *(each.name for each in environments)]))
+    goal = draw(st.sampled_from([None, *(each.name for each in fitness)]))
+    given = [word for word, name in (("environment", place), ("fitness", goal)) if name is not None]
+    return Swarm(name, tuple(roles), place, goal, draw(docs), docs_of(draw, docs, *given))
 
 
 def _optimization(draw: st.DrawFn, swarm: Swarm, members: list[Member]) -> Optimization:
@@ -409,13 +416,14 @@ def _optimization(draw: st.DrawFn, swarm: Swarm, members: list[Member]) -> Optim
             Literal(-1.5 if param.type == FLOAT else -1, param.type),
             Literal(9.0 if param.type == FLOAT else 9, param.type),
             draw(st.none() | st.just(Literal(1, INT))),
+            draw(docs),
         )
         for role in swarm.roles
         for param in known[role.member].params
         if param.type in (INT, FLOAT) and draw(st.booleans())
     ]
     counts = [
-        CountRange(role.name, Literal(1, INT), Literal(draw(st.integers(1, 9)), INT))
+        CountRange(role.name, Literal(1, INT), Literal(draw(st.integers(1, 9)), INT), draw(docs))
         for role in swarm.roles
         if draw(st.booleans())
     ]
@@ -428,4 +436,5 @@ def _optimization(draw: st.DrawFn, swarm: Swarm, members: list[Member]) -> Optim
         tuple(counts),
         tuple((name, Literal(draw(st.integers(1, 999)), INT)) for name in settings),
         draw(docs),
+        docs_of(draw, docs, *settings),
     )

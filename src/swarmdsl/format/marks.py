@@ -8,42 +8,23 @@ from swarmdsl.format.tokens import Tokens, tokenize
 from swarmdsl.syntax import (
     ActionType,
     Activity,
-    Argument,
-    Assignment,
     Branch,
     Call,
-    DoneTrigger,
+    Documented,
     EnumValue,
-    EventTrigger,
-    Expression,
-    FieldUse,
     MessageType,
     Model,
-    MonitorTrigger,
     Multiplicity,
-    NameUse,
     Node,
     Operation,
     OperatorUse,
-    OutcomeTrigger,
     Parameter,
-    PortRef,
-    ResultMapping,
     Send,
     ServiceType,
     State,
-    TimeTrigger,
     Transition,
     TypeRef,
-    Value,
     walk,
-)
-
-# All other nodes are items: each begins a line.
-INLINE = (
-    *(Model, TypeRef, Multiplicity, Parameter, PortRef, Argument, ResultMapping),
-    *(Expression, Value, NameUse, FieldUse, Call, OperatorUse),
-    *(OutcomeTrigger, DoneTrigger, EventTrigger, TimeTrigger, MonitorTrigger, Send, Assignment),
 )
 
 
@@ -65,7 +46,7 @@ def mark(model: Model, tokens: Tokens) -> Marks:
     marks = Marks()
     for node in walk(model):
         start = node.span.start
-        if not isinstance(node, INLINE):
+        if isinstance(node, Documented) and not isinstance(node, Parameter):
             marks.items[start] = node
         match node:
             case TypeRef():

@@ -17,6 +17,7 @@ from swarmdsl.ir.architecture import (
     Role,
     Swarm,
 )
+from swarmdsl.ir.docs import Docs, doc_of
 from swarmdsl.ir.expressions import (
     Binary,
     Call,
@@ -78,6 +79,7 @@ __all__ = [
     "Constant",
     "CountRange",
     "Direction",
+    "Docs",
     "DoneTrigger",
     "Effect",
     "Environment",
@@ -122,5 +124,6 @@ __all__ = [
     "Unary",
     "Variable",
     "VariableRef",
+    "doc_of",
     "reads",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
 from swarmdsl.ir.types import Type
@@ -40,6 +41,7 @@ class Component:
     behavior: str | None = None
     base: str | None = None
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -49,6 +51,8 @@ class CommunicationSettings:
 
     technology: str
     values: tuple[tuple[str, Expression], ...]
+    doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -60,6 +64,7 @@ class Part:
     component: str
     values: tuple[tuple[str, Expression], ...]
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -80,6 +85,7 @@ class Connector:
 
     source: PortRef
     target: PortRef
+    doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -96,6 +102,7 @@ class Member:
     communication: CommunicationSettings | None = None
     base: str | None = None
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -133,6 +140,7 @@ class Environment:
     world: str | None
     size: tuple[float, ...] | None
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -145,4 +153,5 @@ class Swarm:
     environment: str | None
     fitness: str | None = None
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)

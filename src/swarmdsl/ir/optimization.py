@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Literal
 
+from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Field, Param
 from swarmdsl.source import Span
@@ -23,6 +24,7 @@ class Fitness:
     goal: Literal["maximize", "minimize"]
     value: Expression
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -35,6 +37,7 @@ class ParamRange:
     lower: Expression
     upper: Expression
     step: Expression | None
+    doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -45,6 +48,7 @@ class CountRange:
     role: str
     lower: Expression
     upper: Expression
+    doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -61,4 +65,5 @@ class Optimization:
     counts: tuple[CountRange, ...]
     settings: tuple[tuple[str, Expression], ...] = ()
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from enum import Enum
 
+from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
 from swarmdsl.ir.types import Type
@@ -105,6 +106,7 @@ class Transition:
     effects: tuple[Effect, ...]
     target: str | None
     internal: bool = False
+    doc: str = ""
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
@@ -140,6 +142,7 @@ class Activity:
     goal_callback: str | None = None
     results: tuple[ResultMapping, ...] = ()
     result_callback: str | None = None
+    doc: str = ""
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
 
@@ -163,6 +166,7 @@ class State:
     submachine: str | None = None
     deep: bool = False
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     def walk(self) -> Iterator[State]:
@@ -194,6 +198,7 @@ class StateMachine:
     params: tuple[Param, ...] = ()
     endless: bool = False
     doc: str = ""
+    docs: Docs = ()
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
     def walk(self) -> Iterator[State]:

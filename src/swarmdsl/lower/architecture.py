@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from swarmdsl import ir
 from swarmdsl.inheritance import all_items
 from swarmdsl.lower.context import Context
+from swarmdsl.lower.docs import lower_docs
 from swarmdsl.lower.expressions import lower_expression
 from swarmdsl.lower.interfaces import lower_params
 from swarmdsl.naming import snake_case
@@ -44,6 +45,7 @@ def lower_component(component: Component, context: Context) -> ir.Component:
         behavior=_behavior(component, context),
         base=context.name(component.base) if component.base is not None else None,
         doc=component.doc,
+        docs=lower_docs(all_items(component, BehaviorUse)),
         origin=component.name.span,
     )
 
@@ -57,12 +59,13 @@ def lower_member(member: Member, context: Context) -> ir.Member:
         params=lower_params(all_items(member, Param), context),
         parts=tuple(_part(part, context) for part in all_items(member, Part)),
         connectors=tuple(
-            ir.Connector(_end(item.source), _end(item.target), item.span)
+            ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
             for item in all_items(member, Connector)
         ),
         communication=_communication(member, context),
         base=context.name(member.base) if member.base is not None else None,
         doc=member.doc,
+        docs=lower_docs(all_items(member, BehaviorUse)),
         origin=member.name.span,
     )
 
@@ -87,6 +90,7 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
         environment=context.name(place.environment) if place else None,
         fitness=context.name(fitness.fitness) if fitness else None,
         doc=swarm.doc,
+        docs=lower_docs(swarm.items),
         origin=swarm.name.span,
     )
 
@@ -100,6 +104,7 @@ def lower_environment(environment: Environment, context: Context) -> ir.Environm
         world=str(world.file) if world else None,
         size=_size(size) if size else None,
         doc=environment.doc,
+        docs=lower_docs(environment.items),
         origin=environment.name.span,
     )
 
@@ -114,6 +119,8 @@ def _communication(member: Member, context: Context) -> ir.CommunicationSettings
         return ir.CommunicationSettings(
             str(settings.technology),
             tuple((str(v.name), lower_expression(v.value, context)) for v in settings.values),
+            settings.doc,
+            lower_docs(settings.values),
             settings.span,
         )
     return None
@@ -141,6 +148,7 @@ def _part(part: Part, context: Context) -> ir.Part:
             (str(value.name), lower_expression(value.value, context)) for value in part.values
         ),
         doc=part.doc,
+        docs=lower_docs(part.values),
         origin=part.name.span,
     )
 

@@ -9,6 +9,7 @@ from swarmdsl import ir
 from swarmdsl.inheritance import all_items
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.lower.context import Context
+from swarmdsl.lower.docs import lower_docs
 from swarmdsl.lower.expressions import lower_expression, lower_optional
 from swarmdsl.lower.interfaces import lower_params
 from swarmdsl.lower.transitions import (
@@ -58,6 +59,7 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
         params=params,
         endless=machine.endless,
         doc=machine.doc,
+        docs=lower_docs(machine.items),
         origin=machine.name.span,
     )
 
@@ -129,6 +131,7 @@ class _Builder:
                     transitions=lower_transitions(state, frame),
                     entry=lower_effects(state, Entry, frame),
                     exit=lower_effects(state, Exit, frame),
+                    docs=lower_docs(state.items),
                 )
             case State():
                 made = replace(
@@ -136,6 +139,7 @@ class _Builder:
                     transitions=lower_transitions(state, frame),
                     entry=lower_effects(state, Entry, frame),
                     exit=lower_effects(state, Exit, frame),
+                    docs=lower_docs(state.items),
                 )
                 if state.machine is not None:
                     return self._submachine(made, state, frame)
@@ -156,6 +160,7 @@ class _Builder:
             initial=frame.ids[_initial(region)],
             states=self.states(region, frame),
             doc=region.doc,
+            docs=lower_docs(region.items),
             origin=region.name.span,
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from swarmdsl import ir
 from swarmdsl.lower.context import Context
+from swarmdsl.lower.docs import lower_docs
 from swarmdsl.lower.expressions import lower_expression, lower_optional
 from swarmdsl.lower.interfaces import lower_params
 from swarmdsl.syntax import (
@@ -31,6 +32,7 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
         goal=objective.goal,
         value=lower_expression(objective.value, context),
         doc=fitness.doc,
+        docs=lower_docs(fitness.items),
         origin=fitness.name.span,
     )
 
@@ -46,6 +48,7 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
                 lower_expression(item.lower, context),
                 lower_expression(item.upper, context),
                 lower_optional(item.step, context),
+                item.doc,
                 item.span,
             )
             for item in optimization.items
@@ -56,6 +59,7 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
                 item.role.name,
                 lower_expression(item.lower, context),
                 lower_expression(item.upper, context),
+                item.doc,
                 item.span,
             )
             for item in optimization.items
@@ -67,5 +71,6 @@ def lower_optimization(optimization: Optimization, context: Context) -> ir.Optim
             if isinstance(item, Setting)
         ),
         doc=optimization.doc,
+        docs=lower_docs(optimization.items),
         origin=optimization.swarm.span,
     )

@@ -79,6 +79,7 @@ def _transition(
         target=_target(transition.target, frame) if transition.target is not None else None,
         # Without a target a transition is internal anyway.
         internal=transition.internal and transition.target is not None,
+        doc=transition.doc,
         origin=transition.span,
     )
     if len(waiting) < len(transition.triggers):
@@ -114,6 +115,7 @@ def lower_branch(branch: Branch, frame: Frame) -> ir.Transition:
         guard=lower_optional(branch.guard, frame.context),
         effects=tuple(_effect(effect, frame.context) for effect in branch.effects),
         target=_target(branch.target, frame),
+        doc=branch.doc,
         origin=branch.span,
     )
 
@@ -168,6 +170,7 @@ def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
             for result in found.results
         ),
         result_callback=str(found.result_callback) if found.result_callback else None,
+        doc=found.doc,
         origin=found.span,
     )
 

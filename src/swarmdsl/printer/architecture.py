@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TypeVar
 
-from swarmdsl.ir import Component, Connector, Member, Param, Part, Port, Service, System
+from swarmdsl.ir import (
+    Component,
+    Connector,
+    Docs,
+    Expression,
+    Member,
+    Param,
+    Part,
+    Port,
+    Service,
+    System,
+    doc_of,
+)
 from swarmdsl.printer.expressions import expression
 from swarmdsl.printer.interfaces import on_topic, print_params
 from swarmdsl.printer.layout import UnprintableError, block, documented, indented
@@ -79,12 +91,13 @@ def _extends(owner: Component | Member) -> str:
 
 
 def _behavior(owner: Component | Member, base: Component | Member | None) -> list[str]:
-    inherited = base.behavior if base is not None else None
-    if owner.behavior == inherited:
+    doc = doc_of(owner.docs, "behavior")
+    inherited = (base.behavior, doc_of(base.docs, "behavior")) if base is not None else (None, "")
+    if (owner.behavior, doc) == inherited:
         return []
     if owner.behavior is None:
         raise UnprintableError(f"`{owner.name}` lacks the behavior of `{owner.base}`")
-    return [f"behavior {owner.behavior}"]
+    return documented(doc, [f"behavior {owner.behavior}"])
 
 
 def _communication(member: Member, base: Member | None) -> list[str]:
@@ -95,8 +108,16 @@ def _communication(member: Member, base: Member | None) -> list[str]:
         if base is not None:
             raise UnprintableError(f"`{member.name}` lacks the communication of `{base.name}`")
         return []
-    values = [f"{name} = {expression(value)}" for name, value in settings.values]
-    return block(f"communication {settings.technology}", values)
+    lines = block(f"communication {settings.technology}", _values(settings.values, settings.docs))
+    return documented(settings.doc, lines)
+
+
+def _values(values: Iterable[tuple[str, Expression]], docs: Docs) -> list[str]:
+    return [
+        line
+        for name, value in values
+        for line in documented(doc_of(docs, name), [f"{name} = {expression(value)}"])
+    ]
 
 
 def _ports(ports: Iterable[Port], names: Names) -> list[str]:
@@ -133,9 +154,13 @@ def _operation(function: str, system: System, names: Names) -> list[str]:
 
 def _part(part: Part) -> list[str]:
     head = f"{part.name} : {part.component}"
-    values = [f"{name} = {expression(value)}" for name, value in part.values]
+    values = _values(part.values, part.docs)
     return documented(part.doc, block(head, values) if values else [head])
 
 
 def _connectors(connectors: Iterable[Connector]) -> list[str]:
-    return [f"connect {each.source} -> {each.target}" for each in connectors]
+    return [
+        line
+        for each in connectors
+        for line in documented(each.doc, [f"connect {each.source} -> {each.target}"])
+    ]

@@ -4,7 +4,16 @@ from __future__ import annotations
 
 from decimal import Decimal
 
-from swarmdsl.ir import Environment, Fitness, Multiplicity, Optimization, Swarm
+from swarmdsl.ir import (
+    CountRange,
+    Environment,
+    Fitness,
+    Multiplicity,
+    Optimization,
+    ParamRange,
+    Swarm,
+    doc_of,
+)
 from swarmdsl.printer.expressions import expression
 from swarmdsl.printer.interfaces import print_params
 from swarmdsl.printer.layout import block, documented, quoted
@@ -27,7 +36,12 @@ def print_swarm(swarm: Swarm) -> list[str]:
         )
     ]
     uses = {"environment": swarm.environment, "fitness": swarm.fitness}
-    used = [f"{what} {name}" for what, name in uses.items() if name is not None]
+    used = [
+        line
+        for what, name in uses.items()
+        if name is not None
+        for line in documented(doc_of(swarm.docs, what), [f"{what} {name}"])
+    ]
     return documented(swarm.doc, block(f"swarm {swarm.name}", [*roles, *used]))
 
 
@@ -35,9 +49,11 @@ def print_environment(environment: Environment) -> list[str]:
     """An environment, lengths in metres."""
     lines = []
     if environment.world is not None:
-        lines.append(f"world {quoted(environment.world)}")
+        world = [f"world {quoted(environment.world)}"]
+        lines += documented(doc_of(environment.docs, "world"), world)
     if environment.size is not None:
-        lines.append("size " + " x ".join(map(_metres, environment.size)))
+        size = ["size " + " x ".join(map(_metres, environment.size))]
+        lines += documented(doc_of(environment.docs, "size"), size)
     return documented(environment.doc, block(f"environment {environment.name}", lines))
 
 
@@ -48,25 +64,27 @@ def print_fitness(fitness: Fitness, names: Names) -> list[str]:
         for each in fitness.inputs
         for line in documented(each.doc, [f"in {each.name} : {names.type(each.type)}"])
     ]
-    goal = f"{fitness.goal} {expression(fitness.value)}"
-    lines = [*inputs, *print_params(fitness.params, names), goal]
+    goal = [f"{fitness.goal} {expression(fitness.value)}"]
+    objective = documented(doc_of(fitness.docs, "value"), goal)
+    lines = [*inputs, *print_params(fitness.params, names), *objective]
     return documented(fitness.doc, block(f"fitness {fitness.name}", lines))
 
 
 def print_optimization(optimization: Optimization) -> list[str]:
     """What an optimiser may vary."""
-    settings = [f"{name} {expression(value)}" for name, value in optimization.settings]
-    counts = [
-        f"count of {each.role} in {expression(each.lower)} .. {expression(each.upper)}"
-        for each in optimization.counts
-    ]
-    params = [
-        f"{each.role}.{each.param} in {expression(each.lower)} .. {expression(each.upper)}"
-        + (f" step {expression(each.step)}" if each.step is not None else "")
-        for each in optimization.params
-    ]
-    head = f"optimize {optimization.swarm}"
-    return documented(optimization.doc, block(head, [*settings, *counts, *params]))
+    lines = []
+    for name, value in optimization.settings:
+        lines += documented(doc_of(optimization.docs, name), [f"{name} {expression(value)}"])
+    for count in optimization.counts:
+        lines += documented(count.doc, [f"count of {count.role} {_range(count)}"])
+    for param in optimization.params:
+        step = f" step {expression(param.step)}" if param.step is not None else ""
+        lines += documented(param.doc, [f"{param.role}.{param.param} {_range(param)}{step}"])
+    return documented(optimization.doc, block(f"optimize {optimization.swarm}", lines))
+
+
+def _range(values: CountRange | ParamRange) -> str:
+    return f"in {expression(values.lower)} .. {expression(values.upper)}"
 
 
 def _metres(length: float) -> str:

@@ -21,6 +21,7 @@ from swarmdsl.ir import (
     Transition,
     Trigger,
     Variable,
+    doc_of,
 )
 from swarmdsl.printer.expressions import default, delay, expression
 from swarmdsl.printer.interfaces import print_params
@@ -43,10 +44,14 @@ def print_machine(machine: StateMachine, reuse: Reuse, names: Names) -> list[str
                 *print_params(machine.params, names),
                 *(line for each in reuse.variables for line in _variable(each, names)),
             ],
-            [f"initial {place.path(machine.initial, place.outer)}"],
+            _initial(machine, place.path(machine.initial, place.outer)),
             printer.states(machine.states, place),
         ),
     )
+
+
+def _initial(owner: StateMachine | State, name: str) -> list[str]:
+    return documented(doc_of(owner.docs, "initial"), [f"initial {name}"])
 
 
 def _variable(variable: Variable, names: Names) -> list[str]:
@@ -77,7 +82,11 @@ class _Printer:
                 target = place.path(resume.target, place.outer[:1])
                 return [f"{deep}history {state.name} -> {target}"]
             case StateKind.CHOICE:
-                branches = [_branch(each, place) for each in state.transitions]
+                branches = [
+                    line
+                    for each in state.transitions
+                    for line in documented(each.doc, [_branch(each, place)])
+                ]
                 return block(f"choice {state.name}", branches)
             case StateKind.REGION:
                 return block(f"region {state.name}", *self._content(state, place))
@@ -106,22 +115,25 @@ class _Printer:
         """The initial state and the states of a composite state or region."""
         assert state.initial is not None
         initial = place.path(state.initial, (level(state),))
-        return [f"initial {initial}"], self.states(state.states, place.inside(state))
+        return _initial(state, initial), self.states(state.states, place.inside(state))
 
     def _own(self, state: State) -> list[str]:
         """What a state does: its activity, and its effects on entry and exit."""
         lines = []
         if state.activity is not None:
-            lines.append(_activity(state.activity, self.names))
-        if state.entry:
-            lines.append(f"entry / {_effects(state.entry)}")
-        if state.exit:
-            lines.append(f"exit / {_effects(state.exit)}")
+            lines += documented(state.activity.doc, [_activity(state.activity, self.names)])
+        for word, effects in (("entry", state.entry), ("exit", state.exit)):
+            if effects:
+                lines += documented(doc_of(state.docs, word), [f"{word} / {_effects(effects)}"])
         return lines
 
     def _transitions(self, state: State, place: Place) -> list[str]:
         levels = place.from_state(state)
-        return [_transition(each, state, place, levels) for each in state.transitions]
+        return [
+            line
+            for each in state.transitions
+            for line in documented(each.doc, [_transition(each, state, place, levels)])
+        ]
 
 
 def _transition(

@@ -51,14 +51,14 @@ class Operation(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class BehaviorUse(Node):
+class BehaviorUse(Documented):
     """`behavior Machine`."""
 
     machine: Ref[StateMachine]
 
 
 @dataclass(slots=True, eq=False)
-class PartValue(Node):
+class PartValue(Documented):
     """`name = value` in a part."""
 
     name: Word
@@ -66,7 +66,7 @@ class PartValue(Node):
 
 
 @dataclass(slots=True, eq=False)
-class CommunicationSettings(Node):
+class CommunicationSettings(Documented):
     """`communication zyre { ifname = "eth0" }`."""
 
     technology: Word
@@ -91,7 +91,7 @@ class PortRef(Node):
 
 
 @dataclass(slots=True, eq=False)
-class Connector(Node):
+class Connector(Documented):
     """`connect source -> target`."""
 
     source: PortRef

@@ -39,7 +39,7 @@ class ResultMapping(Node):
 
 
 @dataclass(slots=True, eq=False)
-class Activity(Node):
+class Activity(Documented):
     """`do function(...) gives (...)`."""
 
     function: Ref[Function | Operation]
@@ -109,7 +109,7 @@ Effect = Send | Assignment
 
 
 @dataclass(slots=True, eq=False)
-class Transition(Node):
+class Transition(Documented):
     """`on trigger [guard] / effects -> target`; what is not written is None or empty."""
 
     internal: bool
@@ -120,21 +120,21 @@ class Transition(Node):
 
 
 @dataclass(slots=True, eq=False)
-class Entry(Node):
+class Entry(Documented):
     """`entry / effects`."""
 
     effects: list[Effect]
 
 
 @dataclass(slots=True, eq=False)
-class Exit(Node):
+class Exit(Documented):
     """`exit / effects`."""
 
     effects: list[Effect]
 
 
 @dataclass(slots=True, eq=False)
-class Initial(Node):
+class Initial(Documented):
     """`initial State`."""
 
     target: Ref[Vertex]
@@ -148,7 +148,7 @@ class FinalState(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Branch(Node):
+class Branch(Documented):
     """`[guard] / effects -> target` or `else ... -> target` in a choice.
 
     `otherwise` is the word `else`, or empty.

@@ -31,7 +31,7 @@ class Role(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class EnvironmentUse(Node):
+class EnvironmentUse(Documented):
     """`environment Name` in a swarm."""
 
     environment: Ref[Environment]
@@ -46,7 +46,7 @@ class Swarm(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class FitnessUse(Node):
+class FitnessUse(Documented):
     """`fitness Name` in a swarm."""
 
     fitness: Ref[Fitness]
@@ -61,7 +61,7 @@ class FitnessInput(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Objective(Node):
+class Objective(Documented):
     """`maximize expression` or `minimize expression`."""
 
     goal: Literal["maximize", "minimize"]
@@ -77,7 +77,7 @@ class Fitness(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Setting(Node):
+class Setting(Documented):
     """`steps 1000`, `evaluations 50` or `seed 42`."""
 
     name: Literal["steps", "evaluations", "seed"]
@@ -85,7 +85,7 @@ class Setting(Node):
 
 
 @dataclass(slots=True, eq=False)
-class CountRange(Node):
+class CountRange(Documented):
     """`count of role in lower .. upper`."""
 
     role: Ref[Role]
@@ -94,7 +94,7 @@ class CountRange(Node):
 
 
 @dataclass(slots=True, eq=False)
-class ParamRange(Node):
+class ParamRange(Documented):
     """`role.param in lower .. upper step step`."""
 
     role: Ref[Role]
@@ -113,14 +113,14 @@ class Optimization(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class World(Node):
+class World(Documented):
     """`world "file"`."""
 
     file: Word
 
 
 @dataclass(slots=True, eq=False)
-class Size(Node):
+class Size(Documented):
     """`size 100 m x 100 m`, the lengths as written."""
 
     width: str

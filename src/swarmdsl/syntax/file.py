@@ -34,21 +34,21 @@ class Package(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class ImportFile(Node):
+class ImportFile(Documented):
     """`import "file"`."""
 
     path: Word
 
 
 @dataclass(slots=True, eq=False)
-class ImportRos(Node):
+class ImportRos(Documented):
     """`import ros "folder"`."""
 
     path: Word
 
 
 @dataclass(slots=True, eq=False)
-class ImportLibrary(Node):
+class ImportLibrary(Documented):
     """`import package.Name` or `import package.*`."""
 
     name: str

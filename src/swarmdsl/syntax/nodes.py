@@ -36,7 +36,7 @@ class Node:
 
 @dataclass(slots=True, eq=False)
 class Documented(Node):
-    """A node that a `///` comment before it documents."""
+    """A node that a `///` comment before it documents: whatever stands on a line of its own."""
 
     doc: str = field(default="", init=False)
 
