@@ -43,6 +43,7 @@ from swarmdsl.syntax import (
     PortRef,
     Ref,
     Role,
+    State,
     StateMachine,
     Swarm,
     TypeRef,
@@ -71,13 +72,14 @@ def link(project: Project, report: Diagnostics) -> None:
             elif not isinstance(node, Activity):
                 _link_top_level(node, scopes[file], report)
     params = _params_of_members(project)
+    parts = _parts_of_members(project)
     for file, owner in owners:
         scope = scopes[file]
         values: Values = {}
         match owner:
             case StateMachine():
                 link_machine(owner, scope, report)
-                _link_activities(owner, scope, report)
+                _link_activities(owner, parts[owner], scope, report)
                 values = {
                     **params[owner],
                     **_named(owner.items, Param),
@@ -145,6 +147,33 @@ def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Para
     return defaultdict(dict, found)
 
 
+def _parts_of_members(project: Project) -> Mapping[StateMachine, dict[str, list[Part]]]:
+    """For each machine the parts by name that all members which run it have in common.
+
+    A member runs its behaviour and the machines that are reused in it.
+    """
+    found: dict[StateMachine, dict[str, list[Part]]] = {}
+    for _, owner in project.declarations():
+        if not isinstance(owner, (Member, Component)):
+            continue
+        parts = _named(all_items(owner, Part), Part)
+        work = [use.machine.target for use in all_items(owner, BehaviorUse)]
+        seen: set[StateMachine] = set()
+        while work:
+            machine = work.pop()
+            if machine is None or machine in seen:
+                continue
+            seen.add(machine)
+            work += [
+                node.machine.target
+                for node in walk(machine)
+                if isinstance(node, State) and node.machine is not None
+            ]
+            common = found.setdefault(machine, {name: [] for name in parts})
+            found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
+    return defaultdict(dict, found)
+
+
 def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
     """The items of a kind; of two with one name the first counts."""
     named: dict[str, K] = {}
@@ -154,22 +183,40 @@ def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
     return named
 
 
-def _link_activities(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve what each state does: a function, or `Component.operation`."""
+def _link_activities(
+    machine: StateMachine,
+    parts: Mapping[str, list[Part]],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Resolve what each state does: a function, `part.operation` or `Component.operation`."""
     for node in walk(machine):
         if not isinstance(node, Activity):
             continue
         ref = node.function
-        owner, _, name = ref.name.rpartition(".")
-        component = scope.one(owner, Component)
-        if component is None:
+        before, _, name = ref.name.rpartition(".")
+        places = parts.get(before, [])
+        node.owner = places[0] if places else scope.one(before, Component)
+        if node.owner is None:
             ref.target = scope.resolve(ref.name, ref.span, Function, report)
             continue
-        operations = _named(all_items(component, Operation), Operation)
+        components = [part.component.target for part in places]
+        if isinstance(node.owner, Component):
+            components = [node.owner]
+        known = [component for component in components if component is not None]
+        if len(known) < len(components):
+            continue  # the component of a part is unknown
+        operations = _common_operations(known)
         ref.target = operations.get(name)
         if ref.target is None and name not in scope.lost:
-            kind = f"operation of {bare(kind_of(component))} `{owner}`"
+            kind = f"operation of {bare(kind_of(node.owner))} `{before}`"
             report_unresolved(kind, name, ref.span, operations, None, report)
+
+
+def _common_operations(components: list[Component]) -> dict[str, Operation]:
+    """The operations that all of the components have, from one base where they are several."""
+    first, *others = (_named(all_items(each, Operation), Operation) for each in components)
+    return {k: v for k, v in first.items() if all(other.get(k) is v for other in others)}
 
 
 # ---- optimization

@@ -79,7 +79,7 @@ def systems(draw: st.DrawFn) -> System:
     behaviours = [
         machines(draw, names.pop(), world) for _ in range(draw(st.sampled_from([1, 2, 0])))
     ]
-    members = _members(draw, names, types, components, behaviours)
+    members = _members(draw, names, types, components, behaviours, functions)
     fitness = [_fitness(draw, names.pop()) for _ in range(draw(st.integers(0, 1)))]
     environments = [_environment(draw, names.pop()) for _ in range(draw(st.integers(0, 1)))]
     swarms = [
@@ -240,9 +240,14 @@ def _components(
             _params(draw, [f"rate{number}", f"s{number}"]),
             doc=draw(docs),
         )
-        operations = []
+        operations: list[str] = []
         all_interfaces += [left.pop(0) for _ in range(draw(st.integers(0, len(left))))]
         all_functions += [right.pop(0) for _ in range(draw(st.integers(0, len(right))))]
+        if base is not None:
+            inherited = asked_of(snake_case(name), base.operations, all_functions)
+            # Two names can have one namespace: `x` and `_x`.
+            all_functions += [each for each in inherited if each not in all_functions]
+            operations += [each.name for each in inherited]
         for operation in draw(st.sampled_from([(), ("zoom",), (f"look{number}", "s_t")])):
             operation = f"{operation}{number}"
             type_ = Named(package, f"{name}{camel_case(operation)}")
@@ -257,19 +262,34 @@ def _components(
             operations.append(offered)
         own = replace(own, operations=tuple(operations))
         if base is not None:
-            inherited = tuple(
+            defaults = tuple(
                 replace(each, default=draw(literals(each.type))) if draw(st.booleans()) else each
                 for each in base.params
             )
             own = replace(
                 own,
                 ports=base.ports + own.ports,
-                params=inherited + own.params,
-                operations=base.operations + own.operations,
+                params=defaults + own.params,
                 base=base.name,
             )
         found.append(own)
     return found, all_interfaces + left, all_functions + right
+
+
+def asked_of(
+    namespace: str, operations: Sequence[str], functions: Sequence[Function]
+) -> list[Function]:
+    """The same operations, with servers in another namespace."""
+    found = [each for name in operations for each in functions if each.name == name]
+    names = [each.communication.name.rpartition("/")[2] for each in found]
+    return [
+        replace(
+            each,
+            name=f"{namespace}_{name}",
+            communication=replace(each.communication, name=f"{namespace}/{name}"),
+        )
+        for each, name in zip(found, names, strict=True)
+    ]
 
 
 def _members(
@@ -278,7 +298,9 @@ def _members(
     types: list[Type],
     components: list[Component],
     behaviours: list[StateMachine],
+    functions: list[Function],
 ) -> list[Member]:
+    """Members; the functions that their parts offer are added to the `functions`."""
     found: list[Member] = []
     for number in range(draw(st.integers(0, 3))):
         base = draw(st.sampled_from(found)) if found and draw(st.booleans()) else None
@@ -301,11 +323,14 @@ def _members(
             component = draw(st.sampled_from(components))
             chosen = [each for each in component.params if draw(st.booleans())]
             values = [(each.name, expressions(draw, each.type, leaves)) for each in chosen]
+            offered = asked_of(f"part{number}{place}", component.operations, functions)
+            functions += offered
             parts.append(
                 Part(
                     f"part{number}{place}",
                     component.name,
                     tuple((name, value) for name, value in values if value is not None),
+                    tuple(each.name for each in offered),
                     draw(docs),
                     docs_of(draw, docs, *(name for name, value in values if value is not None)),
                 )

@@ -58,11 +58,15 @@ class CommunicationSettings:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A component in its place in a member; `values` are the params set there."""
+    """A component in its place in a member; `values` are the params set there.
+
+    `operations` are names of functions: those of the component, asked of this part.
+    """
 
     name: str
     component: str
     values: tuple[tuple[str, Expression], ...]
+    operations: tuple[str, ...] = ()
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)

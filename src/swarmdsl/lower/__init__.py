@@ -14,12 +14,13 @@ from swarmdsl.lower.architecture import (
     lower_member,
     lower_swarm,
 )
-from swarmdsl.lower.context import make_context
+from swarmdsl.lower.context import make_context, operation_owners
 from swarmdsl.lower.interfaces import (
     lower_event,
     lower_function,
     lower_interface,
     lower_operations,
+    lower_services,
 )
 from swarmdsl.lower.machines import lower_machine
 from swarmdsl.lower.optimization import lower_fitness, lower_optimization
@@ -34,6 +35,7 @@ from swarmdsl.syntax import (
     Function,
     Member,
     MessageType,
+    Part,
     ServiceType,
     StateMachine,
     StructType,
@@ -67,9 +69,8 @@ def lower(project: Project, name: str | None = None) -> ir.System:
                 functions.append(lower_function(declaration, context))
             case Component():
                 components.append(lower_component(declaration, context))
-                services, offered = lower_operations(declaration, file, context)
-                interfaces += services
-                functions += offered
+                interfaces += lower_services(declaration, context)
+                functions += lower_operations(declaration, context)
             case Member():
                 members.append(lower_member(declaration, context))
             case StateMachine():
@@ -80,12 +81,15 @@ def lower(project: Project, name: str | None = None) -> ir.System:
                 fitness.append(lower_fitness(declaration, context))
             case Swarm():
                 swarms.append(lower_swarm(declaration, context))
+    parts = (owner for owner in operation_owners(used) if isinstance(owner, Part))
+    functions += (function for part in parts for function in lower_operations(part, context))
     first = project.files[0]
     return ir.System(
         name=name or first.package,
         interfaces=tuple(interfaces),
         events=(*events, *context.monitored()),
-        functions=tuple(functions),
+        # A part that is called like its component has the servers of the component.
+        functions=tuple({function.name: function for function in functions}.values()),
         components=tuple(components),
         members=tuple(members),
         machines=tuple(machines),

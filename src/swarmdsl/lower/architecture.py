@@ -21,7 +21,6 @@ from swarmdsl.syntax import (
     FitnessUse,
     Member,
     Multiplicity,
-    Operation,
     Param,
     Part,
     Port,
@@ -41,7 +40,7 @@ def lower_component(component: Component, context: Context) -> ir.Component:
         kind=component.kind,
         ports=_ports(all_items(component, Port), context),
         params=lower_params(all_items(component, Param), context),
-        operations=tuple(context.operations[item] for item in all_items(component, Operation)),
+        operations=context.offered(component),
         behavior=_behavior(component, context),
         base=context.name(component.base) if component.base is not None else None,
         doc=component.doc,
@@ -147,6 +146,7 @@ def _part(part: Part, context: Context) -> ir.Part:
         values=tuple(
             (str(value.name), lower_expression(value.value, context)) for value in part.values
         ),
+        operations=context.offered(part),
         doc=part.doc,
         docs=lower_docs(part.values),
         origin=part.name.span,

@@ -13,9 +13,11 @@ from swarmdsl.enums import underlying
 from swarmdsl.inference import Typing
 from swarmdsl.inheritance import all_items
 from swarmdsl.interfaces import Interfaces
+from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.syntax import (
+    Activity,
     BehaviorUse,
     Component,
     Declaration,
@@ -24,6 +26,7 @@ from swarmdsl.syntax import (
     MonitorTrigger,
     Operation,
     Param,
+    Part,
     Ref,
     StateMachine,
     TypeRef,
@@ -37,14 +40,17 @@ class Context:
     """Passed through lowering.
 
     `names` gives each declaration its name in the system: its own, with the package
-    before it where two packages use the same. `behaving` are the members and components by machine.
+    before it where two packages use the same. `operations` gives the functions of operations
+    by the namespace of their server, `services` the types of these servers.
+    `behaving` are the members and components by machine.
     In a machine that another one reuses, `variables` and `values` say what its variables
     are called there and which values its params have. `enums` are the types of the numbers
     behind enums.
     """
 
     names: Mapping[Declaration, str]
-    operations: Mapping[Operation, str]
+    operations: Mapping[tuple[str, Operation], str]
+    services: Mapping[Operation, ir.Named]
     monitors: Mapping[tuple[str, ir.Type], ir.Event]
     typing: Typing
     behaving: Mapping[StateMachine, list[Member | Component]]
@@ -54,9 +60,24 @@ class Context:
 
     def name(self, ref: Ref[Any]) -> str:
         """The name of what a resolved reference means."""
-        if isinstance(ref.target, Operation):
-            return self.operations[ref.target]
         return self.names[cast("Declaration", ref.target)]
+
+    def function(self, activity: Activity) -> str:
+        """The name of the function that an activity calls."""
+        operation = activity.function.target
+        if not isinstance(operation, Operation):
+            return self.name(activity.function)
+        assert activity.owner is not None
+        return self.operations[self.namespace(activity.owner), operation]
+
+    def namespace(self, owner: Component | Part) -> str:
+        """Where the servers of its operations are, from the namespace of the robot."""
+        return str(owner.name) if isinstance(owner, Part) else snake_case(self.names[owner])
+
+    def offered(self, owner: Component | Part) -> tuple[str, ...]:
+        """The functions that its operations are, inherited ones first."""
+        namespace = self.namespace(owner)
+        return tuple(self.operations[namespace, item] for item in operations_of(owner))
 
     def reusing(
         self, variables: Mapping[Variable, str], values: Mapping[Param, ir.Expression]
@@ -110,18 +131,41 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
                 if use.machine.target is not None:
                     behaving.setdefault(use.machine.target, []).append(declaration)
     taken = set(names.values())
-    operations: dict[Operation, str] = {}
-    for _, declaration in pairs:
+    operations: dict[tuple[str, Operation], str] = {}
+    services: dict[Operation, ir.Named] = {}
+    typing = Typing(Interfaces(project.declarations()), Diagnostics())
+    context = Context(names, operations, services, {}, typing, behaving, enums=enums)
+    for file, declaration in pairs:
         for item in declaration.items if isinstance(declaration, Component) else ():
             if isinstance(item, Operation):
-                name = f"{snake_case(names[declaration])}_{item.name}"
+                service = f"{declaration.name}{camel_case(item.name)}"
+                services[item] = interface_name(file, service)
+    for owner in operation_owners(pairs):
+        namespace = context.namespace(owner)
+        for item in operations_of(owner):
+            if (namespace, item) not in operations:
+                name = f"{namespace}_{item.name}"
                 while name in taken:
                     name += "_"
                 taken.add(name)
-                operations[item] = name
-    monitors = _monitors(pairs, taken)
-    typing = Typing(Interfaces(project.declarations()), Diagnostics())
-    return Context(names, operations, monitors, typing, behaving, enums=enums)
+                operations[namespace, item] = name
+    return replace(context, monitors=_monitors(pairs, taken))
+
+
+def operation_owners(pairs: Iterable[tuple[File, Declaration]]) -> list[Component | Part]:
+    """What can be asked for operations: the components, then the parts of the members."""
+    owners = [declaration for _, declaration in pairs]
+    return [
+        *(owner for owner in owners if isinstance(owner, Component)),
+        *(item for owner in owners if isinstance(owner, Member) for item in all_items(owner, Part)),
+    ]
+
+
+def operations_of(owner: Component | Part) -> list[Operation]:
+    """The operations of a component, or of the one that a part is."""
+    component = owner.component.target if isinstance(owner, Part) else owner
+    assert component is not None
+    return all_items(component, Operation)
 
 
 def _monitors(

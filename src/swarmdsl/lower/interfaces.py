@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl import ir
 from swarmdsl.enums import numbers, underlying
 from swarmdsl.ir.types import INT
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File
-from swarmdsl.lower.context import Context
+from swarmdsl.lower.context import Context, operations_of
 from swarmdsl.lower.expressions import lower_expression, lower_optional
-from swarmdsl.naming import camel_case, snake_case
+from swarmdsl.naming import snake_case
 from swarmdsl.syntax import (
     ActionType,
     Communication,
@@ -25,6 +25,7 @@ from swarmdsl.syntax import (
     MessageType,
     Operation,
     Param,
+    Part,
     ServiceType,
     StructType,
 )
@@ -88,17 +89,11 @@ def _constant(constant: Constant, context: Context) -> ir.Constant:
     )
 
 
-def lower_operations(
-    component: Component, file: File, context: Context
-) -> tuple[list[ir.Service], list[ir.Function]]:
-    """The operations of a component: functions called as services of its own package."""
-    services = []
-    functions = []
-    owner = context.names[component]
+def lower_services(component: Component, context: Context) -> Iterator[ir.Service]:
+    """The services that the component's own operations are, in its package."""
     for operation in component.items:
         if not isinstance(operation, Operation):
             continue
-        type_ = interface_name(file, f"{owner}{camel_case(operation.name)}")
         fields = {
             direction: tuple(
                 ir.Field(str(p.name), context.type_of(p.type), p.doc, p.name.span)
@@ -107,15 +102,25 @@ def lower_operations(
             )
             for direction in ("in", "out")
         }
-        origin = operation.name.span
-        services.append(
-            ir.Service(type_, fields["in"], fields["out"], False, operation.doc, origin)
+        yield ir.Service(
+            context.services[operation],
+            fields["in"],
+            fields["out"],
+            False,
+            operation.doc,
+            operation.name.span,
         )
-        server = f"{snake_case(owner)}/{operation.name}"
-        call = ir.Communication("service", server, type_, "", origin)
-        name = context.operations[operation]
-        functions.append(ir.Function(name, "abstraction", call, (), (), operation.doc, origin))
-    return services, functions
+
+
+def lower_operations(owner: Component | Part, context: Context) -> Iterator[ir.Function]:
+    """The functions that ask a component or a part for its operations, inherited ones first."""
+    namespace = context.namespace(owner)
+    for operation in operations_of(owner):
+        origin = operation.name.span
+        server = f"{namespace}/{operation.name}"
+        call = ir.Communication("service", server, context.services[operation], "", origin)
+        name = context.operations[namespace, operation]
+        yield ir.Function(name, "abstraction", call, (), (), operation.doc, origin)
 
 
 def lower_event(event: Event, context: Context) -> ir.Event:

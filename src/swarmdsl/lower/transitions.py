@@ -162,7 +162,7 @@ def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
         return None
     context = frame.context
     return ir.Activity(
-        function=context.name(found.function),
+        function=context.function(found),
         arguments=_arguments(found.arguments, context),
         goal_callback=str(found.goal_callback) if found.goal_callback else None,
         results=tuple(

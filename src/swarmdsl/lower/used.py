@@ -43,7 +43,7 @@ def _targets(node: Node) -> Iterator[Node]:
         value = getattr(node, attribute)
         if isinstance(value, Ref):
             value = value.target
-        elif attribute != "target":
+        elif attribute not in ("target", "owner"):
             continue
         if isinstance(value, Node):
             yield value

@@ -29,7 +29,7 @@ from swarmdsl.printer.composition import (
 from swarmdsl.printer.interfaces import print_event, print_function, print_interface
 from swarmdsl.printer.layout import UnprintableError, documented
 from swarmdsl.printer.machines import print_machine
-from swarmdsl.printer.names import Names, make_names, own_operations
+from swarmdsl.printer.names import Names, all_parts, make_names, own_operations
 from swarmdsl.printer.normal import normalized
 from swarmdsl.printer.reuse import find_reuse
 from swarmdsl.syntax_advice import keywords
@@ -55,10 +55,10 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
     """The lines of each declaration.
 
     A component brings functions and services with it, its operations. It stands after those
-    before them, so that all come back in their order.
+    before them, so that all come back in their order. The functions of parts are the last.
     """
-    operations = {each.name: own_operations(each, system) for each in system.components}
-    offered = {name for own in operations.values() for name in own}
+    offered = set(names.operations)
+    known = set(offered)
     services = {system.function(name).communication.type for name in offered}
     interfaces, functions = deque(system.interfaces), deque(system.functions)
 
@@ -75,13 +75,21 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
     yield from some_functions()
     for component in system.components:
         yield print_component(component, system, names)
-        for name in operations[component.name]:
-            if functions[0].name != name or interfaces[0].type != functions[0].communication.type:
+        for name in component.operations:
+            # Not there any more where another component has its servers in the same namespace.
+            if name not in known:
+                continue
+            known.remove(name)
+            if functions.popleft().name != name:
                 raise UnprintableError(f"operation `{name}` is not in the order of the components")
-            functions.popleft()
-            interfaces.popleft()
+        for name in own_operations(component, system):
+            if interfaces.popleft().type != system.function(name).communication.type:
+                raise UnprintableError(f"operation `{name}` is not in the order of the components")
         yield from some_interfaces()
         yield from some_functions()
+    left = {name: None for part in all_parts(system) for name in part.operations if name in known}
+    if list(left) != [function.name for function in functions]:
+        raise UnprintableError("the functions of parts are not in the order of the parts")
     yield from (print_member(member, system, names) for member in system.members)
     machines = {machine.name: machine for machine in system.machines}
     for machine in system.machines:

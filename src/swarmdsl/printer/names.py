@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from swarmdsl.ir import Array, Component, Function, Named, Primitive, System, Type
+from swarmdsl.ir import Array, Component, Function, Named, Part, Primitive, System, Type
 from swarmdsl.ir.types import PRIMITIVES
 
 
@@ -13,7 +13,7 @@ from swarmdsl.ir.types import PRIMITIVES
 class Names:
     """`own` are the interfaces that the model declares itself.
 
-    `operations` are the functions that components offer, as `Component.operation`.
+    `operations` are the functions that components and parts offer, as `Component.operation`.
     """
 
     own: frozenset[Named]
@@ -36,14 +36,21 @@ class Names:
 
 def make_names(system: System) -> Names:
     """Gather what has another name in the text than in the system."""
+    # The last one counts, and a component may be asked in every machine.
+    owners: list[Part | Component] = [*all_parts(system), *system.components]
     return Names(
         frozenset(known.type for known in system.interfaces if not known.external),
         {
-            name: f"{component.name}.{operation_name(system.function(name))}"
-            for component in system.components
-            for name in own_operations(component, system)
+            name: f"{owner.name}.{operation_name(system.function(name))}"
+            for owner in owners
+            for name in owner.operations
         },
     )
+
+
+def all_parts(system: System) -> list[Part]:
+    """The parts of all members."""
+    return [part for member in system.members for part in member.parts]
 
 
 def own_operations(component: Component, system: System) -> tuple[str, ...]:

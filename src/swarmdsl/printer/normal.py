@@ -19,6 +19,8 @@ from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
 from swarmdsl.ir import Component, Member, Named, Param, StateMachine, System
+from swarmdsl.naming import camel_case
+from swarmdsl.printer.names import all_parts, operation_name, own_operations
 from swarmdsl.printer.reuse import find_reuse
 
 Owner = TypeVar("Owner", Component, Member)
@@ -31,8 +33,13 @@ def normalized(system: System) -> System:
 
 def _one_package(system: System) -> System:
     package = system.name.replace(".", "_")
-    offered = {name for component in system.components for name in component.operations}
-    services = {system.function(name).communication.type for name in offered}
+    offered = {name for owner in system.components for name in owner.operations}
+    offered |= {name for part in all_parts(system) for name in part.operations}
+    services = {
+        function.communication.type: f"{component.name}{camel_case(operation_name(function))}"
+        for component in system.components
+        for function in map(system.function, own_operations(component, system))
+    }
     own = [each.type for each in system.interfaces if not each.external]
     others = {
         *(each.name for each in system.events),
@@ -50,7 +57,9 @@ def _one_package(system: System) -> System:
     for type_ in own:
         name = type_.name
         shared = name in others or (count[name] > 1 and type_.package != package)
-        if shared and type_ not in services:
+        if type_ in services:
+            name = services[type_]
+        elif shared:
             name = f"{type_.package}_{name}"
             while name in taken:
                 name += "_"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from swarmdsl.syntax.nodes import Documented, Node
 
 if TYPE_CHECKING:
-    from swarmdsl.syntax.architecture import Operation
+    from swarmdsl.syntax.architecture import Component, Operation, Part
     from swarmdsl.syntax.interfaces import Event, Function, Param
     from swarmdsl.syntax.nodes import Expression, Ref, TypeRef, Word
 
@@ -40,13 +40,14 @@ class ResultMapping(Node):
 
 @dataclass(slots=True, eq=False)
 class Activity(Documented):
-    """`do function(...) gives (...)`."""
+    """`do function(...) gives (...)`; `owner` is what is asked for an operation."""
 
     function: Ref[Function | Operation]
     goal_callback: Word | None
     arguments: list[Argument]
     result_callback: Word | None
     results: list[ResultMapping]
+    owner: Component | Part | None = field(default=None, init=False, metadata={"elsewhere": True})
 
 
 @dataclass(slots=True, eq=False)
