@@ -10,20 +10,19 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
-from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.inheritance import all_items
 from swarmdsl.link_constants import open_cycles
 from swarmdsl.link_machines import link_machine
 from swarmdsl.link_types import TypeLinker
+from swarmdsl.link_values import ValueLinker, Values
 from swarmdsl.load import Project
 from swarmdsl.scopes import FileScope, bare, kind_of, report_unresolved
-from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
     Activity,
     BehaviorUse,
     Component,
     Connector,
-    Constant,
     CountRange,
     EnumType,
     Environment,
@@ -32,7 +31,6 @@ from swarmdsl.syntax import (
     FitnessInput,
     Function,
     Member,
-    NameUse,
     Node,
     Operation,
     Optimization,
@@ -57,13 +55,17 @@ _TOP_LEVEL: dict[str, type[Any]] = {
 }
 
 K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
-Values = Mapping[str, Variable | Param | FitnessInput]
 
 
 def link(project: Project, report: Diagnostics) -> None:
     """Resolve every name of every file."""
     scopes = {file: FileScope(file, project) for file in project.files}
     types = TypeLinker(scopes, report)
+    enums = {
+        node.type: node
+        for _, node in project.declarations()
+        if isinstance(node, EnumType) and node.type is not None
+    }
     owners = [*project.declarations(), *project.optimizations()]
     for file, owner in owners:
         for node in walk(owner):
@@ -92,30 +94,8 @@ def link(project: Project, report: Diagnostics) -> None:
                 values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
             case Optimization():
                 _link_optimization(owner, scope, report)
-        link_values(owner, values, scope, report)
+        ValueLinker(scope, enums, report).link(owner, values)
     open_cycles(project, report)
-
-
-def link_values(owner: Node, values: Values, scope: FileScope, report: Diagnostics) -> None:
-    """Bind the names in the expressions of a declaration: its own values, then constants."""
-    for node in walk(owner):
-        if not isinstance(node, NameUse) or node.name == "event":
-            continue
-        node.target = values.get(node.name)
-        if node.target is None:
-            node.target = scope.one(node.name, Constant) or scope.one(node.name, EnumType)
-        if node.target is None and node.name not in scope.lost:
-            constants = scope.names(Constant)
-            enums = {name: scope.one(name, EnumType) for name in scope.names(EnumType)}
-            meant = [
-                f"{name}.{node.name}"
-                for name, enum in enums.items()
-                if enum is not None and any(value.name == node.name for value in enum.values)
-            ]
-            help_ = did_you_mean(node.name, [*values, *constants, *enums])
-            if meant:
-                help_ = f"write {listed(meant)}"
-            report.report("unresolved-name", node.span, kind="value", name=node.name, help=help_)
 
 
 def _link_top_level(node: Node, scope: FileScope, report: Diagnostics) -> None:

@@ -122,6 +122,16 @@ class TypeLinker:
                 help=f"write `{_OTHER_NAMES[ref.name]}`",
             )
             return None
+        package, _, name = ref.name.rpartition(".")
+        if package and "." not in package and package not in scope.packages and scope.complete:
+            self._report.report(
+                "unresolved-name",
+                ref.span,
+                kind="type",
+                name=ref.name,
+                help=f"write `{package}/{name}` for an interface of ROS",
+            )
+            return None
         found = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
         if found is None or isinstance(found, AliasType):
             return found

@@ -101,8 +101,10 @@ def bare(kind: str) -> str:
 
 
 def kind_of_any(kinds: tuple[type[Node], ...]) -> str:
-    """What a person calls something of one of these kinds: several are those of types."""
-    return kind_of(kinds[0]) if len(kinds) == 1 else "a type"
+    """What a person calls something of one of these kinds: several are those of types or values."""
+    if len(kinds) == 1:
+        return kind_of(kinds[0])
+    return "a value" if Constant in kinds else "a type"
 
 
 class FileScope:
@@ -115,6 +117,7 @@ class FileScope:
         self._imported = [
             (other, _by_name(other, imported_name(statement))) for statement, other in file.imports
         ]
+        self.packages = {file.package, *(other.package for other, _ in self._imported)}
         # Whatever is missing may stand in text that could not be parsed or read.
         self.lost = file.parsed.lost_names.union(
             *(other.parsed.lost_names for other, _ in self._imported)
@@ -225,7 +228,11 @@ class FileScope:
         for _, imported in self._imported:
             names.update(imported)
         candidates = [key for key, node in names.items() if isinstance(node, kinds)]
-        report_unresolved(kind, name, at, [*candidates, *built_in], names, report)
+        package, _, _ = name.rpartition(".")
+        if package in self.packages:
+            candidates = [f"{package}.{key}" for key in candidates if self.find(f"{package}.{key}")]
+            names = {key: self.find(key)[0][1] for key in candidates}
+        report_unresolved(kind, name, at, [*built_in, *candidates], names, report)
 
     def _way_to(self, other: File, name: str) -> str:
         """How this file imports what another file declares: that of a library by its package."""

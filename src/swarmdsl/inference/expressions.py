@@ -70,9 +70,9 @@ class Typing:
                 self.report.report(
                     "bad-operand",
                     tree.span,
-                    operator=enum.name,
+                    operator=tree.span.text,
                     operands="its own: name one of its values",
-                    help=f"write `{enum.name}.{enum.values[0].name}`" if enum.values else None,
+                    help=f"write `{tree.span.text}.{enum.values[0].name}`" if enum.values else None,
                 )
                 return None
             case NameUse(target=None):
