@@ -48,6 +48,13 @@ _format = click.option(
 _allow = click.option(
     "--allow", multiple=True, metavar="NAME", help="Silence a warning; may be repeated."
 )
+_warn = click.option(
+    "--warn",
+    multiple=True,
+    metavar="NAME",
+    help="Report a warning that is silent unless asked for, or that swarm.toml silences or denies. "
+    "May be repeated.",
+)
 _deny = click.option(
     "--deny",
     multiple=True,
@@ -85,11 +92,16 @@ def cli() -> None:
 @cli.command(epilog="Example: swarmc check examples/search_and_rescue --format concise")
 @_files
 @_allow
+@_warn
 @_deny
 @_format
 @_debug
 def check(
-    paths: tuple[Path, ...], allow: tuple[str, ...], deny: tuple[str, ...], format_: str
+    paths: tuple[Path, ...],
+    allow: tuple[str, ...],
+    warn: tuple[str, ...],
+    deny: tuple[str, ...],
+    format_: str,
 ) -> int:
     """Find mistakes in models.
 
@@ -97,11 +109,12 @@ def check(
     names, or for the current folder.
     """
     from swarmdsl import compiler
-    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.diagnostics import Diagnostics, Level
     from swarmdsl.project.command_line import run_settings
 
     report = Diagnostics()
-    settings = run_settings(paths, allow, deny, report)
+    levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
+    settings = run_settings(paths, levels, report)
     if report.has_errors:
         return _conclude(compiler.Result(report, files=1), format_, sys.stdout)
     return _conclude(compiler.check(settings.sources, settings), format_, sys.stdout)
@@ -143,6 +156,7 @@ def check(
     "--dump-ir", is_flag=True, help="Print the intermediate representation and write nothing."
 )
 @_allow
+@_warn
 @_deny
 @_format
 @_debug
@@ -154,6 +168,7 @@ def build(
     force: bool,
     dump_ir: bool,
     allow: tuple[str, ...],
+    warn: tuple[str, ...],
     deny: tuple[str, ...],
     format_: str,
 ) -> int:
@@ -163,11 +178,12 @@ def build(
     what an earlier build made and this one does not is removed.
     """
     from swarmdsl import compiler
-    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.diagnostics import Diagnostics, Level
     from swarmdsl.project.command_line import requests, run_settings
 
     report = Diagnostics()
-    settings = run_settings(paths, allow, deny, report)
+    levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
+    settings = run_settings(paths, levels, report)
     wanted = requests(targets, options, settings)
     stream = sys.stderr if dump_ir else sys.stdout
     if report.has_errors:
@@ -271,7 +287,8 @@ def explain(word: str | None) -> int:
     if word is None:
         width = max(map(len, CODES))
         for name, entry in CODES.items():
-            click.echo(f"{entry.code}  {name:<{width}}  {entry.severity}")
+            silent = " (if asked for)" if entry.silent else ""
+            click.echo(f"{entry.code}  {name:<{width}}  {entry.severity}{silent}")
         return OK
     code = pages.find_code(word)
     if code is None:

@@ -16,11 +16,15 @@ from typing import NamedTuple
 
 
 class Code(NamedTuple):
-    """One kind of diagnostic; `message` is filled in with `str.format`."""
+    """One kind of diagnostic; `message` is filled in with `str.format`.
+
+    A `silent` warning is reported only to whoever asks for it by its name.
+    """
 
     code: str
     severity: str
     message: str
+    silent: bool = False
 
 
 CODES: dict[str, Code] = {
@@ -102,10 +106,9 @@ CODES: dict[str, Code] = {
     "negative-delay": Code("SW0518", "error", "a delay cannot be negative"),
     "constant-guard": Code("SW0519", "warning", "this guard {held} holds"),
     "idle-variable": Code("SW0520", "warning", "variable `{name}` {fault}"),
-    "unhandled-event": Code("SW0521", "warning", "nothing waits for event `{name}`"),
-    "conflicting-regions": Code(
-        "SW0522", "warning", "event `{event}` leads out of `{state}` in two ways"
-    ),
+    "unhandled-event": Code("SW0521", "warning", "nothing{where} waits for event `{name}`"),
+    "conflicting-regions": Code("SW0522", "warning", "{event} leads out of `{state}` in two ways"),
+    "unsent-event": Code("SW0523", "warning", "nothing{where} sends event `{name}`", silent=True),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),

@@ -22,7 +22,7 @@ class Severity(Enum):
 
 
 class Level(Enum):
-    """What becomes of a warning: it is silenced, stays a warning, or is an error."""
+    """What becomes of a warning: it is silenced, is reported as one, or is an error."""
 
     ALLOW = "allow"
     WARN = "warn"
@@ -30,7 +30,7 @@ class Level(Enum):
 
 
 ALL_WARNINGS = "warnings"
-"""Stands for every warning whose level is not given by its own name."""
+"""Stands for every warning whose level is not given by its own name and that is not silent."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,9 @@ class Diagnostics:
 
     def _add(self, found: Diagnostic) -> None:
         if found.severity is Severity.WARNING:
-            level = self._levels.get(found.name, self._levels.get(ALL_WARNINGS, Level.WARN))
+            silent = CODES[found.name].silent
+            others = Level.ALLOW if silent else self._levels.get(ALL_WARNINGS, Level.WARN)
+            level = self._levels.get(found.name, others)
             if level is Level.ALLOW:
                 return
             if level is Level.DENY:

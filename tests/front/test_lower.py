@@ -265,3 +265,38 @@ def test_a_struct_is_a_message_that_an_event_can_carry(
     assert [(str(known.type), known.external) for known in system.interfaces] == [
         ("model/Place", False)
     ]
+
+
+def test_what_is_heard_on_one_topic_is_one_event(compiled: Callable[[str], ir.System]) -> None:
+    system = compiled(
+        """
+        event Low : std_msgs/Empty on "battery"
+        swarm event Found : std_msgs/Empty
+        statemachine M {
+          initial A
+          state A {
+            monitor "battery"             : std_msgs/Empty -> B
+            monitor "bridge/events/found" : std_msgs/Empty -> B
+            monitor "found"               : std_msgs/Empty -> B
+            after 3 s / send Found, send Low -> B
+          }
+          state B { monitor "found" : std_msgs/Empty -> Done }
+          final Done
+        }
+        """
+    )
+    transitions = [
+        transition
+        for state in system.machines[0].walk()
+        for transition in state.transitions
+        if not isinstance(transition.triggers[0], ir.TimeTrigger)
+    ]
+
+    assert [(event.name, event.incoming_topic) for event in system.events] == [
+        ("Low", "battery"),
+        ("Found", "bridge/events/found"),
+        ("Found_", "found"),
+    ]
+    assert [transition.triggers for transition in transitions] == [
+        (ir.EventTrigger(name),) for name in ("Low", "Found", "Found_", "Found_")
+    ]

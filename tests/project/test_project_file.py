@@ -12,6 +12,16 @@ from swarmdsl import compiler, explain
 from .conftest import ISLAND, MODEL
 
 UNREACHABLE = "lamps.swarm:10:9: {}[SW0503] state `Island` can never be reached\n"
+# `Start` comes from an operator.
+UNSENT = """\
+swarm event Start : std_msgs/Empty
+
+statemachine Hop {
+  initial Idle
+  state Idle { on Start -> Done }
+  final Done
+}
+"""
 # Without the dialect that has no delays, about which there would be a warning.
 PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
 
@@ -179,6 +189,9 @@ def test_the_project_is_that_of_the_first_file(swarmc, project, monkeypatch, tmp
         ("deny = ['warnings']", [], "error"),
         ("deny = ['warnings']\nwarn = ['unreachable-state']", [], "warning"),
         ("deny = ['unresolved-name']", [], "warning"),
+        ("deny = ['unreachable-state']", ["--warn", "SW0503"], "warning"),
+        ("deny = ['warnings']", ["--warn", "unreachable-state"], "warning"),
+        ("allow = ['warnings']", ["--warn", "warnings"], "warning"),
         ("deny = ['unhandled-outcome', 'shared-callback']", [], "warning"),
         ("", ["--allow", "unreachable-state"], None),
         ("", ["--deny", "unreachable-state"], "error"),
@@ -199,6 +212,31 @@ def test_levels(swarmc, project, command, toml, arguments, severity) -> None:
     assert (root / "out").exists() == (command == "build" and ran.code == 0)
 
 
+@pytest.mark.parametrize(
+    ("toml", "arguments", "severity"),
+    [
+        ("", [], None),
+        ("warn = ['warnings']", [], None),
+        ("deny = ['warnings']", [], None),
+        ("warn = ['unsent-event']", [], "warning"),
+        ("warn = ['unsent-event']\ndeny = ['warnings']", [], "warning"),
+        ("warn = ['unsent-event']\nallow = ['warnings']", [], "warning"),
+        ("deny = ['SW0523']", [], "error"),
+        ("deny = ['unsent-event']", ["--allow", "unsent-event"], None),
+        ("", ["--warn", "unsent-event"], "warning"),
+        ("", ["--deny", "unsent-event"], "error"),
+        ("", ["--deny", "warnings", "--warn", "unsent-event"], "warning"),
+    ],
+)
+def test_silent_warnings_are_asked_for_by_name(swarmc, project, toml, arguments, severity) -> None:
+    project({"swarm.toml": f"[lint]\n{toml}\n", "hop.swarm": UNSENT})
+    ran = swarmc("check", *arguments, "--format", "concise")
+
+    found = f"hop.swarm:5:19: {severity}[SW0523] nothing sends event `Start`\n"
+    assert ran.out == (found if severity else "")
+    assert ran.code == (1 if severity == "error" else 0)
+
+
 def test_a_denied_warning_of_a_generator_stops_the_build(swarmc, project) -> None:
     root = project({"swarm.toml": "", "lamps.swarm": "package p\nevent E : std_msgs/Empty\n"})
     ran = swarmc("build", "-t", "adf", "--deny", "nothing-to-generate", "--format", "concise")
@@ -213,7 +251,9 @@ def test_a_denied_warning_of_a_generator_stops_the_build(swarmc, project) -> Non
         (["--allow", "unreachable-sate"], "did you mean `unreachable-state`?"),
         (["--deny", "SW9999"], "there is no diagnostic `SW9999`"),
         (["--allow", "unresolved-name"], "errors cannot be allowed"),
-        (["--allow", "SW0503", "--deny", "unreachable-state"], "is allowed and denied"),
+        (["--warn", "unresolved-name"], "errors cannot be allowed"),
+        (["--allow", "SW0503", "--deny", "unreachable-state"], "`--allow` names `unreachable-st"),
+        (["--warn", "warnings", "--deny", "warnings"], "`--warn` names `warnings` too"),
     ],
 )
 def test_wrong_levels_on_the_command_line_are_wrong_usage(

@@ -92,7 +92,12 @@ class Event:
     @property
     def incoming_topic(self) -> str:
         """The topic on which a member hears of it."""
-        return f"bridge/events/{self.topic}" if self.swarm else self.topic
+        return incoming_topic(self.topic, self.swarm)
+
+
+def incoming_topic(topic: str, swarm: bool) -> str:
+    """The topic on which an event that is sent on `topic` is heard."""
+    return f"bridge/events/{topic}" if swarm else topic
 
 
 @dataclass(frozen=True, slots=True)

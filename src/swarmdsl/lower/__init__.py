@@ -24,7 +24,6 @@ from swarmdsl.lower.interfaces import (
 )
 from swarmdsl.lower.machines import lower_machine
 from swarmdsl.lower.optimization import lower_fitness, lower_optimization
-from swarmdsl.lower.used import used_declarations
 from swarmdsl.syntax import (
     ActionType,
     Component,
@@ -41,6 +40,7 @@ from swarmdsl.syntax import (
     StructType,
     Swarm,
 )
+from swarmdsl.used import used_declarations
 
 
 def lower(project: Project, name: str | None = None) -> ir.System:
@@ -87,7 +87,7 @@ def lower(project: Project, name: str | None = None) -> ir.System:
     return ir.System(
         name=name or first.package,
         interfaces=tuple(interfaces),
-        events=(*events, *context.monitored()),
+        events=(*events, *context.monitored),
         # A part that is called like its component has the servers of the component.
         functions=tuple({function.name: function for function in functions}.values()),
         components=tuple(components),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
@@ -22,6 +22,7 @@ from swarmdsl.syntax import (
     Component,
     Declaration,
     EnumType,
+    Event,
     Member,
     MonitorTrigger,
     Operation,
@@ -33,6 +34,7 @@ from swarmdsl.syntax import (
     Variable,
     walk,
 )
+from swarmdsl.topics import heard_on
 
 
 @dataclass(frozen=True)
@@ -41,7 +43,9 @@ class Context:
 
     `names` gives each declaration its name in the system: its own, with the package
     before it where two packages use the same. `operations` gives the functions of operations
-    by the namespace of their server, `services` the types of these servers.
+    by the namespace of their server, `services` the types of these servers. `heard` gives the
+    events by the topics they are heard on; `monitored` are those among them that are not
+    declared, because a transition monitors their topic.
     `behaving` are the members and components by machine.
     In a machine that another one reuses, `variables` and `values` say what its variables
     are called there and which values its params have. `enums` are the types of the numbers
@@ -51,7 +55,8 @@ class Context:
     names: Mapping[Declaration, str]
     operations: Mapping[tuple[str, Operation], str]
     services: Mapping[Operation, ir.Named]
-    monitors: Mapping[tuple[str, ir.Type], ir.Event]
+    heard: Mapping[str, str]
+    monitored: tuple[ir.Event, ...]
     typing: Typing
     behaving: Mapping[StateMachine, list[Member | Component]]
     variables: Mapping[Variable, str] = field(default_factory=dict)
@@ -88,14 +93,6 @@ class Context:
     def with_event(self, type_: ir.Type) -> Context:
         """The same, where `event` is a message of that type."""
         return replace(self, typing=replace(self.typing, has_event=True, event=type_))
-
-    def monitor(self, trigger: MonitorTrigger) -> ir.Event:
-        """The event that a monitored topic stands for."""
-        return self.monitors[str(trigger.topic), self.type_of(trigger.type)]
-
-    def monitored(self) -> tuple[ir.Event, ...]:
-        """The events that have no declaration because a transition monitors their topic."""
-        return tuple(self.monitors.values())
 
     def type_of(self, ref: TypeRef) -> ir.Type:
         """The type a resolved type reference means, an enum's being that of its numbers."""
@@ -134,7 +131,7 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
     operations: dict[tuple[str, Operation], str] = {}
     services: dict[Operation, ir.Named] = {}
     typing = Typing(Interfaces(project.declarations()), Diagnostics())
-    context = Context(names, operations, services, {}, typing, behaving, enums=enums)
+    context = Context(names, operations, services, {}, (), typing, behaving, enums=enums)
     for file, declaration in pairs:
         for item in declaration.items if isinstance(declaration, Component) else ():
             if isinstance(item, Operation):
@@ -149,7 +146,13 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
                     name += "_"
                 taken.add(name)
                 operations[namespace, item] = name
-    return replace(context, monitors=_monitors(pairs, taken))
+    heard: dict[str, str] = {}
+    for _, declaration in pairs:
+        if isinstance(declaration, Event):
+            heard.setdefault(heard_on(declaration), names[declaration])
+    monitored = tuple(_monitored(pairs, heard, taken))
+    heard.update({event.topic: event.name for event in monitored})
+    return replace(context, heard=heard, monitored=monitored)
 
 
 def operation_owners(pairs: Iterable[tuple[File, Declaration]]) -> list[Component | Part]:
@@ -168,23 +171,23 @@ def operations_of(owner: Component | Part) -> list[Operation]:
     return all_items(component, Operation)
 
 
-def _monitors(
-    pairs: Iterable[tuple[File, Declaration]], taken: set[str]
-) -> dict[tuple[str, ir.Type], ir.Event]:
-    """One event for each topic that is monitored, named after it."""
-    found: dict[tuple[str, ir.Type], ir.Event] = {}
+def _monitored(
+    pairs: Iterable[tuple[File, Declaration]], declared: Container[str], taken: set[str]
+) -> Iterator[ir.Event]:
+    """One event for each other topic that is monitored, named after it."""
+    seen: set[str] = set()
     for _, declaration in pairs:
         for node in walk(declaration):
             if not isinstance(node, MonitorTrigger) or node.type.type is None:
                 continue
-            topic, type_ = str(node.topic), node.type.type
-            if (topic, type_) in found:
+            topic = heard_on(node)
+            if topic in declared or topic in seen:
                 continue
+            seen.add(topic)
             name = camel_case(topic)
             if not name[:1].isalpha():
                 name = f"Topic{name}"
             while name in taken:
                 name += "_"
             taken.add(name)
-            found[topic, type_] = ir.Event(name, type_, topic, False, "", node.span)
-    return found
+            yield ir.Event(name, node.type.type, topic, False, "", node.span)

@@ -11,7 +11,6 @@ from swarmdsl.link_types import interface_name
 from swarmdsl.load import File
 from swarmdsl.lower.context import Context, operations_of
 from swarmdsl.lower.expressions import lower_expression, lower_optional
-from swarmdsl.naming import snake_case
 from swarmdsl.syntax import (
     ActionType,
     Communication,
@@ -29,6 +28,7 @@ from swarmdsl.syntax import (
     ServiceType,
     StructType,
 )
+from swarmdsl.topics import topic_of
 
 
 def lower_interface(
@@ -128,7 +128,7 @@ def lower_event(event: Event, context: Context) -> ir.Event:
     return ir.Event(
         name=context.names[event],
         type=context.type_of(event.type),
-        topic=str(event.topic) if event.topic is not None else snake_case(event.name),
+        topic=topic_of(event),
         swarm=event.swarm,
         doc=event.doc,
         origin=event.name.span,

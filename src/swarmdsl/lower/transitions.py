@@ -30,6 +30,7 @@ from swarmdsl.syntax import (
     Trigger,
     Vertex,
 )
+from swarmdsl.topics import heard_on
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trig
         case OutcomeTrigger(outcome=outcome):
             return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
         case MonitorTrigger():
-            return ir.EventTrigger(frame.context.monitor(trigger).name, trigger.span)
+            return ir.EventTrigger(frame.context.heard[heard_on(trigger)], trigger.span)
         case TimeTrigger(delay=delay):
             return ir.TimeTrigger(lower_expression(delay, frame.context), trigger.span)
         case DoneTrigger(region=region, final=final):

@@ -5,7 +5,7 @@ What cannot be meant is a UsageError.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -20,10 +20,10 @@ from swarmdsl.project.settings import Settings
 
 
 def run_settings(
-    paths: tuple[Path, ...], allow: Iterable[str], deny: Iterable[str], report: Diagnostics
+    paths: tuple[Path, ...], levels: Mapping[Level, Iterable[str]], report: Diagnostics
 ) -> Settings:
     """The settings of a run: those of the project, and over them those given here."""
-    given = _levels(allow, deny)
+    given = _levels(levels)
     found = find_settings(paths, report)
     return replace(found, sources=paths or found.sources, levels={**found.levels, **given})
 
@@ -55,9 +55,10 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
     ]
 
 
-def _levels(allow: Iterable[str], deny: Iterable[str]) -> dict[str, Level]:
+def _levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
+    """The level of each diagnostic that is named."""
     found: dict[str, Level] = {}
-    for level, words in ((Level.ALLOW, allow), (Level.DENY, deny)):
+    for level, words in levels.items():
         for word in words:
             name = find_diagnostic(word)
             option = f"`--{level.value} {word}`"
@@ -66,6 +67,6 @@ def _levels(allow: Iterable[str], deny: Iterable[str]) -> dict[str, Level]:
                 raise click.UsageError(f"{option}: there is no diagnostic `{word}`: {hint}")
             if not may_have(name, level):
                 raise click.UsageError(f"{option}: errors cannot be allowed")
-            if found.setdefault(name, level) is not level:
-                raise click.UsageError(f"{option}: `{name}` is allowed and denied")
+            if (other := found.setdefault(name, level)) is not level:
+                raise click.UsageError(f"{option}: `--{other.value}` names `{name}` too")
     return found

@@ -45,7 +45,10 @@ def _rule(name: str) -> dict[str, Any]:
         "shortDescription": {"text": name.replace("-", " ")},
         "fullDescription": {"text": _meaning(page)},
         "help": {"text": page, "markdown": page},
-        "defaultConfiguration": {"level": entry.severity},
+        "defaultConfiguration": {
+            "level": entry.severity,
+            **({"enabled": False} if entry.silent else {}),
+        },
     }
 
 

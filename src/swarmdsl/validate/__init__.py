@@ -23,12 +23,14 @@ from swarmdsl.syntax import (
     StateMachine,
     Swarm,
 )
+from swarmdsl.used import used_declarations
 from swarmdsl.validate.activities import check_activities
 from swarmdsl.validate.architecture import check_component, check_inheritance, check_member
 from swarmdsl.validate.composition import check_environment, check_swarm
 from swarmdsl.validate.conflicts import check_conflicts
 from swarmdsl.validate.context import Context, make_context
-from swarmdsl.validate.dataflow import check_events, check_variables
+from swarmdsl.validate.dataflow import check_variables
+from swarmdsl.validate.events import check_events
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
 from swarmdsl.validate.interfaces import (
@@ -59,7 +61,8 @@ def validate(project: Project, report: Diagnostics) -> None:
     check_submachines(project, report)
     check_inheritance(project, report)
     check_message_cycles(context)
-    check_topics(project, report)
+    used = used_declarations(project)
+    check_topics(used, report)
     in_libraries = Diagnostics()
     for file, declaration in project.declarations():
         if declaration not in file.parsed.damaged:
@@ -70,7 +73,7 @@ def validate(project: Project, report: Diagnostics) -> None:
                 check_known(declaration, context)
     # Whoever uses a library cannot mend what is only a warning there.
     report.include(found for found in in_libraries if found.severity is Severity.ERROR)
-    check_events(project, context)
+    check_events([node for _, node in used], context)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
 

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from swarmdsl.diagnostics import Label
+from swarmdsl.ir.types import Type
 from swarmdsl.link_machines import regions
 from swarmdsl.syntax import (
     Event,
-    EventTrigger,
     Parallel,
     Region,
     StateMachine,
     Transition,
     walk,
 )
+from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.context import Context
 
 
@@ -24,7 +25,7 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
     for parallel in walk(machine):
         if not isinstance(parallel, Parallel):
             continue
-        leaving: dict[Event, tuple[Region, Transition]] = {}
+        leaving: dict[tuple[str, Type | None], tuple[Region, Transition]] = {}
         for region in regions(parallel):
             inside = set(walk(region))
             for transition in walk(region):
@@ -33,9 +34,11 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
                 if transition.target.target is None or transition.target.target in inside:
                     continue
                 for trigger in transition.triggers:
-                    if not isinstance(trigger, EventTrigger) or trigger.event.target is None:
+                    event = awaited(trigger)
+                    if event is None:
                         continue
-                    first = leaving.setdefault(trigger.event.target, (region, transition))
+                    heard = heard_on(event), event.type.type
+                    first = leaving.setdefault(heard, (region, transition))
                     if (
                         first[0] is not region
                         and first[1].target is not None
@@ -44,7 +47,9 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
                         context.report.report(
                             "conflicting-regions",
                             transition.span,
-                            event=trigger.event.name,
+                            event=f"event `{event.name}`"
+                            if isinstance(event, Event)
+                            else f"topic `{event.topic}`",
                             state=parallel.name,
                             related=(Label(first[1].span, "this one is taken"),),
                             help=f"move the transition to state `{parallel.name}`",

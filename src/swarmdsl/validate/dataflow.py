@@ -1,19 +1,15 @@
-"""Variables and events that lead nowhere."""
+"""Variables that lead nowhere."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from swarmdsl.ir.types import Named
-from swarmdsl.load import Project
 from swarmdsl.syntax import (
     Assignment,
-    Event,
-    EventTrigger,
     FieldUse,
     NameUse,
     ResultMapping,
-    Send,
     StateMachine,
     Variable,
     walk,
@@ -39,29 +35,6 @@ def check_variables(machine: StateMachine, context: Context) -> None:
         else:
             continue
         context.report.report("idle-variable", item.name.span, name=item.name, fault=fault)
-
-
-def check_events(project: Project, context: Context) -> None:
-    """A swarm event that is sent is waited for by some machine."""
-    sent: dict[Event, Send] = {}
-    awaited: set[Event] = set()
-    for _, machine in project.declarations():
-        if not isinstance(machine, StateMachine):
-            continue
-        for node in walk(machine):
-            match node:
-                case Send(event=ref) if ref.target is not None:
-                    sent.setdefault(ref.target, node)
-                case EventTrigger(event=ref) if ref.target is not None:
-                    awaited.add(ref.target)
-    for event, send in sent.items():
-        if event not in awaited:
-            context.report.report(
-                "unhandled-event",
-                send.event.span,
-                name=event.name,
-                help=f"add `on {event.name} -> ...` to a state of a machine that should react",
-            )
 
 
 def _stores(machine: StateMachine) -> Iterator[NameUse]:

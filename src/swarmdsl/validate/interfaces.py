@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.ir.types import Array, Named
-from swarmdsl.load import Project
-from swarmdsl.naming import snake_case
+from swarmdsl.load import File
 from swarmdsl.scopes import kind_of
 from swarmdsl.syntax import (
     ActionType,
@@ -24,12 +23,14 @@ from swarmdsl.syntax import (
     Param,
     Port,
     ServiceType,
+    StateMachine,
     StructType,
     TypeRef,
     Variable,
     Word,
     walk,
 )
+from swarmdsl.topics import heard_on, topic_of
 from swarmdsl.validate.context import Context
 
 # Relative, absolute or private; parts with a letter (ROS 2: or `_`) first.
@@ -106,31 +107,38 @@ def check_graph_name(name: Word, what: str, context: Context) -> None:
         )
 
 
-def check_topics(project: Project, report: Diagnostics) -> None:
-    """Two events on one topic, declared or monitored, carry one type of message."""
-    first: dict[tuple[str, bool], TypeRef] = {}
-    for file, declaration in project.declarations():
-        for node in () if file.library else walk(declaration):
-            match node:
-                case Event(topic=None, swarm=swarm, type=type_):
-                    topic = snake_case(node.name)
-                case Event(topic=Word() as topic, swarm=swarm, type=type_):
-                    pass
-                case MonitorTrigger(topic=topic, type=type_):
-                    swarm = False
-                case _:
-                    continue
-            known = first.setdefault((str(topic), swarm), type_)
-            if None not in (known.type, type_.type) and known.type != type_.type:
-                report.report(
-                    "topic-types",
-                    type_.span,
-                    topic=topic,
-                    first=known.type,
-                    second=type_.type,
-                    related=(Label(known.span, "declared here"),),
-                    help='give one of the events another topic: `on "name"`',
-                )
+def check_topics(used: Iterable[tuple[File, Declaration]], report: Diagnostics) -> None:
+    """Two events on one topic, declared or monitored, carry one type of message.
+
+    Those of libraries count first, and what is declared before what is monitored: the
+    mistake is where it can be mended.
+    """
+    pairs = sorted(used, key=lambda pair: not pair[0].library)
+    sources: list[Event | MonitorTrigger] = [node for _, node in pairs if isinstance(node, Event)]
+    for _, machine in pairs:
+        if isinstance(machine, StateMachine):
+            sources += [node for node in walk(machine) if isinstance(node, MonitorTrigger)]
+    first: dict[str, Event | MonitorTrigger] = {}
+    for source in sources:
+        known = first.setdefault(heard_on(source), source)
+        if None in (known.type.type, source.type.type) or known.type.type == source.type.type:
+            continue
+        report.report(
+            "topic-types",
+            source.type.span,
+            topic=topic_of(source) if isinstance(source, Event) else source.topic,
+            first=known.type.type,
+            second=source.type.type,
+            related=(
+                Label(
+                    known.type.span,
+                    "declared here" if isinstance(known, Event) else "monitored here",
+                ),
+            ),
+            help=f"write `{known.type.type}`, or monitor another topic"
+            if isinstance(source, MonitorTrigger)
+            else 'give one of the events another topic: `on "name"`',
+        )
 
 
 def check_function(function: Function, context: Context) -> None:

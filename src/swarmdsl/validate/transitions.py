@@ -31,6 +31,7 @@ from swarmdsl.syntax import (
     Vertex,
     walk,
 )
+from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.structure import completes
 
@@ -140,7 +141,8 @@ def _check_shadowed(transitions: list[Transition], context: Context) -> None:
             _report_shadowed(transition.span, blockers[0].span, advice, context)
         elif transition.guard is None:
             for trigger in transition.triggers:
-                taken.setdefault(_keys(trigger)[0], transition)
+                for key in _keys(trigger)[:1]:
+                    taken.setdefault(key, transition)
                 delay = _constant_delay(trigger)
                 if delay is not None and (earliest is None or delay < earliest[0]):
                     earliest = (delay, transition)
@@ -167,8 +169,9 @@ def _report_shadowed(span: Span, blocker: Span, advice: str, context: Context) -
 def _keys(trigger: Trigger) -> list[Hashable]:
     """What a trigger reacts to, first itself, then the more general triggers that cover it."""
     match trigger:
-        case EventTrigger(event=event):
-            return [("event", event.target or event.name)]
+        case EventTrigger() | MonitorTrigger():
+            event = awaited(trigger)
+            return [("event", heard_on(event), event.type.type)] if event is not None else []
         case OutcomeTrigger(outcome=outcome):
             return [("outcome", outcome)]
         case DoneTrigger(region=region, final=final):
@@ -176,8 +179,6 @@ def _keys(trigger: Trigger) -> list[Hashable]:
             return [whole] if final is None else [(*whole[:2], final.name), whole]
         case TimeTrigger(delay=delay):
             return [("after", delay.span.text)]
-        case MonitorTrigger(topic=topic):
-            return [("monitor", str(topic))]
 
 
 def _constant_delay(trigger: Trigger) -> float | None:

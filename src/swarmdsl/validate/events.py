@@ -1,0 +1,208 @@
+"""Events between machines: what is sent is waited for, and what is waited for is sent.
+
+A swarm event is judged in each swarm, over the machines of its members; one of a machine
+that belongs to no swarm, over all machines. An event of the robot may come from a node that
+is no part of the model, or go to one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from swarmdsl.diagnostics import Label, listed
+from swarmdsl.inheritance import all_items, lineage
+from swarmdsl.syntax import (
+    BehaviorUse,
+    Component,
+    Declaration,
+    Event,
+    EventTrigger,
+    Member,
+    MonitorTrigger,
+    Part,
+    Ref,
+    Role,
+    Send,
+    State,
+    StateMachine,
+    Swarm,
+    walk,
+)
+from swarmdsl.topics import awaited, heard_on
+from swarmdsl.validate.context import Context
+
+
+@dataclass
+class _Exchange:
+    """What machines that hear each other send and wait for: the first place for each topic.
+
+    Not `complete` where a name was not resolved or a piece could not be parsed: what seems to
+    be missing may be that.
+    """
+
+    name: str = ""
+    machines: set[StateMachine] = field(default_factory=set)
+    sent: dict[str, Send] = field(default_factory=dict)
+    awaited: dict[str, EventTrigger | MonitorTrigger] = field(default_factory=dict)
+    complete: bool = True
+
+    def add(self, others: Iterable[_Exchange | None]) -> _Exchange:
+        """Add those of others; None stands for one that was not found."""
+        for other in others:
+            if other is None:
+                self.complete = False
+                continue
+            self.machines |= other.machines
+            for topic, send in other.sent.items():
+                self.sent.setdefault(topic, send)
+            for topic, trigger in other.awaited.items():
+                self.awaited.setdefault(topic, trigger)
+            self.complete = self.complete and other.complete
+        return self
+
+
+def check_events(used: Iterable[Declaration], context: Context) -> None:
+    """Check the events of all machines of the system."""
+    machines: dict[StateMachine | None, _Exchange] = {}
+    owners: dict[Member | None, _Exchange] = {}
+    swarms: list[Swarm] = []
+    for node in used:
+        match node:
+            case StateMachine():
+                machines[node] = _exchange(node, context)
+            case Member():
+                owners[node] = _Exchange(str(node.name))
+            case Swarm():
+                swarms.append(node)
+    for member, group in owners.items():
+        assert member is not None
+        group.add(machines.get(machine) for machine in _machines(member, context))
+    groups = []
+    for swarm in swarms:
+        roles = [item for item in swarm.items if isinstance(item, Role)]
+        group = _Exchange(str(swarm.name), complete=swarm not in context.damaged)
+        groups.append(group.add(owners.get(role.member.target) for role in roles))
+    in_swarms: set[StateMachine | None] = set().union(*(group.machines for group in groups))
+    alone = _Exchange().add(
+        found for machine, found in machines.items() if machine not in in_swarms
+    )
+    everyone = _Exchange().add(machines.values())
+    _check_swarm_events([*((group, group) for group in groups), (alone, everyone)], context)
+    _check_own_events(list(owners.values()), context)
+
+
+def _check_swarm_events(groups: list[tuple[_Exchange, _Exchange]], context: Context) -> None:
+    """Check the swarm events of the first of each two exchanges over the second."""
+    unhandled: dict[Send, list[str]] = {}
+    unsent: dict[EventTrigger, list[str]] = {}
+    for judged, known in groups:
+        if not known.complete:
+            continue
+        for topic, send in judged.sent.items():
+            if _is_swarm_event(send) and topic not in known.awaited:
+                unhandled.setdefault(send, []).append(known.name)
+        for topic, trigger in judged.awaited.items():
+            if topic in known.sent or isinstance(trigger, MonitorTrigger):
+                continue
+            if _is_swarm_event(trigger):
+                unsent.setdefault(trigger, []).append(known.name)
+    for send, names in unhandled.items():
+        context.report.report(
+            "unhandled-event",
+            send.event.span,
+            where=_where("swarm", names),
+            name=send.event.name,
+            help=f"add `on {send.event.name} -> ...` to a state of a machine that should react",
+        )
+    for trigger, names in unsent.items():
+        context.report.report(
+            "unsent-event",
+            trigger.span,
+            where=_where("swarm", names),
+            name=trigger.event.name,
+            help=f"add `send {trigger.event.name}` to an effect, unless an operator sends it",
+        )
+
+
+def _check_own_events(members: list[_Exchange], context: Context) -> None:
+    """An event of the robot that a member sends reaches no other member.
+
+    That is said where another one waits for it: where nobody does, it is meant for a node
+    outside of the model.
+    """
+    senders: dict[str, list[_Exchange]] = {}
+    for member in members:
+        for topic in member.sent:
+            senders.setdefault(topic, []).append(member)
+    hearing = _Exchange().add(members)
+    for topic, own in senders.items():
+        send = own[0].sent[topic]
+        if _is_swarm_event(send) or topic not in hearing.awaited:
+            continue
+        if any(topic in member.awaited or not member.complete for member in own):
+            continue
+        context.report.report(
+            "unhandled-event",
+            send.event.span,
+            where=_where("member", [member.name for member in own]),
+            name=send.event.name,
+            related=(Label(hearing.awaited[topic].span, "this waits in another member"),),
+            help=f"as `swarm event {send.event.name}` it is heard by the other members",
+        )
+
+
+def _is_swarm_event(node: Send | EventTrigger) -> bool:
+    return node.event.target is not None and node.event.target.swarm
+
+
+def _where(kind: str, names: list[str]) -> str:
+    plural = "s" if len(names) > 1 else ""
+    return f" in {kind}{plural} {listed(names, 'and')}" if all(names) else ""
+
+
+def _exchange(machine: StateMachine, context: Context) -> _Exchange:
+    """What one machine sends and waits for."""
+    found = _Exchange(machines={machine}, complete=machine not in context.damaged)
+    for node in walk(machine):
+        match node:
+            case Send(event=Ref(target=None)) | EventTrigger(event=Ref(target=None)):
+                found.complete = False
+            case Send(event=Ref(target=Event() as event)):
+                found.sent.setdefault(heard_on(event), node)
+            case EventTrigger() | MonitorTrigger():
+                source = awaited(node)
+                assert source is not None
+                found.awaited.setdefault(heard_on(source), node)
+    return found
+
+
+def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]:
+    """The behaviours of a member and its parts, and the machines that these reuse.
+
+    None stands for what may be missing.
+    """
+    ahead = list(_behaviors(member, context))
+    seen = set()
+    while ahead:
+        machine = ahead.pop(0)
+        if machine in seen:
+            continue
+        seen.add(machine)
+        yield machine
+        for state in walk(machine) if machine is not None else ():
+            if isinstance(state, State) and state.machine is not None:
+                ahead.append(state.machine.target)
+
+
+def _behaviors(member: Member, context: Context) -> Iterator[StateMachine | None]:
+    parts = [part.component.target for part in all_items(member, Part)]
+    owners: list[Member | Component | None] = [member, *parts]
+    for owner in owners:
+        for each in lineage(owner) if owner is not None else ():
+            if each in context.damaged or (each.base is not None and each.base.target is None):
+                yield None
+        for use in all_items(owner, BehaviorUse) if owner is not None else ():
+            yield use.machine.target
+        if owner is None:
+            yield None
