@@ -1,0 +1,324 @@
+"""A running state machine: SCXML 1.0, Appendix D, from event to event."""
+
+from __future__ import annotations
+
+from collections import deque
+from typing import Any
+
+from .activity import Run, Servers, Timer
+from .configuration import Configuration, before_start
+from .step import Step
+from .table import Effect, Event, Guard, Machine
+from .world import ExecutionError, LoopError, Observer, World
+
+FAILURES = (ExecutionError, ArithmeticError, ValueError)
+"""What a guard or an effect may raise; anything else is a mistake in it."""
+
+_LOOKED_AT = 100
+"""How many of the last steps say which states a loop goes through."""
+
+
+class Instance:
+    """One machine that runs in a world.
+
+    `start` it once, then let it `receive` events: each is run to its end before that returns.
+    `final` is the id of the final state in which the machine ended, if it has.
+
+    `data` is what guards and effects work with, `observer` may be set at any time. Instances
+    of one robot share `servers`.
+    """
+
+    __slots__ = (
+        "_busy",
+        "_during",
+        "_external",
+        "_internal",
+        "_pending",
+        "_runs",
+        "_timers",
+        "configuration",
+        "data",
+        "final",
+        "machine",
+        "observer",
+        "running",
+        "servers",
+        "world",
+    )
+
+    def __init__(
+        self,
+        machine: Machine,
+        world: World,
+        *,
+        data: Any = None,
+        observer: Observer | None = None,
+        servers: Servers | None = None,
+    ) -> None:
+        self.machine = machine
+        self.world = world
+        self.data = machine.data() if data is None else data
+        self.observer = observer
+        self.servers = servers
+        self.configuration = before_start(machine)
+        self.running = False
+        self.final: str | None = None
+        self._busy = False
+        # The states that are active in the middle of a step.
+        self._during: int | None = None
+        self._external: deque[Event] | None = None
+        self._internal: deque[Event] | None = None
+        self._pending: list[int] | None = None
+        self._runs: dict[int, Run] | None = None
+        self._timers: list[Timer] | None = None
+
+    # ---- what a host calls
+
+    def start(self) -> None:
+        """Enter the machine. Raises LoopError where it does not come to rest."""
+        if self.running or self.final is not None:
+            raise RuntimeError(f"an instance of `{self.machine.name}` is started once")
+        self.running = self._busy = True
+        try:
+            event = Event("")
+            if self.machine.setup is not None:
+                self._do(self.machine.setup, event)
+            entry = self.machine.entries[0]
+            assert entry is not None
+            self._take(self.configuration.step((entry,)), event)
+            self._settle(event)
+            self._receive_waiting()
+        finally:
+            self._busy = False
+
+    def receive(self, event: Event) -> None:
+        """Run an event from outside to its end; in the middle of another one, after that.
+
+        It is lost before the start and after the end. Raises LoopError where the machine does
+        not come to rest, which ends it.
+        """
+        if self._busy:
+            if self._external is None:
+                self._external = deque()
+            self._external.append(event)
+        elif self.running:
+            self._busy = True
+            try:
+                self._run(event)
+                if self._external:
+                    self._receive_waiting()
+            finally:
+                self._busy = False
+
+    def stop(self) -> None:
+        """End the machine: leave all states, cancel what they have going on."""
+        if self.running:
+            self.running = False
+            if not self._busy:
+                self._end(Event(""))
+
+    # ---- what guards and effects call
+
+    def active(self, state: str) -> bool:
+        """Whether a state is active: `In` of SCXML."""
+        active = self.configuration.active if self._during is None else self._during
+        return bool(active >> self.machine.numbers[state] & 1)
+
+    def raise_event(self, event: Event) -> None:
+        """Put an event in the internal queue: it comes before any from outside."""
+        if self._internal is None:
+            self._internal = deque()
+        self._internal.append(event)
+
+    def send_after(self, event: Event, delay: int, id_: str = "") -> None:
+        """Send an event to this instance in so many nanoseconds, unless it is cancelled."""
+        timer = Timer(self, event, id_)
+        if self._timers is None:
+            self._timers = []
+        self._timers.append(timer)
+        if delay > 0:
+            timer.handle = self.world.schedule(delay, timer.fire)
+        else:
+            self.receive(timer.event)
+
+    def cancel(self, id_: str) -> None:
+        """Cancel the delayed events with that id."""
+        for timer in [each for each in self._timers or () if each.id == id_]:
+            self._unschedule(timer)
+
+    def emit(self, event: Event) -> None:
+        """Send an event to others."""
+        if self.observer is not None:
+            self.observer.sent(self, event)
+        self.world.send(self, event)
+
+    def stop_activity(self, state: int) -> None:
+        """Cancel the activity of a state that is left."""
+        if self._pending and state in self._pending:
+            self._pending.remove(state)
+        run = self._runs.pop(state, None) if self._runs is not None else None
+        if run is not None:
+            run.over = True
+            if not run.ended:
+                if self.observer is not None:
+                    self.observer.cancelled(self, run)
+                assert self.servers is not None
+                self.servers.cancel(run)
+
+    # ---- the algorithm
+
+    def _run(self, event: Event) -> None:
+        """The macrostep of an event from outside."""
+        if event.origin is not None and not self._accept(event.origin, event):
+            return
+        step = self._select(event.name, event)
+        if step is not None:
+            self._take(step, event)
+            if step.quiet and self.running and not self._internal:
+                return
+        elif not self._internal:
+            return
+        self._settle(event)
+
+    def _settle(self, event: Event) -> None:
+        """Take steps that need no event, or an internal one, until there is none."""
+        steps = 0
+        passed: list[Configuration] = []
+        while self.running:
+            steps += 1
+            if steps > self.machine.limit - _LOOKED_AT:
+                passed.append(self.configuration)
+                if steps > self.machine.limit:
+                    self._give_up(passed)
+            step = self._select("", event) if self.configuration.restless else None
+            if step is None:
+                if self._internal:
+                    event = self._internal.popleft()
+                    step = self._select(event.name, event)
+                elif self._pending:
+                    self._start_activities()
+                else:
+                    return
+            if step is not None:
+                self._take(step, event)
+        self._end(event)
+
+    def _select(self, name: str, event: Event) -> Step | None:
+        """selectTransitions: the step that an event leads to, or no event."""
+        if self.observer is not None and name:
+            self.observer.received(self, event)
+        decision = self.configuration.decide(name)
+        if not decision.candidates:
+            return decision.step
+        enabled = decision.choose(self, event)
+        return self.configuration.step(enabled) if enabled else None
+
+    def holds(self, guard: Guard, event: Event) -> bool:
+        """Whether a guard holds; one that has no value does not."""
+        try:
+            return bool(guard(self, event))
+        except FAILURES as error:
+            self._fail(error)
+            return False
+
+    def _take(self, step: Step, event: Event) -> None:
+        """microstep: what is done on the way, then the configuration it leads to."""
+        program = step.program if self.observer is None else step.traced
+        if program:
+            for active, operation in program:
+                self._during = active
+                try:
+                    operation(self, event)
+                except FAILURES as error:
+                    self._fail(error)
+            self._during = None
+        self.configuration = step.target
+        if step.starts:
+            self._pending = [*(self._pending or ()), *step.starts]
+        if step.final:
+            self.final = self.machine.states[step.final].id
+            self.running = False
+
+    def _do(self, effect: Effect, event: Event) -> None:
+        try:
+            effect(self, event)
+        except FAILURES as error:
+            self._fail(error)
+
+    def _fail(self, error: Exception) -> None:
+        self.world.failed(self, error)
+        self.raise_event(Event("error.execution", str(error)))
+
+    def _accept(self, origin: Run | Timer, event: Event) -> bool:
+        """Whether an event of this instance itself still counts: its state was not left."""
+        if origin.over:
+            return False
+        origin.over = True
+        if isinstance(origin, Timer):
+            assert self._timers is not None
+            self._timers.remove(origin)
+        else:
+            assert self._runs is not None
+            del self._runs[origin.state]
+            activity = origin.activity
+            if activity.finalize is not None and event.name == activity.events["succeeded"]:
+                self._do(activity.finalize, event)
+        return True
+
+    def _start_activities(self) -> None:
+        """Start the activities of the states in which the machine has come to rest."""
+        pending, self._pending = sorted(self._pending or ()), None
+        if self.servers is None:
+            self.servers = Servers()
+        if self._runs is None:
+            self._runs = {}
+        for state in pending:
+            activity = self.machine.states[state].activity
+            assert activity is not None
+            run = self._runs[state] = Run(self, state, activity)
+            try:
+                run.goal = activity.goal(self) if activity.goal is not None else None
+            except FAILURES as error:
+                self._fail(error)
+                run.end("aborted")
+                continue
+            if self.observer is not None:
+                self.observer.started(self, run)
+            self.servers.start(run)
+
+    def _receive_waiting(self) -> None:
+        while self._external:
+            event = self._external.popleft()
+            if self.running:
+                self._run(event)
+        self._external = None
+
+    def _unschedule(self, timer: Timer) -> None:
+        assert self._timers is not None
+        self._timers.remove(timer)
+        timer.over = True
+        if timer.handle is not None:
+            self.world.unschedule(timer.handle)
+
+    def _end(self, event: Event) -> None:
+        """The procedure exitInterpreter."""
+        self._take(self.configuration.end(), event)
+        self._forget()
+
+    def _forget(self) -> None:
+        """Keep nothing that could happen to a machine that has ended."""
+        for timer in list(self._timers or ()):
+            self._unschedule(timer)
+        self._internal = self._external = self._pending = None
+
+    def _give_up(self, passed: list[Configuration]) -> None:
+        """Stop a machine that does not come to rest, without the effects of leaving states."""
+        self.running = False
+        for state in list(self._runs or ()):
+            self.stop_activity(state)
+        self._forget()
+        sets = [set(each.ids) for each in passed]
+        states = {
+            state for each in sets for state in each if not all(state in other for other in sets)
+        } or set(passed[-1].innermost)
+        raise LoopError(self.machine.name, sorted(states, key=self.machine.numbers.__getitem__))

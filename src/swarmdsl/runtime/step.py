@@ -1,0 +1,283 @@
+"""What taking transitions does: the algorithm of SCXML 1.0, Appendix D, on sets of states."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from .table import Edge, Event, Kind, State, Transition, members
+
+if TYPE_CHECKING:
+    from .configuration import Configuration
+    from .instance import Instance
+
+Operation = Callable[["Instance", Event], object]
+Program = tuple[tuple[int, Operation], ...]
+"""What is done in a step, in order, each with the states that are active at that moment."""
+
+
+class Step:
+    """A microstep: what taking some transitions does.
+
+    `traced` is the program for instances that are observed. `starts` are the states entered
+    that have an activity, `final` is the final state of the machine itself that was entered.
+    A `quiet` step leads to where only an event can lead on from, unless its program raised one.
+    """
+
+    __slots__ = ("final", "program", "quiet", "starts", "target", "traced")
+
+    def __init__(
+        self, target: Configuration, traced: Program, starts: tuple[int, ...], final: int
+    ) -> None:
+        self.target = target
+        self.traced = traced
+        self.program = tuple([each for each in traced if not isinstance(each[1], _Mark)])
+        self.starts = starts
+        self.final = final
+        self.quiet = not (target.restless or starts or final)
+
+
+class Steps:
+    """Works out steps from one configuration; the names are those of Appendix D."""
+
+    def __init__(self, source: Configuration) -> None:
+        self.source = source
+        self.machine = source.machine
+        histories = [h for around in self.machine.histories for h in around]
+        self.held = dict(zip(histories, source.histories, strict=True))
+        self.entered = 0
+        self.by_default = 0
+        self.from_history: dict[int, Edge] = {}
+
+    def take(self, enabled: tuple[Edge, ...]) -> Step:
+        """What the transitions do: exit, effects, entry."""
+        machine = self.machine
+        transitions = self._without_conflicts(enabled)
+        left = 0
+        for edge in transitions:
+            left |= self._exit_set(edge)
+        self._record(left)
+        # A transition from a state to a history in it leads back to where it came from.
+        for edge in transitions:
+            for entered in edge.targets:
+                self._add_descendants(entered)
+            domain = self._domain(edge)
+            for entered in self._effective_targets(edge):
+                self._add_ancestors(entered, domain)
+        program = self._exit_program(left)
+        active = self.source.active & ~left
+        for edge in transitions:
+            if edge.source or edge.table.events:
+                program.append((active, _Mark("taken", edge.table)))
+            if edge.table.effect is not None:
+                program.append((active, edge.table.effect))
+        starts = []
+        final = 0
+        for number in members(self.entered):
+            active |= 1 << number
+            state = machine.states[number]
+            program += [(active, each) for each in self._entry_operations(number, state)]
+            if state.activity is not None:
+                starts.append(number)
+            if state.kind is Kind.FINAL:
+                if machine.parents[number] == 0:
+                    final = number
+                program += [(active, each) for each in self._done(number, state, active)]
+        target = self.source.at(active, tuple(self.held.values()))
+        return Step(target, tuple(program), tuple(starts), final)
+
+    def leave(self) -> Step:
+        """What is done when the machine ends."""
+        program = self._exit_program(self.source.active)
+        return Step(self.source.at(0, self.source.histories), tuple(program), (), 0)
+
+    def _without_conflicts(self, enabled: tuple[Edge, ...]) -> list[Edge]:
+        """removeConflictingTransitions: of two that leave the same state, one is taken."""
+        if len(enabled) == 1:
+            return list(enabled)
+        kept: list[Edge] = []
+        for edge in enabled:
+            leaves = self._exit_set(edge)
+            rivals = [other for other in kept if self._exit_set(other) & leaves]
+            if all(self.machine.inside[other.source] >> edge.source & 1 for other in rivals):
+                kept = [other for other in kept if other not in rivals]
+                kept.append(edge)
+        return kept
+
+    def _exit_set(self, edge: Edge) -> int:
+        if not edge.targets:
+            return 0
+        return self.source.active & self.machine.inside[self._domain(edge)]
+
+    def _domain(self, edge: Edge) -> int:
+        """getTransitionDomain: the state inside of which a transition stays."""
+        machine = self.machine
+        targets = self._effective_targets(edge)
+        around = [*machine.ancestors(edge.source), 0]
+        compound = machine.states[edge.source].kind is Kind.STATE and machine.children[edge.source]
+        if edge.source == 0 or (edge.table.internal and compound):
+            around.insert(0, edge.source)
+        for number in around:
+            if machine.states[number].kind is not Kind.PARALLEL and all(
+                machine.inside[number] >> target & 1 for target in targets
+            ):
+                return number
+        return 0
+
+    def _effective_targets(self, edge: Edge) -> list[int]:
+        """getEffectiveTargetStates: histories replaced by what they lead to."""
+        found: list[int] = []
+        for target in edge.targets:
+            if target not in self.held:
+                found.append(target)
+            elif self.held[target]:
+                found += members(self.held[target])
+            else:
+                default = self.machine.entries[target]
+                assert default is not None
+                found += self._effective_targets(default)
+        return found
+
+    def _add_descendants(self, number: int) -> None:
+        """The procedure addDescendantStatesToEnter."""
+        machine = self.machine
+        if number in self.held:
+            around = machine.parents[number]
+            if self.held[number]:
+                targets = members(self.held[number])
+            else:
+                default = machine.entries[number]
+                assert default is not None
+                self.from_history[around] = default
+                targets = list(default.targets)
+            self._add_all(targets, around)
+            return
+        self.entered |= 1 << number
+        if machine.states[number].kind is Kind.PARALLEL:
+            self._add_regions(number)
+        elif machine.children[number]:
+            self.by_default |= 1 << number
+            initial = machine.entries[number]
+            assert initial is not None
+            self._add_all(initial.targets, number)
+
+    def _add_all(self, targets: Iterable[int], around: int) -> None:
+        for target in targets:
+            self._add_descendants(target)
+        for target in targets:
+            self._add_ancestors(target, around)
+
+    def _add_ancestors(self, number: int, around: int) -> None:
+        """The procedure addAncestorStatesToEnter."""
+        for ancestor in self.machine.ancestors(number):
+            if ancestor == around:
+                return
+            self.entered |= 1 << ancestor
+            if self.machine.states[ancestor].kind is Kind.PARALLEL:
+                self._add_regions(ancestor)
+
+    def _add_regions(self, parallel: int) -> None:
+        for child in self.machine.children[parallel]:
+            if not self.entered & (self.machine.inside[child] | 1 << child):
+                self._add_descendants(child)
+
+    def _exit_program(self, left: int) -> list[tuple[int, Operation]]:
+        program: list[tuple[int, Operation]] = []
+        active = self.source.active
+        for number in reversed(members(left)):
+            state = self.machine.states[number]
+            program += [(active, each) for each in state.exit]
+            if state.activity is not None:
+                program.append((active, _Stop(number)))
+            active &= ~(1 << number)
+            program.append((active, _Mark("exited", state)))
+        return program
+
+    def _entry_operations(self, number: int, state: State) -> list[Operation]:
+        operations: list[Operation] = [_Mark("entered", state), *state.entry]
+        ways = [
+            self.machine.entries[number] if self.by_default >> number & 1 else None,
+            self.from_history.get(number),
+        ]
+        operations += [way.table.effect for way in ways if way and way.table.effect is not None]
+        return operations
+
+    def _done(self, number: int, state: State, active: int) -> list[Operation]:
+        """The events that a final state completes the states around it with."""
+        machine = self.machine
+        parent = machine.parents[number]
+        if parent == 0:
+            return []
+        completed: list[Operation] = [_Done(machine.states[parent].id, state)]
+        around = machine.parents[parent]
+        if machine.states[around].kind is Kind.PARALLEL and self._is_final(around, active):
+            completed.append(_Done(machine.states[around].id, None))
+        return completed
+
+    def _is_final(self, number: int, active: int) -> bool:
+        """The procedure isInFinalState."""
+        machine = self.machine
+        children = machine.children[number]
+        if machine.states[number].kind is Kind.PARALLEL:
+            return all(self._is_final(child, active) for child in children)
+        return any(
+            machine.states[child].kind is Kind.FINAL and active >> child & 1 for child in children
+        )
+
+    def _record(self, left: int) -> None:
+        """Let the histories of the states that are left hold what was active there."""
+        machine, active = self.machine, self.source.active
+        for history in self.held:
+            around = machine.parents[history]
+            if left >> around & 1:
+                inside = members(machine.inside[around] & active)
+                if machine.states[history].kind is Kind.DEEP_HISTORY:
+                    found = [n for n in inside if not machine.inside[n] & active]
+                else:
+                    found = [n for n in inside if machine.parents[n] == around]
+                self.held[history] = sum(1 << n for n in found)
+
+
+class _Mark:
+    """An operation that only an observer is told of."""
+
+    __slots__ = ("call", "what")
+
+    def __init__(self, call: str, what: State | Transition) -> None:
+        self.call = call
+        self.what = what
+
+    def __call__(self, instance: Instance, event: Event) -> None:
+        getattr(instance.observer, self.call)(instance, self.what)
+
+
+class _Stop:
+    """Cancels the activity of a state that is left."""
+
+    __slots__ = ("number",)
+
+    def __init__(self, number: int) -> None:
+        self.number = number
+
+    def __call__(self, instance: Instance, event: Event) -> None:
+        instance.stop_activity(self.number)
+
+
+class _Done:
+    """Raises `done.state`."""
+
+    __slots__ = ("final", "name")
+
+    def __init__(self, state: str, final: State | None) -> None:
+        self.name = f"done.state.{state}"
+        self.final = final
+
+    def __call__(self, instance: Instance, event: Event) -> None:
+        data: Any = None
+        if self.final is not None and self.final.donedata is not None:
+            try:
+                data = self.final.donedata(instance, event)
+            finally:
+                instance.raise_event(Event(self.name, data))
+            return
+        instance.raise_event(Event(self.name))

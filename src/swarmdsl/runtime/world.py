@@ -1,0 +1,78 @@
+"""What is around an instance: the world that it acts on, and who watches it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from .activity import Run
+    from .instance import Instance
+    from .table import Event, State, Transition
+
+
+class ExecutionError(Exception):
+    """A guard or an effect has no value; the machine goes on, with the event `error.execution`."""
+
+
+class LoopError(Exception):
+    """One event led to more and more steps; `states` are those of the last ones."""
+
+    def __init__(self, machine: str, states: list[str]) -> None:
+        names = ", ".join(f"`{state}`" for state in states)
+        super().__init__(f"machine `{machine}` does not come to rest: it goes round in {names}")
+        self.states = states
+
+
+class World(Protocol):
+    """The clock, the servers of the activities, and those who hear of events.
+
+    An instance calls these in the middle of a step. What happens in them may reach the same
+    instance at once (`receive`, `Run.end`): it is looked at after the step.
+    """
+
+    def schedule(self, delay: int, action: Callable[[], None]) -> Any:
+        """Call `action` once, in so many nanoseconds; return what `unschedule` takes."""
+
+    def unschedule(self, handle: Any) -> None:
+        """Do not call it any more."""
+
+    def start(self, run: Run) -> None:
+        """Begin an activity, and call `run.end` when it has ended."""
+
+    def cancel(self, run: Run) -> None:
+        """Ask an activity to stop; it still calls `run.end`, when its server is free again."""
+
+    def send(self, instance: Instance, event: Event) -> None:
+        """Bring an event of the instance to others."""
+
+    def failed(self, instance: Instance, error: Exception) -> None:
+        """Say that a guard, an effect or a goal had no value: an event alone may be lost."""
+
+
+class Observer:
+    """Is told what an instance does, in order; a trace extends it."""
+
+    def received(self, instance: Instance, event: Event) -> None:
+        """An event is looked at."""
+
+    def exited(self, instance: Instance, state: State) -> None:
+        """A state has been left."""
+
+    def taken(self, instance: Instance, transition: Transition) -> None:
+        """A transition is taken: the states have been left, its effect comes next."""
+
+    def entered(self, instance: Instance, state: State) -> None:
+        """A state has been entered; its effects come next."""
+
+    def started(self, instance: Instance, run: Run) -> None:
+        """An activity was started, or waits for its server."""
+
+    def cancelled(self, instance: Instance, run: Run) -> None:
+        """The state of an activity that had not ended was left."""
+
+    def sent(self, instance: Instance, event: Event) -> None:
+        """An event was sent to others."""
+
+    def logged(self, instance: Instance, text: str) -> None:
+        """An effect has written a line."""
