@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
 
 from swarmdsl.generator import option
 
@@ -35,23 +34,18 @@ def _line_fault(name: str) -> Callable[[str], str | None]:
     return lambda value: None if value.strip() and value.isprintable() else fault
 
 
-def _checked(default: str, text: str, fault: Callable[[str], str | None]) -> Any:
-    """An option; `fault` says what is wrong with a value, None for one that is right."""
-    return field(default=default, metadata={**option(default, text).metadata, "fault": fault})
-
-
 @dataclass(frozen=True)
 class Options:
     """The options of the target."""
 
-    package: str = _checked(
-        "", "name of the package; made from the model's name when empty", _package_fault
+    package: str = option(
+        "", "name of the package; made from the model's name when empty", check=_package_fault
     )
-    version: str = _checked("0.1.0", "version of the package", _version_fault)
-    license: str = _checked("Apache-2.0", "license of the package", _line_fault("license"))
-    maintainer: str = _checked(
-        "Maintainer", "name of the package's maintainer", _line_fault("maintainer")
+    version: str = option("0.1.0", "version of the package", check=_version_fault)
+    license: str = option("Apache-2.0", "license of the package", check=_line_fault("license"))
+    maintainer: str = option(
+        "Maintainer", "name of the package's maintainer", check=_line_fault("maintainer")
     )
-    email: str = _checked(
-        "maintainer@example.org", "e-mail address of the maintainer", _email_fault
+    email: str = option(
+        "maintainer@example.org", "e-mail address of the maintainer", check=_email_fault
     )

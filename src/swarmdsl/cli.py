@@ -22,7 +22,7 @@ from swarmdsl.render import FORMATS, render, summary
 
 if TYPE_CHECKING:
     from swarmdsl.compiler import Result
-    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.diagnostics import Diagnostic, Diagnostics
 
 OK, ERRORS, USAGE, INTERNAL = range(4)
 # As a shell reports it for a program that a signal ended.
@@ -215,9 +215,13 @@ def _exit_code(report: Diagnostics) -> int:
     errors = [found for found in report if found.severity.value == "error"]
     if not errors:
         return OK
-    # With a place they stand in the project file.
-    usage = all(found.name in _USAGE_FAULTS and found.primary is None for found in errors)
-    return USAGE if usage else ERRORS
+    return USAGE if all(map(_is_usage_fault, errors)) else ERRORS
+
+
+def _is_usage_fault(found: Diagnostic) -> bool:
+    # In a file it is the project file that has them.
+    in_file = found.primary is not None and not found.primary.span.on_command_line
+    return found.name in _USAGE_FAULTS and not in_file
 
 
 @cli.command(epilog="Example: swarmc fmt examples --diff")

@@ -14,6 +14,7 @@ from swarmdsl.generator import Generator, OutputFile
 from swarmdsl.ir import System
 from swarmdsl.options import parse_options
 from swarmdsl.output_path import clash_key, stays_inside
+from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 
 # What a target cannot do, whatever it is asked for.
@@ -29,7 +30,7 @@ _LOG = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Request:
-    """A target to build and its options, as text.
+    """A target to build and its options, as text; `places` are those of options given just now.
 
     One that is not `required` is left out, with a warning, when it cannot express the model
     or does not work, as long as another one can.
@@ -38,6 +39,7 @@ class Request:
     target: str
     options: Mapping[str, str] = field(default_factory=dict)
     required: bool = True
+    places: Mapping[str, Span] = field(default_factory=dict)
 
 
 def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Output:
@@ -71,11 +73,13 @@ def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
         for name, value in request.options.items():
             if known.options.get(name, value) != value:
                 fault = f"option `{name}` is given as `{known.options[name]}` and as `{value}`"
-                report.report("bad-option", target=request.target, fault=fault)
+                place = request.places.get(name)
+                report.report("bad-option", place, target=request.target, fault=fault)
         merged[request.target] = Request(
             request.target,
             {**request.options, **known.options},
             known.required or request.required,
+            {**request.places, **known.places},
         )
     return list(merged.values())
 
@@ -96,7 +100,7 @@ def _emit_target(system: System, request: Request, report: Diagnostics) -> list[
         report.report(
             "unsupported-construct", place, target=request.target, construct=feature.value
         )
-    options = parse_options(generator, request.options, report)
+    options = parse_options(generator, request.options, report, request.places)
     if report.has_errors:
         return None
     files = _run(generator, lambda: generator.emit(system, options, report), report)

@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any
+from typing import Any, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.source import Span
 
 API_VERSION = 1
+
+V = TypeVar("V", str, bool, int)
 
 
 class Feature(Enum):
@@ -71,9 +73,18 @@ class NoOptions:
     """The options of a generator that has none."""
 
 
-def option(default: Any, text: str, choices: tuple[str, ...] = ()) -> Any:
-    """A field of an options class: its default, what it is for, the values it may take."""
-    return field(default=default, metadata={"help": text, "choices": choices})
+def option(
+    default: V,
+    text: str,
+    choices: tuple[str, ...] = (),
+    check: Callable[[V], str | None] | None = None,
+) -> Any:
+    """A field of an options class: its default, what it is for, the values it may take.
+
+    `check` is called with a value of the option's type that somebody gave, and returns what
+    is wrong with it, in words, or None. It is reported where the value stands.
+    """
+    return field(default=default, metadata={"help": text, "choices": choices, "check": check})
 
 
 def all_machines(system: System) -> tuple[StateMachine, ...]:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import Field, dataclass, fields
 from typing import Any, get_type_hints
 
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.generator import Generator
+from swarmdsl.plugins import BUILT_IN, describe
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
+
+_LOG = logging.getLogger(__name__)
 
 _BOOLEANS = {"true": True, "false": False}
 _TAKES = {str: "text", int: "a whole number", bool: "`true` or `false`"}
@@ -24,7 +28,7 @@ class Option:
     default: str | bool | int
     help: str
     choices: tuple[str, ...]
-    fault: Callable[[Any], str | None]
+    check: Callable[[Any], str | None] | None
 
     @property
     def takes(self) -> str:
@@ -57,7 +61,7 @@ def _option(field: Field[Any], type_: type) -> Option:
         field.default,  # type: ignore[arg-type]  # plugins.load has seen that there is one
         field.metadata.get("help", ""),
         tuple(field.metadata.get("choices", ())),
-        field.metadata.get("fault", lambda _: None),
+        field.metadata.get("check"),
     )
 
 
@@ -69,28 +73,50 @@ def parse_options(
 ) -> object:
     """The generator's options with what was given; defaults where that is wrong and reported.
 
-    `places` are those of the values that stand in a file.
+    `places` are those of the values: in the project file, or on the command line.
     """
+    places = places or {}
     known = options_of(generator)
     values: dict[str, str | bool | int] = {}
     for name, text in given.items():
-        place = places[name] if places else None
+        place = places.get(name)
         if name not in known:
             fault = f"there is no option `{name}`"
             hint = suggest(name, known, "options")
             report.report("bad-option", place, target=generator.target, fault=fault, help=hint)
             continue
         value = known[name].parse(text)
-        wrong = (
-            f"option `{name}` takes {known[name].takes}, not `{text}`"
-            if value is None
-            else known[name].fault(value)
-        )
-        if wrong is not None:
-            report.report("bad-option", place, target=generator.target, fault=wrong)
-        elif value is not None:
+        if value is None:
+            fault = f"option `{name}` takes {known[name].takes}, not `{text}`"
+            report.report("bad-option", place, target=generator.target, fault=fault)
+        elif _passes(known[name], value, generator, place, report):
             values[name] = value
     return generator.options_type(**values)
+
+
+def _passes(
+    option: Option,
+    value: str | bool | int,
+    generator: Generator,
+    place: Span | None,
+    report: Diagnostics,
+) -> bool:
+    """Whether the generator finds nothing wrong with a value; reported otherwise."""
+    if option.check is None:
+        return True
+    try:
+        fault = option.check(value)
+    except Exception as error:
+        if generator.target in BUILT_IN:
+            raise
+        # A mistake in the code of others is not a bug of swarmdsl.
+        _LOG.debug("checking an option of target %s", generator.target, exc_info=True)
+        reason = f"its check of option `{option.name}` ends with {describe(error)}"
+        report.report("generator-failed", place, target=generator.target, reason=reason)
+        return False
+    if fault is not None:
+        report.report("bad-option", place, target=generator.target, fault=fault)
+    return fault is None
 
 
 def _is_integer(text: str) -> bool:

@@ -8,10 +8,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
 
+COMMAND_LINE = "<command line>"
+"""The name of a source that is an argument of the command line, as compilers call it."""
+
 
 @dataclass(eq=False)
 class Source:
-    """One file's text.
+    """One file's text, or an argument of the command line.
 
     `name` is how the file is shown to a person (the path as it was given);
     `path` is where it lies, None for text that came from elsewhere.
@@ -55,6 +58,11 @@ class Span(NamedTuple):
     def text(self) -> str:
         """The piece itself."""
         return self.source.text[self.start : self.end]
+
+    @property
+    def on_command_line(self) -> bool:
+        """Whether it stands in no file."""
+        return self.source.name == COMMAND_LINE
 
     @property
     def line(self) -> int:

@@ -78,6 +78,28 @@ def test_mistakes_in_targets_and_options_are_wrong_usage(swarmc, good, tmp_path,
     assert not (tmp_path / "made").exists()
 
 
+def test_an_option_is_shown_as_it_was_written(swarmc, good):
+    ran = swarmc("build", good, "-t", "smach", "--option", "smach.email=me")
+    assert ran.code == 2
+    assert ran.out == (
+        "error[SW0904]: target `smach`: `me` is no e-mail address\n"
+        " --> <command line>:1:10\n"
+        "  |\n"
+        "1 | --option smach.email=me\n"
+        "  |          ^^^^^^^^^^^^^^\n\n"
+    )
+
+
+@pytest.mark.parametrize("format_", ["github", "sarif"])
+def test_what_is_on_the_command_line_is_in_no_file_that_a_program_could_open(
+    swarmc, good, format_
+):
+    option = ("--option", "smach.email=me")
+    ran = swarmc("build", good, "-t", "smach", *option, "--format", format_)
+    assert "`me` is no e-mail address" in ran.out
+    assert "command" not in ran.out
+
+
 @pytest.mark.parametrize("option", ["x", "scxml", "scxml=1", "scxml.=1", "adf.x=1"])
 def test_options_that_cannot_be_understood_are_wrong_usage(swarmc, good, option):
     ran = swarmc("build", good, "-t", "scxml", "--option", option)

@@ -249,6 +249,7 @@ def test_options_reach_the_generator(roster, compiled, options, text):
         ({"style": "html"}, "option `style` takes `plain` or `markdown`, not `html`", None),
         ({"indent": "two"}, "option `indent` takes a whole number, not `two`", None),
         ({"indent": "9" * 5000}, f"option `indent` takes a whole number, not `{'9' * 5000}`", None),
+        ({"indent": "41"}, "41 is no number of spaces: 0 to 40", None),
         ({"count": "yes"}, "option `count` takes `true` or `false`, not `yes`", None),
     ],
 )
@@ -258,6 +259,22 @@ def test_options_that_a_target_does_not_take(roster, options, fault, hint):
     assert found.name == "bad-option"
     assert found.message == f"target `roster`: {fault}"
     assert found.help == hint
+
+
+def test_a_check_that_fails_is_a_fault_of_the_generator(install):
+    install(
+        "odd",
+        """from dataclasses import dataclass
+from swarmdsl.generator import Generator, option
+@dataclass(frozen=True)
+class Options:
+    n: int = option(1, "A number.", check=lambda n: 1 // n and None)
+generator = Generator("odd", "A summary", lambda system, options, report: [], Options)
+""",
+    )
+    _, found = run(EMPTY, Request("odd", {"n": "0"}))
+    assert [one.name for one in found] == ["generator-failed"]
+    assert "check of option `n` ends with ZeroDivisionError" in found[0].message
 
 
 def test_requests_for_one_target_add_up(roster, compiled):

@@ -17,6 +17,7 @@ from swarmdsl.emit import Request
 from swarmdsl.project import find_settings
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
+from swarmdsl.source import COMMAND_LINE, Source, Span
 
 
 def run_settings(
@@ -38,6 +39,7 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
     required = bool(named or settings.targets)
     built = named or list(settings.targets) or plugins.target_names()
     given: dict[str, dict[str, str]] = {target: {} for target in built}
+    places: dict[str, dict[str, Span]] = {target: {} for target in built}
     for option in options:
         name, equals, value = option.partition("=")
         target, dot, name = name.partition(".")
@@ -49,10 +51,17 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
             raise click.UsageError(
                 f"`{target}.{name}` is given as `{given[target][name]}` and as `{value}`"
             )
+        places[target][name] = _place(option)
     return [
-        Request(target, {**settings.targets.get(target, {}), **own}, required)
+        Request(target, {**settings.targets.get(target, {}), **own}, required, places[target])
         for target, own in given.items()
     ]
+
+
+def _place(option: str) -> Span:
+    """The place of an option, which is shown as it is written."""
+    source = Source(COMMAND_LINE, f"--option {option}")
+    return Span(source, len(source.text) - len(option), len(source.text))
 
 
 def _levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:

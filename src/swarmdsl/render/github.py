@@ -14,7 +14,11 @@ from swarmdsl.source import Span
 def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     """Write one command a diagnostic; its severities are commands there."""
     for diagnostic in found:
-        properties = _place(diagnostic.primary.span) if diagnostic.primary else {}
+        properties = (
+            _place(diagnostic.primary.span)
+            if diagnostic.primary and not diagnostic.primary.span.on_command_line
+            else {}
+        )
         properties["title"] = f"{diagnostic.code} {diagnostic.name}"
         written = ",".join(f"{name}={_property(text)}" for name, text in properties.items())
         stream.write(f"::{diagnostic.severity.value} {written}::{_text(_message(diagnostic))}\n")

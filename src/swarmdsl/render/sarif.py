@@ -68,7 +68,7 @@ def _result(diagnostic: Diagnostic, rule: int) -> dict[str, Any]:
         "level": diagnostic.severity.value,
         "message": {"text": "\n".join((diagnostic.message, *remarks))},
     }
-    if diagnostic.primary is not None:
+    if diagnostic.primary is not None and not diagnostic.primary.span.on_command_line:
         result["locations"] = [_location(diagnostic.primary)]
     if diagnostic.related:
         result["relatedLocations"] = [

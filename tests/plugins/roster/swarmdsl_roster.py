@@ -10,13 +10,17 @@ from swarmdsl.generator import Feature, Generator, OutputFile, option
 from swarmdsl.ir import System
 
 
+def _indent_fault(indent: int) -> str | None:
+    return None if 0 <= indent <= 40 else f"{indent} is no number of spaces: 0 to 40"
+
+
 @dataclass(frozen=True)
 class Options:
     """What can be chosen."""
 
     style: str = option("plain", "How a role is written.", choices=("plain", "markdown"))
     title: str = option("", "A first line.")
-    indent: int = option(0, "Spaces before each role.")
+    indent: int = option(0, "Spaces before each role.", check=_indent_fault)
     count: bool = option(True, "Whether to say how many.")
 
 
