@@ -88,7 +88,7 @@ def _link_container(
         match item:
             case Initial() if inside or not isinstance(container, State):
                 # An initial state in a state without states is reported as such.
-                _link_vertex(item.target, (inside,), scope, report)
+                _link_inside(item, container, inside, (*outer, *beside), scope, report)
             case Transition():
                 assert isinstance(container, (State, Parallel))
                 if item.target is not None:
@@ -100,7 +100,7 @@ def _link_container(
                 for branch in item.branches:
                     _link_vertex(branch.target, (inside, *outer, *beside), scope, report)
             case History():
-                _link_vertex(item.target, (inside,), scope, report)
+                _link_inside(item, container, inside, (*outer, *beside), scope, report)
             case Region():
                 _link_container(item, outer, (inside, *beside), scope, report)
             case State() | Parallel():
@@ -119,6 +119,31 @@ def _by_name(state: Vertex | Container) -> Level:
         for name, inside in first.items():
             names.setdefault(name, []).append(inside)
     return names
+
+
+def _link_inside(
+    arrow: Initial | History,
+    container: Container,
+    inside: Level,
+    around: tuple[Level, ...],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Resolve where an initial state or a history leads: to a state inside its own."""
+    name = arrow.target.name
+    outside = next((level[name][0] for level in around if name in level), None)
+    if outside is None or name in inside:
+        _link_vertex(arrow.target, (inside,), scope, report)
+        return
+    what = "`initial` names" if isinstance(arrow, Initial) else f"history `{arrow.name}` leads to"
+    report.report(
+        "unresolved-name",
+        arrow.target.span,
+        kind=f"state in `{container.name}`",
+        name=name,
+        related=(Label(outside.name.span, "this one is not inside"),),
+        help=f"{what} a state inside `{container.name}`",
+    )
 
 
 def _link_vertex(

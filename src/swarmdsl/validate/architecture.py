@@ -108,10 +108,13 @@ def _check_connected(member: Member, context: Context) -> None:
     # Either end: a connector that is the wrong way round is reported as such.
     ends = [end for connector in connectors for end in (connector.source, connector.target)]
     connected = {(end.part.target, end.port.target) for end in ends if end.part is not None}
-    for part in (item for item in member.items if isinstance(item, Part)):
-        if part.component.target is None:
+    # Of two with one name, which are reported, connectors lead to the first.
+    parts = {str(part.name): part for part in reversed(all_items(member, Part))}
+    for part in parts.values():
+        if part not in member.items or part.component.target is None:
             continue
-        for port in all_items(part.component.target, Port):
+        ports = {str(port.name): port for port in reversed(all_items(part.component.target, Port))}
+        for port in ports.values():
             if port.direction == "in" and port.topic is None and (part, port) not in connected:
                 context.report.report(
                     "unconnected-port",
@@ -123,8 +126,8 @@ def _check_connected(member: Member, context: Context) -> None:
 
 
 def _check_driven_once(member: Member, context: Context) -> None:
-    """Check that no port gets its data from two connectors."""
-    first: dict[tuple[Part | None, Port], Connector] = {}
+    """Check that no port gets its data from two connectors, and no connector is there twice."""
+    first: dict[tuple[Part | None, Port], dict[tuple[Part | None, Port], Connector]] = {}
     for connector in all_items(member, Connector):
         end, source = connector.target, connector.source.port.target
         if source is None or end.port.target is None:
@@ -133,14 +136,27 @@ def _check_driven_once(member: Member, context: Context) -> None:
             end, end.port.target
         ):
             continue  # leads the wrong way, which is reported
-        place = (end.part.target if end.part is not None else None, end.port.target)
-        earlier = first.setdefault(place, connector)
-        if earlier is not connector:
+        ends = [
+            (each.part.target if each.part is not None else None, port)
+            for each, port in ((connector.source, source), (end, end.port.target))
+        ]
+        by_source = first.setdefault(ends[1], {})
+        same = by_source.get(ends[0])
+        others = list(by_source.values())
+        by_source.setdefault(ends[0], connector)
+        if same is not None:
+            context.report.report(
+                "repeated-item",
+                connector.span,
+                item="this connector",
+                related=(Label(same.span, "first given here"),),
+            )
+        elif others:
             context.report.report(
                 "driven-twice",
                 end.span,
                 port=end.span.text,
-                related=(Label(earlier.span, "already connected here"),),
+                related=(Label(others[0].span, "already connected here"),),
                 help="what comes from two sides mixes on one topic: give each a port of its own",
             )
 

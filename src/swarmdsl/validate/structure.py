@@ -242,13 +242,15 @@ def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context
 
 def _check_initial(container: Container, owner: str, context: Context) -> None:
     found = [item for item in container.items if isinstance(item, Initial)]
-    inside = [str(state.name) for state in vertices(container)]
+    # Best one that is active for a while: a history has nothing to resume at the start.
+    states = [state for state in vertices(container) if not isinstance(state, History)]
+    inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
     if not found:
         context.report.report(
             "missing-initial",
             container.name.span,
             owner=owner,
-            help=f"add `initial {inside[0]}`, for instance"
+            help=f"add `initial {inside[0].name}`, for instance"
             if inside
             else "add a state, and `initial` with its name",
         )

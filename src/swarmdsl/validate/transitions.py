@@ -108,7 +108,8 @@ def _check_outcomes(state: State, transitions: list[Transition], context: Contex
         if all(transition.guard is not None for transition in handled):
             unhandled.append(outcome)
             guarded += handled
-    if not unhandled:
+    # Which of its contents a state keeps is to be decided first.
+    if not unhandled or state.machine is not None or _has_states(state):
         return
     for activity in _activities(state)[:1]:
         context.report.report(
