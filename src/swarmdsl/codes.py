@@ -124,6 +124,10 @@ CODES: dict[str, Code] = {
     "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
     "bad-topic": Code("SW0611", "error", "`{name}` cannot be the name of {what} in ROS"),
     "topic-types": Code("SW0612", "error", "topic `{topic}` carries `{first}`, not `{second}`"),
+    "empty-enum": Code("SW0613", "error", "enum `{name}` has no value"),
+    "no-first-value": Code(
+        "SW0614", "warning", "variable `{name}` begins as 0, which is no value of enum `{enum}`"
+    ),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

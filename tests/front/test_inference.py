@@ -30,7 +30,8 @@ def typed(linked: Callable[..., Project]) -> Typed:
           statemachine M {{
             param p : float64 = 1.0
             var i : int32  var u : uint8  var f : float32  var b : bool  var s : string
-            var d : duration  var m : Status  var e : other_msgs/Pose  var a : float64[]
+            var d : duration  var m : Status  var e : other_msgs/Pose
+            var a : float64[]  var t : time
             initial A
             state A {{ on Low / i = {text} -> F }}
             final F
@@ -62,6 +63,7 @@ def infer(typed: Typed, text: str) -> tuple[Type | None, list[str]]:
         *(("i < f", BOOL), ("not b", BOOL), ("b and i == 3", BOOL), ('s == "x"', BOOL)),
         *(("-i", Primitive("int32")), ('s + "x"', TEXT), ("p * 2", FLOAT)),
         *(("min(1, 2, 3)", INT), ("max(1, 2.5)", FLOAT), ("abs(-1)", INT), ("sqrt(2)", FLOAT)),
+        *(("t == t", BOOL), ("t != t", BOOL), ("d != 3 s", BOOL)),
         *(("len(s)", INT), ("len(a)", INT), ("min(1 s, d)", DURATION)),
         *(("m.level", Primitive("float32")), ("m.pose", POSE), ("m.path", Array(FLOAT, 3))),
         *(("event.level", Primitive("float32")), ("event", Named("main", "Status"))),
@@ -85,6 +87,12 @@ def test_types(typed: Typed, text: str, type_: Type | None) -> None:
         ("i and b", ["bad-operand"]),
         ("s == 1", ["bad-operand"]),
         ("d == 1", ["bad-operand"]),
+        ("m == m", ["bad-operand"]),
+        ("m.pose != m.pose", ["bad-operand"]),
+        ("a == a", ["bad-operand"]),
+        ("t < t", ["bad-operand"]),
+        ("t - t", ["bad-operand"]),
+        ("t == d", ["bad-operand"]),
         ("i / 0", ["no-result"]),
         ("s / 0", ["bad-operand"]),
         ("e.x % (1 - 1)", ["no-result"]),

@@ -1,7 +1,15 @@
 """Types of expressions: what follows from their parts, and what can be used where."""
 
 from swarmdsl.inference.expressions import Typing, report_unknown_field
-from swarmdsl.inference.fitting import fits, is_number
+from swarmdsl.inference.fitting import fits, is_number, range_of
 from swarmdsl.inference.forms import assignable, constant
 
-__all__ = ["Typing", "assignable", "constant", "fits", "is_number", "report_unknown_field"]
+__all__ = [
+    "Typing",
+    "assignable",
+    "constant",
+    "fits",
+    "is_number",
+    "range_of",
+    "report_unknown_field",
+]

@@ -69,7 +69,7 @@ class Operation:
             return BOOL
         if operator in ("==", "!="):
             if not self._comparable(left, right):
-                self._report_operands()
+                self._report_operands("compare their fields" if self._messages() else None)
             return BOOL
         if operator in ("<", "<=", ">", ">="):
             if not self._durations():
@@ -101,6 +101,11 @@ class Operation:
             return False
         return fits(left, right) or fits(right, left)
 
+    def _messages(self) -> bool:
+        """Whether all are messages or structs of one type."""
+        left = self.types[0]
+        return isinstance(left, Named) and not self.is_enum(left) and self.types == [left, left]
+
     def _durations(self) -> bool:
         return DURATION in self.types and all(known in (DURATION, None) for known in self.types)
 
@@ -116,9 +121,12 @@ class Operation:
             self._report_operands()
         return fine
 
-    def _report_operands(self) -> None:
-        self._report(listed([str(known) for known in self.types if known is not None], "and"))
+    def _report_operands(self, advice: str | None = None) -> None:
+        names = [str(known) for known in self.types if known is not None]
+        self._report(listed(names, "and"), advice)
 
-    def _report(self, operands: str) -> None:
+    def _report(self, operands: str, advice: str | None = None) -> None:
         word = self.tree.function if isinstance(self.tree, Call) else self.tree.operator
-        self.report.report("bad-operand", self.tree.span, operator=word, operands=operands)
+        self.report.report(
+            "bad-operand", self.tree.span, operator=word, operands=operands, help=advice
+        )

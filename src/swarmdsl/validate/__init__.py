@@ -30,6 +30,7 @@ from swarmdsl.validate.composition import check_environment, check_swarm
 from swarmdsl.validate.conflicts import check_conflicts
 from swarmdsl.validate.context import Context, make_context
 from swarmdsl.validate.dataflow import check_variables
+from swarmdsl.validate.enums import check_enum
 from swarmdsl.validate.events import check_events
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
@@ -44,7 +45,6 @@ from swarmdsl.validate.interfaces import (
 from swarmdsl.validate.names import check_names
 from swarmdsl.validate.optimization import (
     check_constant,
-    check_enum,
     check_fitness,
     check_optimization,
 )

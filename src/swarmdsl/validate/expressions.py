@@ -26,6 +26,7 @@ from swarmdsl.syntax import (
 )
 from swarmdsl.validate.activities import check_arguments
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.enums import check_first_value
 from swarmdsl.validate.interfaces import check_graph_name
 
 
@@ -37,6 +38,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 context.check_default(node, node.default)
             case Variable():
                 context.check_default(node, node.initial)
+                check_first_value(node, context)
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
                 if node.delay.tree is not None and _negative(node.delay.tree):

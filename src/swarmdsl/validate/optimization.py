@@ -1,15 +1,13 @@
-"""Fitness and what may be changed to better it; constants and enums."""
+"""Fitness and what may be changed to better it; constants."""
 
 from __future__ import annotations
 
-from swarmdsl.enums import numbers, underlying
 from swarmdsl.folding import fold
 from swarmdsl.inference import is_number
-from swarmdsl.ir.types import INT, INTEGERS, Primitive, Type
+from swarmdsl.ir.types import INT, Type
 from swarmdsl.syntax import (
     Constant,
     CountRange,
-    EnumType,
     Expression,
     Fitness,
     Objective,
@@ -73,48 +71,6 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
 def check_constant(declared: Constant, context: Context) -> None:
     """The value of a constant is known and of its type."""
     context.check_constant(declared.value, declared.type.type)
-
-
-def check_enum(enum: EnumType, context: Context) -> None:
-    """The values of an enum are whole numbers of its type, each once."""
-    written = enum.underlying.type if enum.underlying is not None else None
-    if written is not None and not (isinstance(written, Primitive) and written.name in INTEGERS):
-        assert enum.underlying is not None
-        context.report.report(
-            "interface-kind",
-            enum.underlying.span,
-            name=enum.underlying.span.text,
-            actual="a type of another kind",
-            expected="an integer type",
-            help="the values of an enum are whole numbers: `uint8` for instance",
-        )
-        return
-    name = underlying(enum).name
-    bits = int(name.lstrip("uint"))
-    lowest, highest = (
-        (0, 2**bits - 1) if name[0] == "u" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
-    )
-    known = numbers(enum)
-    seen: dict[int, str] = {}
-    for value in enum.values:
-        number = known[str(value.name)]
-        fault = ""
-        if not lowest <= number <= highest:
-            fault = f"is {number}, which is no `{name}`"
-        elif seen.get(number, value.name) != value.name:
-            fault = f"is {number}, like `{seen[number]}`"
-        if fault:
-            context.report.report(
-                "enum-value",
-                value.name.span,
-                name=value.name,
-                enum=enum.name,
-                fault=fault,
-                help=f"a value of type `{name}` is from {lowest} to {highest}"
-                if not lowest <= number <= highest
-                else "give each value a number of its own",
-            )
-        seen.setdefault(number, str(value.name))
 
 
 def _check_range(
