@@ -8,6 +8,7 @@ import operator
 import shutil
 import subprocess
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -17,8 +18,19 @@ from hypothesis import strategies as st
 from swarmdsl import cpp
 from swarmdsl.exchange import constants
 from swarmdsl.exchange.scxml import ecmascript
-from swarmdsl.ir import Binary, Call, EventData, Expression, Literal, Named, Unary, VariableRef
+from swarmdsl.ir import (
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    Named,
+    Unary,
+    VariableRef,
+)
 from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING, Array
+from swarmdsl.simulate.expressions import function_of
 from swarmdsl.translate import Dialect, python_literal, translate
 
 PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
@@ -74,6 +86,13 @@ CONDITIONS = st.recursive(
     max_leaves=6,
 )
 EXPRESSIONS = NUMBERS | CONDITIONS
+LEAVES = st.sampled_from(
+    (
+        VariableRef("n", INT),
+        FieldAccess(VariableRef("report", REPORT), "level", INT),
+        FieldAccess(EventData(REPORT), "level", INT),
+    )
+)
 
 
 def modulo(left: float, right: float) -> float:
@@ -158,6 +177,28 @@ def test_python_has_the_value_of_the_language(expression: Expression) -> None:
 @given(EXPRESSIONS)
 def test_the_compiler_computes_the_value_of_the_language(expression: Expression) -> None:
     assert constants.constant(expression, {}) == defined_value(expression)
+
+
+@QUICK
+@given(EXPRESSIONS)
+def test_the_engine_computes_the_value_of_the_language(expression: Expression) -> None:
+    expected = defined_value(expression)
+
+    assert function_of(expression)({}, None) == expected
+
+
+@QUICK
+@given(st.recursive(NUMBERS, lambda inner: binary("and or < + %", inner | LEAVES, FLOAT)))
+def test_the_engine_and_python_fail_alike(expression: Expression) -> None:
+    data = {"n": 3, "report": {"level": 2}}
+    names = {"n": 3, "report": SimpleNamespace(level=2), "math": math}
+    try:
+        expected = eval(translate(expression, PYTHON), {**names, "event": names["report"]})
+    except (ArithmeticError, ValueError) as error:
+        with pytest.raises(type(error)):
+            function_of(expression)(data, data["report"])
+    else:
+        assert function_of(expression)(data, data["report"]) == expected
 
 
 def test_ecmascript_has_the_value_of_the_language() -> None:

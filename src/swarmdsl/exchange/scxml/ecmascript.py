@@ -5,15 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
+from swarmdsl.defaults import default_value
 from swarmdsl.exchange.scxml.effects import effects_of
 from swarmdsl.ir import (
-    Array,
     Assignment,
     EventData,
     Expression,
     FieldAccess,
     Literal,
-    Message,
     ParamRef,
     Primitive,
     StateMachine,
@@ -81,22 +80,6 @@ def _is_computed(trigger: Trigger) -> bool:
 
 def first_value(type_: Type, system: System) -> str:
     """The value of a variable to which the model gives none: ROS's default for its type."""
-    value = json.dumps(_default(type_, system))
+    value = json.dumps(default_value(type_, system))
     # An engine that evaluates the text as a program would take the brace for a block.
     return f"({value})" if value.startswith("{") else value
-
-
-def _default(type_: Type, system: System) -> object:
-    match type_:
-        case Primitive(name="string" | "wstring"):
-            return ""
-        case Primitive(name="bool"):
-            return False
-        case Primitive():
-            return 0
-        case Array(element=element, size=size, bounded=bounded):
-            return [] if bounded else [_default(element, system)] * (size or 0)
-    described = system.interface(type_)
-    if not isinstance(described, Message):
-        return {}
-    return {field.name: _default(field.type, system) for field in described.fields}

@@ -10,18 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import reduce
 
 from lxml import etree
 
 from swarmdsl.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
 from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.exchange.scxml.inward import inward, region_entered
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
 from swarmdsl.ir import (
     Assignment,
-    Binary,
     Effect,
     Expression,
     Literal,
@@ -31,10 +30,7 @@ from swarmdsl.ir import (
     StateKind,
     StateMachine,
     System,
-    Transition,
-    Unary,
 )
-from swarmdsl.ir.types import BOOL
 from swarmdsl.translate import Dialect, translate
 
 # The type of a <send> that leaves the machine: it is the business of the host.
@@ -153,7 +149,7 @@ class _StateWriter:
                 for trigger in transition.triggers
                 for event in self.events.of_trigger(trigger, state)
             ]
-            if _region_entered(transition, state) is not None:
+            if region_entered(transition, state) is not None:
                 # What it does stands in the region. Here it keeps those after it from being taken.
                 self._add_transition(element, events, transition.guard)
                 continue
@@ -165,25 +161,10 @@ class _StateWriter:
             self._add_effects(added, transition.effects)
 
     def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
-        """Add the internal transitions of a parallel state that lead into this region.
-
-        SCXML has internal transitions of compound states only. A region takes its own before
-        those of the parallel state: the earlier ones there must not be enabled.
-        """
-        for index, transition in enumerate(around.transitions):
-            if _region_entered(transition, around) is not region:
-                continue
-            for event in self.events.of_transition(transition, around):
-                guards = [
-                    earlier.guard
-                    for earlier in around.transitions[:index]
-                    if event in self.events.of_transition(earlier, around)
-                ]
-                if None not in guards:
-                    guard = _all([*(_not(each) for each in guards if each)], transition.guard)
-                    events = [event] if event else []
-                    added = self._add_transition(element, events, guard, True, transition.target)
-                    self._add_effects(added, transition.effects)
+        for event, guard, transition in inward(region, around, self.events):
+            events = [event] if event else []
+            added = self._add_transition(element, events, guard, True, transition.target)
+            self._add_effects(added, transition.effects)
 
     def _add_transition(
         self,
@@ -222,21 +203,3 @@ class _StateWriter:
 
     def _location(self, variable: str, path: tuple[str, ...]) -> str:
         return ".".join((self.dialect.variable(variable), *path))
-
-
-def _region_entered(transition: Transition, state: State) -> State | None:
-    """The region that an internal transition of a parallel state leads into."""
-    if state.kind is not StateKind.PARALLEL or not transition.internal:
-        return None
-    target = f"{transition.target}."
-    return next((region for region in state.states if target.startswith(f"{region.id}.")), None)
-
-
-def _not(guard: Expression) -> Expression:
-    return Unary("not", guard, BOOL)
-
-
-def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:
-    """The conjunction of guards; None when there is none."""
-    given = [*guards, *([last] if last is not None else [])]
-    return reduce(lambda left, right: Binary("and", left, right, BOOL), given) if given else None

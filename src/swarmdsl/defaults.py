@@ -1,0 +1,28 @@
+"""The value of what the model gives none: ROS's default for its type."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
+
+
+def default_value(type_: Type, system: System) -> Any:
+    """The default as plain data; a message is a dictionary of its fields, as far as known."""
+    match type_:
+        case Primitive(name="string" | "wstring"):
+            return ""
+        case Primitive(name="bool"):
+            return False
+        case Primitive():
+            return 0
+        case Array(element=element, size=size, bounded=bounded):
+            return [] if bounded else [default_value(element, system) for _ in range(size or 0)]
+    described = system.interface(type_)
+    return default_fields(described.fields, system) if isinstance(described, Message) else {}
+
+
+def default_fields(fields: Iterable[Field], system: System) -> dict[str, Any]:
+    """The defaults of some fields, by name."""
+    return {field.name: default_value(field.type, system) for field in fields}
