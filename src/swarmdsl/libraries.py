@@ -28,8 +28,8 @@ _LOG = logging.getLogger(__name__)
 class Libraries:
     """The folders where packages are looked for; the first that has one is taken.
 
-    That is the folder of the importing file, those given, the libraries of installed Python
-    packages, and the one that comes with swarmdsl.
+    That is the folder of the importing file, those given, the one that comes with swarmdsl,
+    and the libraries of installed Python packages.
     """
 
     def __init__(self, folders: Sequence[Path], report: Diagnostics) -> None:
@@ -68,8 +68,8 @@ class Libraries:
     def _search_path(self, nearby: Path) -> Iterator[Path]:
         yield nearby
         yield from self._folders
-        yield from self._installed
         yield resources.library()
+        yield from self._installed
 
     @cached_property
     def _installed(self) -> list[Path]:

@@ -91,9 +91,7 @@ def test_an_option_is_shown_as_it_was_written(swarmc, good):
 
 
 @pytest.mark.parametrize("format_", ["github", "sarif"])
-def test_what_is_on_the_command_line_is_in_no_file_that_a_program_could_open(
-    swarmc, good, format_
-):
+def test_what_is_on_the_command_line_is_in_no_file_that_a_program_could_open(swarmc, good, format_):
     option = ("--option", "smach.email=me")
     ran = swarmc("build", good, "-t", "smach", *option, "--format", format_)
     assert "`me` is no e-mail address" in ran.out

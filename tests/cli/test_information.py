@@ -6,7 +6,7 @@ from importlib.metadata import version
 import pytest
 
 from swarmdsl import explain, plugins
-from swarmdsl.cli import cli
+from swarmdsl.cli import COMMANDS
 from swarmdsl.codes import CODES
 
 PAGES = sorted(explain.page_path("SW0000").parent.glob("*.md"))
@@ -72,7 +72,7 @@ def test_version(swarmc):
     assert swarmc("--version").out == f"swarmc, version {version('swarmdsl')}\n"
 
 
-@pytest.mark.parametrize("command", [None, *cli.commands])
+@pytest.mark.parametrize("command", [None, *COMMANDS])
 def test_help_has_an_example(swarmc, command):
     ran = swarmc(*([command] if command else []), "--help")
     assert ran.code == 0

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from swarmdsl import plugins
-from swarmdsl.cli import cli
+from swarmdsl.cli import COMMANDS
 from swarmdsl.codes import CODES
 from swarmdsl.syntax_advice import keywords
 
@@ -95,7 +95,7 @@ def test_paths_in_contributing_exist() -> None:
 
 
 def test_the_readme_has_every_command_and_target() -> None:
-    assert set(cli.commands) - words(README.code) == set()
+    assert set(COMMANDS) - words(README.code) == set()
     assert set(plugins.BUILT_IN) - words(README.code) == set()
 
 

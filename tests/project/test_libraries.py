@@ -59,7 +59,7 @@ def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
 def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
     """Each place is the first that has the package when those before it are gone."""
     shipped = tmp_path / "shipped"
-    installed = install("kits", "kits", {"kit.swarm": KIT.format(name="place4")})
+    installed = install("kits", "kits", {"kit.swarm": KIT.format(name="place5")})
     root = project(
         {
             "models/main.swarm": USER.format(package="kit", call="go"),
@@ -67,12 +67,12 @@ def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
             "kit.swarm": KIT.format(name="place1"),
             "lib/kit/any.swarm": KIT.format(name="place2"),
             "../other/kit.swarm": KIT.format(name="place3"),
-            "../shipped/kit.swarm": KIT.format(name="place5"),
+            "../shipped/kit.swarm": KIT.format(name="place4"),
             "swarm.toml": "[project]\nlibraries = ['lib', '../other']\n",
         }
     )
     monkeypatch.setattr(resources, "library", lambda: shipped)
-    places = [root / "models", root, root / "lib" / "kit", tmp_path / "other", installed, shipped]
+    places = [root / "models", root, root / "lib" / "kit", tmp_path / "other", shipped, installed]
     found = []
     for place in places:
         settings = Settings(libraries=(root, root / "lib", tmp_path / "other"))

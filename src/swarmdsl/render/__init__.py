@@ -21,7 +21,6 @@ FORMATS = tuple(_MODULES)
 
 def render(found: Iterable[Diagnostic], format_: str, stream: TextIO) -> None:
     """Write diagnostics to a stream in one of the FORMATS."""
-    # Imported here: only the format for people needs rich.
     import_module(f"{__name__}.{_MODULES[format_]}").render(found, stream)
 
 

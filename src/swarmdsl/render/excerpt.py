@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from rich.cells import cell_len
-
 from swarmdsl.render.printable import printable
 from swarmdsl.source import Span
 
@@ -42,6 +40,16 @@ def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
         marked = _first_cells(marked, width - cell_len(before))
         after = _first_cells(after, room) if (room := width - cell_len(before + marked)) else ""
     return Excerpt((before + marked + after).rstrip(), cell_len(before), max(cell_len(marked), 1))
+
+
+def cell_len(text: str) -> int:
+    """How many cells of a terminal a text takes."""
+    if text.isascii():
+        return len(text)
+    # Imported here because it is slow and most models do without.
+    from rich import cells
+
+    return cells.cell_len(text)
 
 
 def _first_cells(text: str, cells: int) -> str:

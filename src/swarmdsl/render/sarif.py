@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from importlib.metadata import version
 from typing import Any, TextIO
 
-from swarmdsl import explain
+from swarmdsl import __version__, explain
 from swarmdsl.codes import CODES
 from swarmdsl.diagnostics import Diagnostic, Label
 from swarmdsl.render.places import uri
@@ -24,7 +23,7 @@ def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     rules = {name: index for index, name in enumerate(names)}
     driver = {
         "name": "swarmc",
-        "semanticVersion": version("swarmdsl"),
+        "semanticVersion": __version__,
         "rules": [_rule(name) for name in names],
     }
     run = {

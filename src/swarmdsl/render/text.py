@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Iterator
 from typing import TextIO
-
-from rich.console import Console
-from rich.text import Text
 
 from swarmdsl.diagnostics import Diagnostic, Label, Severity
 from swarmdsl.render.excerpt import excerpt
@@ -17,30 +15,42 @@ _FRAME = "blue"
 _RELATED = "cyan"
 
 
+# A piece of text and its style.
+Piece = tuple[str, str]
+
+
 def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     """Write the diagnostics, in colour when the stream is a terminal."""
+    drawn = [list(_drawn(diagnostic)) for diagnostic in found]
+    if not (stream.isatty() or os.environ.get("FORCE_COLOR")):
+        stream.writelines(f"{''.join(text for text, _ in pieces)}\n" for pieces in drawn)
+        return
+    # Imported here because it is slow and nobody else needs colours.
+    from rich.console import Console
+    from rich.text import Text
+
     console = Console(file=stream, highlight=False, soft_wrap=True)
-    for diagnostic in found:
+    for pieces in drawn:
         # A Text is printed as it is: what looks like markup in a model stays text.
-        console.print(_drawn(diagnostic))
+        console.print(Text.assemble(*pieces))
 
 
-def _drawn(diagnostic: Diagnostic) -> Text:
+def _drawn(diagnostic: Diagnostic) -> Iterator[Piece]:
     style = _STYLES[diagnostic.severity]
     labels = [label for label in (diagnostic.primary, *diagnostic.related) if label is not None]
     gutter = max((len(str(label.span.line)) for label in labels), default=0)
-    drawn = Text()
-    drawn.append(f"{diagnostic.severity.value}[{diagnostic.code}]", style)
-    drawn.append(f": {printable(diagnostic.message)}\n", "bold")
+    yield f"{diagnostic.severity.value}[{diagnostic.code}]", style
+    yield f": {printable(diagnostic.message)}\n", "bold"
     if diagnostic.primary is not None:
-        _draw_place(drawn, diagnostic.primary, gutter, "^", style, diagnostic.primary.message)
+        yield from _place(diagnostic.primary, gutter, "^", style, diagnostic.primary.message)
     for label in diagnostic.related:
-        drawn.append("note", _RELATED).append(f": {printable(label.message)}\n")
-        _draw_place(drawn, label, gutter, "-", _RELATED, "")
+        yield "note", _RELATED
+        yield f": {printable(label.message)}\n", ""
+        yield from _place(label, gutter, "-", _RELATED, "")
     for kind, text in _remarks(diagnostic):
-        drawn.append(f"{'':{gutter}} = " if gutter else "  = ", _FRAME)
-        drawn.append(kind, "bold").append(f": {printable(text)}\n")
-    return drawn
+        yield f"{'':{gutter}} = " if gutter else "  = ", _FRAME
+        yield kind, "bold"
+        yield f": {printable(text)}\n", ""
 
 
 def _remarks(diagnostic: Diagnostic) -> list[tuple[str, str]]:
@@ -50,16 +60,14 @@ def _remarks(diagnostic: Diagnostic) -> list[tuple[str, str]]:
     return remarks
 
 
-def _draw_place(
-    drawn: Text, label: Label, gutter: int, mark: str, style: str, message: str
-) -> None:
+def _place(label: Label, gutter: int, mark: str, style: str, message: str) -> Iterator[Piece]:
     source = label.span.source
     line, column = source.line_column(label.span.start)
     shown = excerpt(label.span)
-    drawn.append(f"{'':{gutter}}--> ", _FRAME)
-    drawn.append(f"{printable(source.name)}:{line}:{column}\n")
-    drawn.append(f"{'':{gutter}} |\n", _FRAME)
-    drawn.append(f"{line:>{gutter}} | ", _FRAME).append(f"{shown.text}\n")
-    drawn.append(f"{'':{gutter}} | ", _FRAME).append(" " * shown.indent)
-    drawn.append(mark * shown.length, style)
-    drawn.append(f" {printable(message)}\n" if message else "\n", style)
+    yield f"{'':{gutter}}--> ", _FRAME
+    yield f"{printable(source.name)}:{line}:{column}\n", ""
+    yield f"{'':{gutter}} |\n{line:>{gutter}} | ", _FRAME
+    yield f"{shown.text}\n", ""
+    yield f"{'':{gutter}} | ", _FRAME
+    yield " " * shown.indent, ""
+    yield f"{mark * shown.length} {printable(message)}".rstrip() + "\n", style

@@ -1,0 +1,44 @@
+"""What becomes of a run: its exit code, and what is printed in the end."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, TextIO
+
+import click
+
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+from swarmdsl.render import render, summary
+
+if TYPE_CHECKING:
+    from swarmdsl.compiler import Result
+
+OK, ERRORS, USAGE, INTERNAL = range(4)
+
+# Mistakes on the command line that only the pipeline can find.
+_USAGE_FAULTS = frozenset({"unknown-target", "bad-option"})
+
+
+def conclude(result: Result, format_: str, stream: TextIO) -> int:
+    """Print what came of a run; return the exit code."""
+    render(result.report, format_, stream)
+    if result.written is not None:
+        from swarmdsl.render.written import render_written
+
+        render_written(result.written, sys.stderr)
+    click.echo(summary(result.report, result.files), err=True)
+    return exit_code(result.report)
+
+
+def exit_code(report: Diagnostics) -> int:
+    """0 without errors, 2 where all of them are on the command line, 1 for others."""
+    errors = [found for found in report if found.severity is Severity.ERROR]
+    if not errors:
+        return OK
+    return USAGE if all(map(_is_usage_fault, errors)) else ERRORS
+
+
+def _is_usage_fault(found: Diagnostic) -> bool:
+    # In a file it is the project file that has them.
+    in_file = found.primary is not None and not found.primary.span.on_command_line
+    return found.name in _USAGE_FAULTS and not in_file

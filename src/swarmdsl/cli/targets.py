@@ -1,0 +1,39 @@
+"""`swarmc targets`."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import exit_code
+from swarmdsl.render import render
+
+
+@click.command(epilog="Example: swarmc targets smach")
+@click.argument("name", required=False)
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(("text", "json")),
+    default="text",
+    show_default=True,
+    help="How the answer is printed.",
+)
+@options.debug
+def targets(name: str | None, format_: str) -> int:
+    """List the targets, or say what one of them takes and what it cannot express."""
+    from swarmdsl import targets as known
+    from swarmdsl.diagnostics import Diagnostics
+
+    report = Diagnostics()
+    found = known.all_targets(report) if name is None else known.one_target(name, report)
+    if format_ == "json":
+        click.echo(known.as_json(found), nl=False)
+    elif name is None:
+        click.echo(known.as_list(found), nl=False)
+    else:
+        click.echo("".join(map(known.as_page, found)), nl=False)
+    render(report, "text", sys.stderr)
+    return exit_code(report)
