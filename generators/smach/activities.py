@@ -8,7 +8,7 @@ from swarmdsl.ir import Activity, Communication, Literal, OutcomeTrigger, State
 
 from .expressions import field_name, keys, python_expression
 from .module import CANCELLED, Module
-from .python import Call, Source, layout, place
+from .python import Call, Source, comments, layout
 from .statements import STEP, assign
 
 
@@ -97,7 +97,7 @@ def _fill(
         (state.id, word),
         f"userdata, {word}",
         [layout(message, 1, f"{STEP}return ")],
-        place(activity.origin),
+        comments(activity.origin),
     )
     interface.keywords.append((f"{word}_cb", _step(name, module)))
     interface.inputs += [key for _, value in activity.arguments for key in keys(value)]
@@ -116,7 +116,7 @@ def _store_response(
             (state.id, "response"),
             "userdata, response",
             _store(activity, "response", 1, interface, module),
-            place(activity.origin),
+            comments(activity.origin),
         )
     else:
         return
@@ -145,7 +145,7 @@ def _store_result(
         return
     if cancelled or activity.results:
         module.imports.name("actionlib_msgs.msg", "GoalStatus")
-    name = module.add_function((state.id, "result"), parameters, body, place(activity.origin))
+    name = module.add_function((state.id, "result"), parameters, body, comments(activity.origin))
     by_user = activity.result_callback is not None
     interface.keywords.append(
         ("result_cb", _aborting(name, module) if by_user else _step(name, module))

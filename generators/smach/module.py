@@ -49,7 +49,7 @@ class Function:
     name: str
     parameters: str
     body: tuple[str, ...]
-    comment: str = ""
+    comments: tuple[str, ...] = ()
 
 
 @dataclass
@@ -81,11 +81,15 @@ class Module:
         return name
 
     def add_function(
-        self, words: Iterable[str], parameters: str, body: Iterable[str], comment: str = ""
+        self,
+        words: Iterable[str],
+        parameters: str,
+        body: Iterable[str],
+        comments: tuple[str, ...] = (),
     ) -> str:
         """Add a function and return its name."""
         name = self.function_name(*words)
-        self.functions.append(Function(name, parameters, tuple(body), comment))
+        self.functions.append(Function(name, parameters, tuple(body), comments))
         return name
 
     def own(self, module: str, name: str) -> str:

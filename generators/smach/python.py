@@ -80,6 +80,12 @@ def comment_lines(text: str) -> list[str]:
     return [line.rstrip() for line in text.strip().splitlines()]
 
 
+def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
+    """Where something stands in the model and what is said of it there, a comment a line."""
+    where = (place(origin),) if origin is not None else ()
+    return (*where, *comment_lines(doc))
+
+
 def docstring(text: str) -> str:
     """Text of the model as it can stand between triple quotes."""
     safe = text.strip().replace("\\", "\\\\").replace('"', '\\"')

@@ -7,15 +7,15 @@ it leaves.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from swarmdsl.ir import EventTrigger, State, StateKind, TimeTrigger
+from swarmdsl.ir import EventTrigger, State, StateKind, TimeTrigger, doc_of
 from swarmdsl.source import Span
 
 from .activities import activity_call
 from .concurrence import built_by, concurrence
 from .module import PREEMPTED, Container, Entry, Module, fresh
-from .python import Call, Source, comment_lines, layout, place
+from .python import Call, Source, comments, layout, place
 from .routes import Branch, Content, Leave, Route, branches, done, ended, is_total
 from .scopes import Scope, Targets
 from .statements import STEP, effect_lines
@@ -149,9 +149,8 @@ class _Structure:
         for word, effects in (("entry", state.entry), ("exit", state.exit)):
             if effects:
                 lines = effect_lines(effects, 1, self.module)
-                name = self.module.add_function(
-                    (state.id, word), "userdata", lines, place(effects[0].origin)
-                )
+                said = comments(effects[0].origin, doc_of(state.docs, word))
+                name = self.module.add_function((state.id, word), "userdata", lines, said)
                 keywords.append((f"on_{word}", Source(name)))
         doc = f"Build state {state.id}, with what begins and ends it."
         return concurrence(self.module, slot, function, doc, members, places, keywords=keywords)
@@ -165,7 +164,8 @@ class _Structure:
         does_something = state.kind is not StateKind.SIMPLE or state.activity is not None
         has_effects = bool(state.entry or state.exit)
         if state.kind is StateKind.CHOICE or (is_total(at_once) and not has_effects):
-            self._add_decision(scope, state.name, (state.id,), at_once, None, _comments(state))
+            said = (*_comments(state), *_said(at_once))
+            self._add_decision(scope, state.name, (state.id,), at_once, None, said)
             return
         if at_once and state.states:
             self.module.unsupported(
@@ -224,6 +224,7 @@ class _Structure:
         scope.labels.add(state.name)
         waiting = scope.label(f"{state.name}_waiting") if content.may_stay else None
         transitions: dict[str, str] = {}
+        taken: list[Branch] = []
         later: list[tuple[str, str, list[Branch]]] = []
         for outcome, route in content.routes.items():
             ways = [route.branch] if isinstance(route, Leave) else route
@@ -236,10 +237,15 @@ class _Structure:
                 later.append((label, outcome, ways))
             else:
                 transitions[outcome] = self.targets.bind(scope, ways[0])
-        self._add_entry(scope, state.name, content.call, transitions, _comments(state))
+                if route is ways:
+                    taken.append(ways[0])
+        said = (*_comments(state), *_said(taken))
+        self._add_entry(scope, state.name, content.call, transitions, said)
         for label, outcome, ways in later:
-            comments = tuple(filter(None, (place(way.transition.origin) for way in ways)))
-            self._add_decision(scope, label, (state.id, "on", outcome), ways, waiting, comments)
+            said = tuple(
+                line for w in ways for line in comments(w.transition.origin, w.transition.doc)
+            )
+            self._add_decision(scope, label, (state.id, "on", outcome), ways, waiting, said)
         if waiting is not None:
             self._add_entry(scope, waiting, self._wait(), {}, ())
 
@@ -297,6 +303,15 @@ def _origins(states: Iterable[State]) -> dict[str, str]:
 
 
 def _comments(state: State) -> tuple[str, ...]:
-    """Where a state stands in the model and what is said of it there."""
-    origin = (place(state.origin),) if state.origin else ()
-    return (*origin, *comment_lines(state.doc))
+    """Where a state stands in the model, and what is said of it and of its activity there."""
+    does = state.activity
+    activity = comments(does.origin, does.doc) if does is not None and does.doc else ()
+    return (*comments(state.origin, state.doc), *activity)
+
+
+def _said(branches: Iterable[Branch]) -> Iterator[str]:
+    """What is said in the model of these transitions, each once, if anything is."""
+    found = dict.fromkeys((way.transition.origin, way.transition.doc) for way in branches)
+    for origin, doc in found:
+        if doc:
+            yield from comments(origin, doc)

@@ -10,7 +10,7 @@ from swarmdsl.source import Span
 
 from .expressions import keys, python_expression
 from .module import Module, fresh
-from .python import Call, Source, place
+from .python import Call, Source, comments
 from .routes import Branch, Route, reachable
 from .scopes import Targets
 from .statements import (
@@ -178,7 +178,13 @@ def _choose(
     if transitions[-1].guard is not None:
         body.append(f"{STEP}return None")
     words = (state.id, "choose", label)
-    name = module.add_function(words, parameters, body, place(transitions[0].origin))
+    said = [
+        line
+        for transition in transitions
+        if transition.target is None or transition is transitions[0]
+        for line in comments(transition.origin, "" if transition.target else transition.doc)
+    ]
+    name = module.add_function(words, parameters, body, tuple(said))
     return name, reads, writes
 
 
@@ -215,7 +221,7 @@ def decision(
     if otherwise is not None:
         body.append(f"{STEP}return {otherwise!r}")
         all_outcomes.append(otherwise)
-    name = module.add_function(words, "userdata", body, place(branches[0].transition.origin))
+    name = module.add_function(words, "userdata", body, comments(branches[0].transition.origin))
     keywords = tuple(_keys(reads, writes))
     return Call(module.own("states", "Decision"), (Source(name), all_outcomes), keywords)
 

@@ -16,7 +16,7 @@ from .imports import Imports, RosTypes, ros_types
 from .interface_packages import InterfacePackage, interface_packages
 from .module import TARGET, Container, Function, Module
 from .options import Options
-from .python import Call, Source, comment_lines, docstring, file_name, layout, place
+from .python import Call, Source, comments, docstring, file_name, layout
 from .statements import STEP
 from .structure import build
 
@@ -157,7 +157,7 @@ def _values(module: Module) -> tuple[Value, ...]:
     for param in module.machine.params:
         value = _param_value(param, module)
         statement = layout(value, 1, f"{STEP}{USERDATA}.{param.name} = ")
-        found.append(Value(statement, _comments(param.origin, param.doc)))
+        found.append(Value(statement, comments(param.origin, param.doc)))
     for variable in module.machine.variables:
         text = (
             python_expression(variable.initial, module.imports)
@@ -165,7 +165,7 @@ def _values(module: Module) -> tuple[Value, ...]:
             else default_value(variable.type, module.imports)
         )
         statement = f"{STEP}{USERDATA}.{variable.name} = {text}"
-        found.append(Value(statement, _comments(variable.origin, variable.doc)))
+        found.append(Value(statement, comments(variable.origin, variable.doc)))
     for (event, _), key in module.message_keys.items():
         type_ = module.system.event(event).type
         statement = f"{STEP}{USERDATA}.{key} = {default_value(type_, module.imports)}"
@@ -217,10 +217,5 @@ def _event_views(
             (event.name, message, event.incoming_topic, event.topic),
         )
         statement = layout(call, 0, f"{constants[event.name]} = ")
-        found.append(EventView(statement, _comments(event.origin, event.doc)))
+        found.append(EventView(statement, comments(event.origin, event.doc)))
     return tuple(found)
-
-
-def _comments(origin: Span | None, doc: str) -> tuple[str, ...]:
-    where = (place(origin),) if origin is not None else ()
-    return (*where, *comment_lines(doc))

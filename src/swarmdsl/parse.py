@@ -116,7 +116,7 @@ def _converted(made: Any, source: Source, offset: int) -> Any:
 
 
 def _attach_docs(parsed: Parsed, docs: tuple[DocComment, ...], report: Diagnostics) -> None:
-    """Give each `///` comment to the declaration that follows it."""
+    """Give each `///` comment to what begins behind it."""
     if not docs:
         return
     documented: dict[int, Documented] = {}

@@ -26,6 +26,7 @@ from swarmdsl.ir import (
     TimeTrigger,
     Transition,
     Trigger,
+    doc_of,
 )
 from swarmdsl.translate import translate
 
@@ -64,11 +65,15 @@ statemachine M {
   initial Out
   /// The whole.
   state Out {
+    /// At first.
     entry / class = class % 5, send Start
+    /// At last -- whatever happened.
     exit  / last.level = class
     initial A
     /// Waits.
     state A {
+      /// A high one.
+      /// Or two.
       on Found [event.level > 3 and not (class == 2)] / last = event -> B
       after 1.5 s -> B
       after given [class > 1] -> Which
@@ -76,15 +81,22 @@ statemachine M {
       [class > 100] -> End
     }
     state B {
+      /// Goes there.
       do drive(speed = height, name = last.id) gives (count => class, name => last.id)
+      /// Is there.
       on succeeded -> A
       on aborted   -> Which
       on preempted -> A
     }
-    choice Which { [class > 2] / class = 0 -> A  else -> End }
+    choice Which {
+      /// Enough.
+      [class > 2] / class = 0 -> A
+      else -> End
+    }
     deep history Back -> A
     history Near -> B
     final End
+    /// Starts anew.
     internal on Abort / class = 1 -> B
     on Start -> Par
     on done.End -> Par
@@ -97,6 +109,7 @@ statemachine M {
       final E
     }
     region R { initial A state A { on Start -> E on Abort -> Out.Back } final E }
+    /// One is enough.
     on L.done -> Sub
     on done   -> Sub
   }
@@ -151,6 +164,12 @@ class Reader:
     def doc(self, element: Any) -> str:
         return element.findtext(f"{SW}doc") or ""
 
+    def above(self, element: Any) -> str:
+        """The comment above an element."""
+        comment = element.getprevious() if element is not None else None
+        found = comment is not None and comment.tag is etree.Comment
+        return comment.text.strip().replace("- -", "--") if found else ""
+
     def state(self, element: Any, parent: Any) -> dict[str, Any]:
         submachine = element.find(f"{SW}submachine")
         initial = element.get("initial")
@@ -162,6 +181,7 @@ class Reader:
             "doc": self.doc(element),
             "deep": element.get("type") == "deep",
             "submachine": submachine.get("name") if submachine is not None else None,
+            "docs": [self.above(element.find(f"{S}{tag}")) for tag in ("onentry", "onexit")],
             "entry": self.effects(element.iterfind(f"{S}onentry/*")),
             "exit": self.effects(element.iterfind(f"{S}onexit/*")),
             "activity": self.activity(element.find(f"{SW}activity")),
@@ -186,8 +206,9 @@ class Reader:
     def activity(self, element: Any) -> Any:
         if element is None:
             return None
-        goal, result = element
+        *_, goal, result = element
         return {
+            "doc": self.doc(element),
             "function": element.get("function"),
             "callbacks": (goal.get("callback"), result.get("callback")),
             "arguments": [(e.get("field"), e.get("expr")) for e in goal],
@@ -210,6 +231,7 @@ class Reader:
         events = (element.get("event") or "").split()
         return {
             "triggers": [self.trigger(event, delays) for event in events],
+            "doc": self.above(element),
             "guard": element.get("cond"),
             "internal": element.get("type") == "internal",
             "target": self.paths[target] if target else None,
@@ -285,6 +307,7 @@ class Teller:
             "doc": state.doc,
             "deep": state.deep,
             "submachine": state.submachine,
+            "docs": [doc_of(state.docs, word) for word in ("entry", "exit")],
             "entry": [self.effect(effect) for effect in state.entry],
             "exit": [self.effect(effect) for effect in state.exit],
             "activity": self.activity(state),
@@ -296,6 +319,7 @@ class Teller:
         if state.activity is None:
             return None
         return {
+            "doc": state.activity.doc,
             "function": state.activity.function,
             "callbacks": (state.activity.goal_callback, state.activity.result_callback),
             "arguments": [(field, self.text(value)) for field, value in state.activity.arguments],
@@ -311,6 +335,7 @@ class Teller:
             "triggers": [
                 told for each in transition.triggers for told in self.trigger(each, handled)
             ],
+            "doc": transition.doc,
             "guard": self.text(transition.guard),
             "internal": transition.internal,
             "target": transition.target,

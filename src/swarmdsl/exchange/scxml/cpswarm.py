@@ -168,6 +168,7 @@ class _Writer:
         call = call_of(activity, self.machine, self.system)
         self._check_call(state, activity, call)
         communication = call.function.communication
+        add_comment(element, activity.doc)
         model = add(element, "datamodel")
         if call.is_action and any(port.direction == "in" for port in call.function.ports):
             # Asks for a skeleton. The generator fails at a function without inputs, and

@@ -87,6 +87,7 @@ def _activity(
     parent: etree._Element, activity: Activity, params: Mapping[str, Param], dialect: Dialect
 ) -> None:
     element = add_payload(parent, "activity", function=activity.function)
+    _doc(element, activity.doc)
     goal = add_payload(
         element,
         "goal",

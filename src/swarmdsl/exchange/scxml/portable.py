@@ -18,7 +18,7 @@ from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.inward import inward, region_entered
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
-from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
+from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, add_comment, root
 from swarmdsl.ir import (
     Assignment,
     Effect,
@@ -30,6 +30,7 @@ from swarmdsl.ir import (
     StateKind,
     StateMachine,
     System,
+    doc_of,
 )
 from swarmdsl.translate import Dialect, translate
 
@@ -105,9 +106,11 @@ class _StateWriter:
         ):
             add(add(element, "onentry"), "raise", event=self.events.final(state.id))
         if state.entry:
+            add_comment(element, doc_of(state.docs, "entry"))
             self._add_effects(add(element, "onentry"), state.entry)
         self._add_timers(element, state)
         if state.exit:
+            add_comment(element, doc_of(state.docs, "exit"))
             self._add_effects(add(element, "onexit"), state.exit)
         self._add_transitions(element, state)
         if around is not None and around.kind is StateKind.PARALLEL:
@@ -149,6 +152,8 @@ class _StateWriter:
                 for trigger in transition.triggers
                 for event in self.events.of_trigger(trigger, state)
             ]
+            # No element: there, an engine would try to do what it does not know.
+            add_comment(element, transition.doc)
             if region_entered(transition, state) is not None:
                 # What it does stands in the region. Here it keeps those after it from being taken.
                 self._add_transition(element, events, transition.guard)

@@ -19,11 +19,15 @@ def build():
     userdata = initial_userdata()
     machine = StateMachine(['Stop', 'preempted'], userdata)
     with machine:
-        # model.swarm:41
+        # model.swarm:53
+        # model.swarm:82
+        # The battery.
         StateMachine.add(
             'Main', _main(userdata), transitions={'Lo': 'Landing', 'preempted': 'preempted'}
         )
-        # model.swarm:66
+        # model.swarm:85
+        # model.swarm:87
+        # Down.
         StateMachine.add(
             'Landing',
             _landing(userdata),
@@ -35,15 +39,15 @@ def build():
 def initial_userdata():
     """Params as ROS has them, and the first values of variables."""
     userdata = smach.UserData()
-    # model.swarm:19
+    # model.swarm:22
     userdata.speed = rospy.get_param('~speed', 2.0)
-    # model.swarm:37
+    # model.swarm:48
     userdata.where = Pose2D()
-    # model.swarm:38
+    # model.swarm:49
     userdata.tries = 0
-    # model.swarm:39
+    # model.swarm:50
     userdata.ok = False
-    # model.swarm:27
+    # model.swarm:34
     userdata.landing_tries = 0
     userdata.seen_event = Found()
     return userdata
@@ -53,9 +57,9 @@ def _main(userdata):
     """Build the regions of state Main."""
     concurrence = Concurrence(['Lo', 'preempted'], {'Lo': {'B': 'Lo'}}, userdata)
     with concurrence:
-        # model.swarm:42
+        # model.swarm:54
         Concurrence.add('A', _main_a(userdata))
-        # model.swarm:58
+        # model.swarm:75
         Concurrence.add('B', _main_b(userdata))
     return concurrence
 
@@ -64,7 +68,11 @@ def _main_a(userdata):
     """Build region Main.A."""
     machine = StateMachine(['End', 'preempted'], userdata)
     with machine:
-        # model.swarm:44
+        # model.swarm:56
+        # model.swarm:58
+        # Where something was seen.
+        # model.swarm:60
+        # What next?
         StateMachine.add(
             'Go',
             _main_a_go(userdata),
@@ -76,7 +84,8 @@ def _main_a(userdata):
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:49
+        # model.swarm:64
+        # There is more.
         StateMachine.add(
             'Go_Seen',
             Decision(
@@ -87,7 +96,11 @@ def _main_a(userdata):
             ),
             transitions={'Go': 'Go', 'preempted': 'preempted'},
         )
-        # model.swarm:51
+        # model.swarm:66
+        # model.swarm:68
+        # It works.
+        # model.swarm:71
+        # It does not.
         StateMachine.add(
             'Pick',
             Decision(
@@ -111,7 +124,7 @@ def _main_a_go(userdata):
         userdata,
     )
     with concurrence:
-        # model.swarm:44
+        # model.swarm:56
         Concurrence.add(
             'Go',
             smach_ros.SimpleActionState(
@@ -123,7 +136,7 @@ def _main_a_go(userdata):
                 output_keys=['ok'],
             ),
         )
-        # model.swarm:49
+        # model.swarm:64
         Concurrence.add(
             'Seen',
             Monitor(
@@ -134,7 +147,7 @@ def _main_a_go(userdata):
                 message_key='seen_event',
             ),
         )
-        # model.swarm:48
+        # model.swarm:62
         Concurrence.add(
             'timeout',
             Timer(
@@ -151,7 +164,7 @@ def _main_b(userdata):
     """Build region Main.B."""
     machine = StateMachine(['Lo', 'preempted'], userdata)
     with machine:
-        # model.swarm:60
+        # model.swarm:78
         StateMachine.add(
             'Ok',
             Monitor(events.LOW, 'Main.B.Ok', {'Low': 'Main.B'}, choose=_main_b_ok_choose_low),
@@ -169,7 +182,7 @@ def _landing(userdata):
         on_entry=_landing_entry,
     )
     with concurrence:
-        # model.swarm:66
+        # model.swarm:85
         Concurrence.add('Landing', _landing_states(userdata))
     return concurrence
 
@@ -178,7 +191,9 @@ def _landing_states(userdata):
     """Build state Landing."""
     machine = StateMachine(['Ok', 'Bad', 'preempted'], userdata)
     with machine:
-        # model.swarm:29
+        # model.swarm:36
+        # model.swarm:38
+        # Once is enough.
         StateMachine.add(
             'Down',
             smach_ros.ServiceState('beep', Beep, request=BeepRequest(times=1)),
@@ -188,7 +203,8 @@ def _landing_states(userdata):
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:30
+        # model.swarm:40
+        # Every try counts.
         StateMachine.add(
             'Down_succeeded',
             Decision(
@@ -199,8 +215,9 @@ def _landing_states(userdata):
             ),
             transitions={'Ok': 'Ok', 'preempted': 'preempted'},
         )
-        # model.swarm:31
-        # model.swarm:32
+        # model.swarm:41
+        # model.swarm:43
+        # No more tries.
         StateMachine.add(
             'Down_aborted',
             Decision(
@@ -215,32 +232,32 @@ def _landing_states(userdata):
 
 
 def _main_a_go_goal(userdata, goal):
-    # model.swarm:45
+    # model.swarm:58
     return GotoGoal(target=userdata.where, speed=userdata.speed)
 
 
 def _main_a_go_result(userdata, status, result):
-    # model.swarm:45
+    # model.swarm:58
     if status == GoalStatus.SUCCEEDED:
         userdata.ok = result.reached
 
 
 def _main_a_go_choose_seen(userdata, event):
-    # model.swarm:49
+    # model.swarm:64
     if event.state == 3 and event.id != 'x':
         return 'Seen'
     return None
 
 
 def _main_a_go_choose_timeout(userdata):
-    # model.swarm:48
+    # model.swarm:62
     if not userdata.ok:
         return 'timeout'
     return None
 
 
 def _main_a_go_on_seen(userdata):
-    # model.swarm:49
+    # model.swarm:64
     event = userdata.seen_event
     userdata.where = event.where
     userdata.tries = 0
@@ -249,7 +266,7 @@ def _main_a_go_on_seen(userdata):
 
 
 def _main_a_pick(userdata):
-    # model.swarm:52
+    # model.swarm:68
     if userdata.ok:
         return 'Go'
     if userdata.tries < 3:
@@ -259,20 +276,20 @@ def _main_a_pick(userdata):
 
 
 def _main_b_ok_choose_low(userdata, event):
-    # model.swarm:60
+    # model.swarm:78
     if event.percentage < 0.2:
         return 'Low'
     return None
 
 
 def _landing_down_on_succeeded(userdata):
-    # model.swarm:30
+    # model.swarm:40
     userdata.landing_tries = userdata.landing_tries + 1
     return 'Ok'
 
 
 def _landing_down_on_aborted(userdata):
-    # model.swarm:31
+    # model.swarm:41
     if userdata.landing_tries < 3:
         userdata.landing_tries = userdata.landing_tries + 1
         return 'Down'
@@ -280,5 +297,5 @@ def _landing_down_on_aborted(userdata):
 
 
 def _landing_entry(userdata):
-    # model.swarm:27
+    # model.swarm:34
     userdata.landing_tries = 0
