@@ -6,6 +6,12 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
+from swarmdsl.exchange.constants import (
+    UndefinedValueError,
+    UnknownValueError,
+    constant,
+    evaluate,
+)
 from swarmdsl.ir import Binary, Call, EventData, Expression, FieldAccess, Literal, Named, Unary
 from swarmdsl.ir.types import (
     BOOL,
@@ -30,7 +36,9 @@ texts = st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Cs"]), m
     st.sampled_from(['"', "\\", "\n", "\t", "//", "/*", "\\n", "{", '\\"'])
 )
 wholes = st.integers(-100, 100) | st.integers(0, 2**63 - 1)
-floats = st.floats(allow_nan=False, allow_infinity=False)
+floats = {
+    width: st.floats(allow_nan=False, allow_infinity=False, width=width) for width in (32, 64)
+}
 lengths = st.integers(0, 2**63 - 1) | st.sampled_from([1, 999, 1_000, 60_000_000_000, 2**53 + 1])
 
 
@@ -43,14 +51,34 @@ def literals(type_: Type) -> st.SearchStrategy[Expression]:
     if type_ == DURATION:
         return lengths.map(lambda value: Literal(value, DURATION))
     if type_ in FLOAT_TYPES:
-        return floats.map(lambda value: Literal(value, FLOAT)) | st.integers(-100, 100).map(
-            lambda value: Literal(value, INT)
-        )
+        return floats[32 if type_ == Primitive("float32") else 64].map(
+            lambda value: Literal(value, FLOAT)
+        ) | st.integers(-100, 100).map(lambda value: Literal(value, INT))
     return st.integers(0, 100).map(lambda value: Literal(value, INT))
 
 
 def expressions(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int = 2) -> Expression | None:
     """An expression that can be used where a type is wanted; None where there is none."""
+    made = _expression(draw, type_, leaves, depth)
+    return made if made is None or _fits_in(made, type_) else draw(literals(type_))
+
+
+def _fits_in(expression: Expression, type_: Type) -> bool:
+    """Whether the value of an expression, where it is known, is one of a type."""
+    try:
+        value = evaluate(expression, {})
+    except UnknownValueError:
+        return True
+    except UndefinedValueError:
+        return False
+    if type_ == DURATION:
+        return abs(value) < 2**63 / 1e9
+    if type_ == Primitive("float32"):
+        return abs(value) < 1e38
+    return type_ not in INTEGER_TYPES or type_ == INT or 0 <= value < 128
+
+
+def _expression(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Expression | None:
     known = [leaf for leaf in leaves if _fits(leaf.type, type_)]
     if type_ not in (BOOL, STRING, DURATION, *INTEGER_TYPES, *FLOAT_TYPES):
         known = [leaf for leaf in leaves if leaf.type == type_]
@@ -143,7 +171,10 @@ def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Express
             text = draw(st.sampled_from(lists)) if lists else Literal("", STRING)
             return Call("len", (text,), INT)
         case "per":
-            return Binary("/", *_two(draw, DURATION, leaves, depth + 1), FLOAT)
+            length, unit = _two(draw, DURATION, leaves, depth + 1)
+            if constant(unit, {}) == 0:
+                unit = Literal(1, DURATION)
+            return Binary("/", length, unit, FLOAT)
         case "negative" | "abs" | "sqrt":
             operand = expressions(draw, type_, leaves, depth)
             assert operand is not None
