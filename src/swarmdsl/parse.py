@@ -56,7 +56,7 @@ def parse(source: Source, report: Diagnostics) -> Parsed:
             parsed = parse_with_recovery(source, scanned, whole, _tree, report)
     _attach_docs(parsed, scanned.docs, report)
     for node in walk(parsed.model):
-        if isinstance(node, Expression):
+        if isinstance(node, Expression) and node not in parsed.repaired:
             node.tree = parse_expression(node.span, report)
     return parsed
 

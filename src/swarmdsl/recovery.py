@@ -1,8 +1,9 @@
-"""What can be read of a file with syntax errors: all but the statements that are wrong.
+"""What can be read of a file with syntax errors, which is nearly all.
 
-The file is parsed declaration by declaration, and inside a declaration without the
-statement that is wrong, so that one mistake hides neither the next one nor the names the
-rest of the file declares.
+The file is parsed declaration by declaration. Where the parser stops in one, the mistake is
+reported and the statement it is in is mended, as little as will do, or else left out; then
+the parser looks at the declaration again. What fails in a statement that was mended has the
+same cause and is not reported.
 
 All that this needs of a parser is a function from a text to its tree, or to where it had
 to stop and what could have stood there: `Parser`.
@@ -16,16 +17,20 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+from swarmdsl.brackets import outermost
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.draft import Draft, untouched
+from swarmdsl.repairs import mend
 from swarmdsl.scan import Scan
 from swarmdsl.source import Source, Span
-from swarmdsl.syntax import Declaration, Model
+from swarmdsl.statements import statement_at
+from swarmdsl.syntax import Declaration, Expression, Model
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
 Parser = Callable[[Source, str, int], Model | Failure]
 """Parses a text that stands at an offset of a source; of the failures, that furthest on."""
 
-_ERRORS_PER_DECLARATION = 10
+_ERRORS_PER_DECLARATION = 50
 # Where a top-level declaration starts: a keyword in the first column, or what looks like
 # one with a slip in it (`Event Start :`).
 _DECLARATION_START = re.compile(
@@ -42,13 +47,15 @@ class Parsed:
     """A file's syntax tree and what could not be read of it.
 
     `damaged` holds declarations with a piece missing: checks of what they lack would
-    mislead. `lost_names` are the words in the text that could not be parsed; whatever is
-    not found under one of these names may well be declared there.
+    mislead. `lost_names` are the words in statements that could not be parsed; whatever is
+    not found under one of these names may well be declared there. `repaired` are the
+    expressions that were read otherwise than they are written.
     """
 
     model: Model
     damaged: set[Declaration] = field(default_factory=set)
     lost_names: set[str] = field(default_factory=set)
+    repaired: set[Expression] = field(default_factory=set)
 
 
 def parse_with_recovery(
@@ -60,110 +67,121 @@ def parse_with_recovery(
     found a mistake.
     """
     before = len(report)
-    parsed = _parse_by_declaration(source, scanned, parser, report)
+    parsed = _Recovery(source, scanned, parser, report).parse()
     if failure and len(report) == before:  # each declaration is right, but not all together
-        report_syntax_error(failure, source, 0, source.text, report)
+        report_syntax_error(failure, source, untouched(source.text), report)
     return parsed
 
 
-def _parse_by_declaration(
-    source: Source, scanned: Scan, parser: Parser, report: Diagnostics
-) -> Parsed:
-    model = Model(Span(source, 0, len(source.text)), None, [], [], [])
-    parsed = Parsed(model)
-    bounds = sorted({0, *_declaration_starts(source.text, scanned.blocks), len(source.text)})
-    for start, end in pairwise(bounds):
-        inside = [fault for fault in scanned.faults if start <= fault < end]
-        piece, lost = _parse_piece(source, start, end, inside, parser, report)
-        if lost:
-            parsed.damaged.update(piece.declarations if piece else ())
-            parsed.lost_names.update(_IDENTIFIER.findall(lost))
-        if piece is None:
-            continue
+class _Recovery:
+    def __init__(self, source: Source, scanned: Scan, parser: Parser, report: Diagnostics) -> None:
+        self._source = source
+        self._scanned = scanned
+        self._parser = parser
+        self._report = report
+        self._parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
+
+    def parse(self) -> Parsed:
+        """Parse the file declaration by declaration."""
+        draft = untouched(self._source.text)
+        for repair in reversed(self._scanned.repairs):
+            draft = draft.repaired(repair)
+        starts = _declaration_starts(draft.text)
+        for start, end in pairwise(sorted({0, *starts, len(draft.text)})):
+            piece = self._parse_piece(draft.piece(start, end))
+            if piece is not None:
+                self._add(piece)
+        return self._parsed
+
+    def _add(self, piece: Model) -> None:
+        model = self._parsed.model
         misplaced = piece.package or (piece.imports[0] if piece.imports else None)
         if piece.package and model.package:
-            report.report(
+            self._report.report(
                 "syntax-error",
                 piece.package.span,
                 message="a file has one package",
                 related=(Label(model.package.span, "it is given here"),),
+                help="delete one of the two, or make two files",
             )
         elif misplaced and (model.declarations or (piece.package and model.imports)):
-            report.report(
+            self._report.report(
                 "syntax-error",
                 misplaced.span,
                 message="the package and the imports stand at the top of the file",
+                help="move it up",
             )
         model.package = model.package or piece.package
         model.imports += piece.imports
         model.declarations += piece.declarations
         model.optimizations += piece.optimizations
-    return parsed
+
+    def _parse_piece(self, draft: Draft) -> Model | None:
+        """Parse one declaration; None if nothing of it is left."""
+        parsed, source = self._parsed, self._source
+        begin, end = draft.origins[0], draft.origins[-1]
+        hopeless = self._scanned.hopeless
+        if hopeless is not None and begin <= hopeless < end:
+            parsed.lost_names.update(_IDENTIFIER.findall(draft.text))
+            return None
+        # Where what was reported stands; what is in the same statement is its consequence.
+        known = {fault for fault in self._scanned.faults if begin <= fault < end}
+        damaged = bool(known)
+        failed: set[int] = set()
+        for _ in range(_ERRORS_PER_DECLARATION):
+            result = self._parser(Source(source.name, draft.text), draft.text, 0)
+            if isinstance(result, Model):
+                parsed.repaired |= draft.restore(result, source)
+                if damaged:
+                    parsed.damaged.update(result.declarations)
+                self._lose(draft, known)
+                return result
+            silent = Diagnostics()
+            at = report_syntax_error(result, source, draft, silent)
+            statement = statement_at(draft.text, at)
+            span = draft.origins[statement.start], draft.origins[statement.header]
+            if not any(span[0] <= place <= span[1] for place in known):
+                self._report.include(silent)
+            known.add(draft.origins[at])
+            mended = None
+            if span[0] not in failed:
+                mended = mend(draft, statement, self._failure)
+            failed.add(span[0])
+            if mended is not None:
+                self._lose_names(draft.text[statement.start : statement.header] + " _")
+                damaged = damaged or not mended.whole
+                draft = mended.draft
+            else:
+                self._lose_names(draft.text[statement.start : statement.end])
+                damaged = True
+                draft = draft.blanked(statement.start, max(statement.end, statement.start + 1))
+        self._lose_names(draft.text)
+        return None
+
+    def _failure(self, text: str) -> Failure | None:
+        result = self._parser(Source(self._source.name, text), text, 0)
+        return result if isinstance(result, Failure) else None
+
+    def _lose(self, draft: Draft, known: set[int]) -> None:
+        """Take the names in statements with a mistake for possibly declared there."""
+        for at in known:
+            inside = bisect_right(draft.origins, at) - 1
+            statement = statement_at(draft.text, inside)
+            self._lose_names(draft.text[statement.start : statement.header])
+
+    def _lose_names(self, text: str) -> None:
+        self._parsed.lost_names.update(_IDENTIFIER.findall(text))
 
 
-def _declaration_starts(text: str, blocks: tuple[tuple[int, int], ...]) -> Iterator[int]:
-    """Where declarations start that are not inside a block."""
+def _declaration_starts(text: str) -> Iterator[int]:
+    """Where declarations start that are not inside a block or comment."""
+    code = _NO_CODE.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+    blocks = outermost(code)
     openings = [start for start, _ in blocks]
-    for found in _DECLARATION_START.finditer(text):
+    for found in _DECLARATION_START.finditer(code):
         before = bisect_right(openings, found.start()) - 1
         if before < 0 or blocks[before][1] < found.start():
             yield found.start()
 
 
-def _parse_piece(
-    source: Source,
-    start: int,
-    end: int,
-    faults: list[int],
-    parser: Parser,
-    report: Diagnostics,
-) -> tuple[Model | None, str]:
-    """Parse one declaration; return it, None if nothing of it is left, and the lost text.
-
-    What stands at `faults` has been reported already and is left out from the start.
-    """
-    text = source.text[start:end]
-    brackets = {source.text[fault] for fault in faults} & {"{", "(", "["}
-    if "{" in brackets:
-        return None, text  # where the blocks end is anyone's guess
-    if brackets:
-        report = Diagnostics()  # what follows may well be inside the bracket
-    lost = ""
-    wrong = [fault - start for fault in faults]
-    for _ in range(_ERRORS_PER_DECLARATION):
-        if not wrong:
-            result = parser(source, text, start)
-            if isinstance(result, Model):
-                return result, lost
-            wrong = [report_syntax_error(result, source, start, text, report) - start]
-        statement = _statement(text, wrong.pop())
-        if statement is None:
-            break
-        lost += " " + text[slice(*statement)]
-        text = _blanked(text, *statement)
-    return None, lost + " " + text
-
-
-def _statement(text: str, at: int) -> tuple[int, int] | None:
-    """The lines of the statement around an offset, with its block; None for the declaration."""
-    start = text.rfind("\n", 0, at) + 1
-    end = text.find("\n", at)
-    end = len(text) if end < 0 else end
-    if not text[:start].strip() or not text[start:end].strip(" \t\r}"):
-        return None
-    depth = 0
-    for found in re.finditer(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|[{}]', text[start:]):
-        position = start + found.start()
-        if position >= end and depth == 0:
-            break
-        depth += {"{": 1, "}": -1}.get(found[0], 0)
-        if depth < 0:
-            return None
-        if position >= end and depth == 0:
-            end = position + 1
-            break
-    return (start, end) if depth == 0 else None
-
-
-def _blanked(text: str, start: int, end: int) -> str:
-    return text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+_NO_CODE = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/')

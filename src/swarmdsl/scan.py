@@ -1,8 +1,9 @@
-"""One pass over a file before it is parsed: comments, texts and brackets.
+"""One pass over a file before it is parsed: comments, texts, brackets, odd characters.
 
-It finds what a parser reports badly or in the wrong place: a bracket that is never
-closed, text and comments without an end, nesting too deep to parse, and it gathers the
-`///` comments with the place they document.
+It finds what a parser reports badly or in the wrong place: a bracket that is never closed,
+text and comments without an end, nesting too deep to parse, characters that only look like
+those of the language, marks of a merge. For each it says how the text can be repaired so
+that the rest can be read. It also gathers the `///` comments with the place they document.
 """
 
 from __future__ import annotations
@@ -10,8 +11,11 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.brackets import CLOSER, Repair, find_faults, report_fault
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.slips import likeness
 from swarmdsl.source import Source, Span
+from swarmdsl.syntax_advice import strange_character
 
 # Deeper than any model a person writes, and what the parser takes without overflow.
 NESTING_LIMIT = 64
@@ -21,12 +25,14 @@ _TOKEN = re.compile(
     r'|(?P<open_text>"[^\n]*)'
     r"|(?P<line>//[^\n]*)"
     r"|(?P<block>/\*(?:[^*]|\*(?!/))*\*/)"
-    r"|(?P<open_block>/\*)"
-    r"|(?P<bracket>[{}()\[\]])"
+    r"|(?P<open_block>/\*[^\n]*(?:\n[ \t]*\*[^\n]*)*)"
+    r"|(?P<curly>[\u201c-\u201e\u00ab][^\u201c-\u201e\u00bb\"\n]*[\u201c-\u201e\u00bb\"])"
+    r"|(?P<odd>(?P<one>[^\x00-\x7f])(?P=one)*)"
+    r"|(?P<mark>^(?:<{7}|={7}|>{7}|[|]{7})(?![<=>|])[^\n]*)",
+    re.MULTILINE,
 )
 _ESCAPE = re.compile(r"\\[^\n]")
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
-_OPENER = {"}": "{", ")": "(", "]": "["}
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,136 +48,208 @@ class DocComment:
 class Scan:
     """What the pass found.
 
-    `faults` are the offsets of what it reported, `blocks` the comments and the outermost
-    brackets, in order: no declaration begins inside one.
+    `faults` are the offsets of what it reported and `repairs` what lets the rest be read, in
+    order; `hopeless` is the offset of what is nested too deeply. In `code` comments and texts
+    are blank, and what is repaired is as it was.
     """
 
     docs: tuple[DocComment, ...]
     faults: tuple[int, ...]
-    blocks: tuple[tuple[int, int], ...]
+    repairs: tuple[Repair, ...]
+    hopeless: int | None
+    code: str
 
 
 def scan(source: Source, report: Diagnostics) -> Scan:
-    """Look over a file, reporting brackets, texts and comments without an end."""
-    text = source.text
-    brackets: list[int] = []
-    doc_lines: list[tuple[int, int]] = []
-    faults: list[int] = []
-    comments: list[tuple[int, int]] = []
-    for token in _TOKEN.finditer(text):
-        start, end = token.span()
-        match token.lastgroup:
-            case "bracket":
-                brackets.append(start)
-            case "line" if _DOC_LINE.match(token[0]) and _starts_line(text, start):
-                doc_lines.append((start, end))
-            case "line" if _DOC_LINE.match(token[0]):
-                report.report(
-                    "unattached-doc-comment",
-                    Span(source, start, end),
-                    help="it documents what follows on the next line: move it before",
-                )
-            case "text":
-                for escape in _ESCAPE.finditer(text, start + 1, end - 1):
-                    if escape[0] not in _ESCAPES:
-                        report.report(
-                            "syntax-error",
-                            Span(source, *escape.span()),
-                            message=f"`{escape[0]}` means nothing in a text",
-                            help="write `\\\\` for `\\`",
-                        )
-            case "block":
-                comments.append((start, end))
-            case "open_text":
-                end -= len(token[0]) - len(token[0].rstrip())
-                report.report(
-                    "unterminated-text",
-                    Span(source, start, end),
-                    help='close the text with `"` on the same line',
-                )
-                faults.append(start)
-            case "open_block":
-                report.report("unterminated-comment", Span(source, start, end))
-                faults.append(start)
-                break
-    too_deep = _too_deep(text, brackets)
-    if too_deep is not None:
-        report.report(
-            "nested-too-deeply", Span(source, too_deep, too_deep + 1), limit=NESTING_LIMIT
+    """Look over a file, reporting brackets, texts and comments without an end and the like."""
+    return _Scanner(source, report).scan()
+
+
+class _Scanner:
+    def __init__(self, source: Source, report: Diagnostics) -> None:
+        self._source = source
+        self._report = report
+        self._doc_lines: list[tuple[int, int]] = []
+        self._found: list[tuple[int, Repair]] = []
+        self._code: list[str] = []
+        self._done = 0
+        self._spaces: set[str] = set()
+
+    def scan(self) -> Scan:
+        text = self._source.text
+        marks: list[re.Match[str]] = []
+        for token in _TOKEN.finditer(text):
+            start, end = token.span()
+            match token.lastgroup:
+                case "line":
+                    self._comment(start, end)
+                case "text":
+                    self._escapes(start, end)
+                case "open_text":
+                    end = self._open_text(start, end)
+                case "open_block":
+                    self._fault("unterminated-comment", start, start + 2, Repair(end, end, "*/"))
+                case "curly":
+                    self._curly(start, end)
+                case "odd":
+                    self._odd(start, end)
+                    continue
+                case "mark":
+                    marks.append(token)
+                    continue
+            self._blank(start, end)
+        self._blank(len(text), len(text))
+        for ours, theirs in self._conflicts(marks):
+            self._code = [_without(_without("".join(self._code), *ours), *theirs)]
+        code = "".join(self._code)
+        hopeless = _too_deep(code)
+        if hopeless is not None:
+            place = Span(self._source, hopeless, hopeless + 1)
+            self._report.report("nested-too-deeply", place, limit=NESTING_LIMIT)
+        else:
+            for fault in find_faults(code):
+                report_fault(fault, self._source, self._report)
+                self._found.append((fault.at, fault.repair))
+        faults = {at for at, _ in self._found} | ({hopeless} if hopeless is not None else set())
+        return Scan(
+            _join(self._source, self._doc_lines),
+            tuple(sorted(faults)),
+            tuple(sorted(repair for _, repair in self._found)),
+            hopeless,
+            code,
         )
-        faults.append(too_deep)
-    elif not faults:
-        for at in _unclosed(source, brackets):
-            report.report("unclosed-bracket", Span(source, at, at + 1), bracket=text[at])
-            faults.append(at)
-    return Scan(_join(source, doc_lines), tuple(faults), _blocks(text, brackets, comments))
+
+    def _fault(self, name: str, start: int, end: int, repair: Repair, **more: object) -> None:
+        self._report.report(name, Span(self._source, start, end), **more)  # type: ignore[arg-type]
+        self._found.append((start, repair))
+
+    def _blank(self, start: int, end: int) -> None:
+        text = self._source.text
+        self._code += (text[self._done : start], re.sub(r"[^\n]", " ", text[start:end]))
+        self._done = end
+
+    def _comment(self, start: int, end: int) -> None:
+        if not _DOC_LINE.match(self._source.text, start):
+            return
+        if _starts_line(self._source.text, start):
+            self._doc_lines.append((start, end))
+        else:
+            self._report.report(
+                "unattached-doc-comment",
+                Span(self._source, start, end),
+                help="it documents what follows on the next line: move it before",
+            )
+
+    def _escapes(self, start: int, end: int) -> None:
+        for escape in _ESCAPE.finditer(self._source.text, start + 1, end - 1):
+            if escape[0] not in _ESCAPES:
+                self._report.report(
+                    "syntax-error",
+                    Span(self._source, *escape.span()),
+                    message=f"`{escape[0]}` means nothing in a text",
+                    help="write `\\\\` for `\\`",
+                )
+
+    def _open_text(self, start: int, end: int) -> int:
+        """A text without an end: its first word is likely in it. Return where it ends."""
+        text = self._source.text
+        before = re.search(r"[\w./]+$", text[max(0, start - 80) : start])
+        if before and not text[start + 1 : end].strip(" \t;,{}"):
+            at = start - len(before[0])
+            message = 'this text has no opening `"`'
+            self._fault(
+                "syntax-error",
+                at,
+                start + 1,
+                Repair(at, at, '"'),
+                message=message,
+                help=f'write `"{before[0]}"`',
+            )
+            return start + 1
+        end -= len(text[start:end]) - len(text[start:end].rstrip())
+        inside = re.compile(r'"[^\s,;)}\]]*').match(text, start)
+        close = inside.end() if inside else end
+        help_ = 'close the text with `"` on the same line'
+        self._fault("unterminated-text", start, end, Repair(close, close, '"'), help=help_)
+        return close
+
+    def _curly(self, start: int, end: int) -> None:
+        text = self._source.text
+        inside = re.sub(r'[\\"]', " ", text[start + 1 : end - 1])
+        repair = Repair(start, end, f'"{inside}"')
+        message = f"the quotes of this text are `{text[start]}` and `{text[end - 1]}`"
+        help_ = f'write plain quotes: `"{inside}"`'
+        self._fault("syntax-error", start, end, repair, message=message, help=help_)
+
+    def _odd(self, start: int, end: int) -> None:
+        """Characters that are no part of the language, but look like some that are."""
+        character = self._source.text[start]
+        plain = likeness(character)
+        if plain is None:
+            return
+        repair = Repair(start, end, plain * (end - start))
+        if not plain.strip() and character in self._spaces:
+            self._found.append((start, repair))
+            return
+        self._spaces.add(character)
+        strange = strange_character(character) or f"`{character}`"
+        more = self._source.text.count(character) - (end - start) if not plain.strip() else 0
+        self._fault(
+            "syntax-error",
+            start,
+            start + 1,
+            repair,
+            message=f"the character {strange} cannot stand here",
+            notes=(f"{more} more of them are in this file",) if more else (),
+            help={"": "delete it", " ": "write a plain space"}.get(plain, f"write `{plain}`"),
+        )
+
+    def _conflicts(
+        self, marks: list[re.Match[str]]
+    ) -> list[tuple[tuple[int, int], tuple[int, int]]]:
+        """Report unfinished merges; return the mark before, and all after, the first version."""
+        found = []
+        first: re.Match[str] | None = None
+        middle: re.Match[str] | None = None
+        for mark in marks:
+            if mark[0].startswith("<"):
+                first, middle = mark, None
+            elif first is not None and middle is None and mark[0][0] in "=|":
+                middle = mark
+            elif first is not None and middle is not None and mark[0].startswith(">"):
+                ends = Repair(middle.start(), mark.end(), _blank_lines(self._source, middle, mark))
+                self._fault(
+                    "syntax-error",
+                    *first.span(),
+                    Repair(*first.span(), " " * len(first[0])),
+                    message="a merge stopped here: both versions are in the file",
+                    related=(
+                        Label(Span(self._source, *middle.span()), "the other version"),
+                        Label(Span(self._source, *mark.span()), "it ends here"),
+                    ),
+                    help="keep what is right of the two, and delete the three marks",
+                )
+                self._found.append((middle.start(), ends))
+                found.append((first.span(), (middle.start(), mark.end())))
+                first = middle = None
+        return found
 
 
-def _too_deep(text: str, brackets: list[int]) -> int | None:
+def _without(text: str, start: int, end: int) -> str:
+    return text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+
+
+def _blank_lines(source: Source, first: re.Match[str], last: re.Match[str]) -> str:
+    return re.sub(r"[^\n]", " ", source.text[first.start() : last.end()])
+
+
+def _too_deep(code: str) -> int | None:
     depth = 0
-    for at in brackets:
-        depth = depth + 1 if text[at] not in _OPENER else max(depth - 1, 0)
+    for found in re.finditer(r"[{}()\[\]]", code):
+        depth = depth + 1 if found[0] in CLOSER else max(depth - 1, 0)
         if depth > NESTING_LIMIT:
-            return at
+            return found.start()
     return None
-
-
-def _blocks(
-    text: str, brackets: list[int], comments: list[tuple[int, int]]
-) -> tuple[tuple[int, int], ...]:
-    """Comments and outermost brackets; of brackets that are not closed nothing is known."""
-    pairs: list[tuple[int, int]] = []
-    start = depth = 0
-    for at in brackets:
-        if text[at] not in _OPENER:
-            start = at if depth == 0 else start
-            depth += 1
-        elif depth > 0:
-            depth -= 1
-            if depth == 0:
-                pairs.append((start, at))
-    found: list[tuple[int, int]] = []
-    for block in sorted((pairs if depth == 0 else []) + comments):
-        if not found or block[0] > found[-1][1]:
-            found.append(block)
-    return tuple(found)
-
-
-def _unclosed(source: Source, brackets: list[int]) -> list[int]:
-    """Offsets of the brackets that nothing closes.
-
-    When closers are missing, those that are there do not say whose they are: the one at
-    the end of the file is reported by a parser, not the one the writer forgot. So a second
-    look takes a closer that stands further left than its opener's line for a closer of
-    something outside, and the opener for the forgotten one.
-    """
-    left_over = _match(source, brackets, trust_indentation=False)
-    return (left_over and _match(source, brackets, trust_indentation=True)) or left_over
-
-
-def _match(source: Source, brackets: list[int], *, trust_indentation: bool) -> list[int]:
-    text = source.text
-    opened: list[int] = []
-    unclosed: list[int] = []
-    for at in brackets:
-        opener = _OPENER.get(text[at])
-        if opener is None:
-            opened.append(at)
-            continue
-        if trust_indentation and _starts_line(text, at):
-            while len(opened) > 1 and _indentation(source, at) < _indentation(source, opened[-1]):
-                unclosed.append(opened.pop())
-        if any(text[other] == opener for other in opened):
-            while text[opened[-1]] != opener:
-                unclosed.append(opened.pop())
-            opened.pop()
-    return unclosed + opened
-
-
-def _indentation(source: Source, offset: int) -> int:
-    line, _ = source.line_column(offset)
-    text = source.line_text(line).expandtabs(4)
-    return len(text) - len(text.lstrip())
 
 
 def _starts_line(text: str, offset: int) -> bool:

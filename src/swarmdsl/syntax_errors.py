@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.draft import Draft
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax_advice import advice, keywords, strange_character
 
@@ -52,7 +53,7 @@ _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%",
 _COLON = re.compile(r"[ \t]*:")
 _MOST_SHOWN = 8
 
-_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
+TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,25 +69,34 @@ class Failure:
     expected: frozenset[str]
 
 
-def report_syntax_error(
-    failure: Failure, source: Source, offset: int, text: str, report: Diagnostics
-) -> int:
-    """Report a syntax error in `text`, which stands at `offset`; return its place.
+def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: Diagnostics) -> int:
+    """Report a syntax error in `draft`, a piece of the source; return its place in the draft.
 
-    The place is an offset in the source, that of the first token that does not fit.
+    This is the first token that does not fit, or the one behind which something is missing.
     """
-    at = failure.at
+    at, text = failure.at, draft.text
     words = _words(failure.expected)
     expected = _grouped(words)
-    found = _TOKEN.match(text, at)
-    span = Span(source, offset + at, offset + (found.end() if found else at))
+    found = TOKEN.match(text, at)
     before = _token_before(text, at)
     wants_name = "a name" in words
     new_line = before is not None and "\n" in text[before.end() : at]
-    if strange := strange_character(text[at : at + 1]):
+
+    def place(token: re.Match[str]) -> Span:
+        start = draft.origins[token.start()]
+        return Span(source, start, max(start, draft.origins[token.end()]))
+
+    if early := _taken_from_next_line(text, before, found):
         report.report(
             "syntax-error",
-            Span(source, span.start, span.start + 1),
+            place(early),
+            message=f"expected {_AFTER[early[0]]} after `{early[0]}`",
+        )
+        return early.start()
+    if found and (strange := strange_character(text[at])):
+        report.report(
+            "syntax-error",
+            Span(source, place(found).start, place(found).start + 1),
             message=f"the character {strange} cannot stand here",
             help="write a plain space" if text[at].isspace() else "delete it",
         )
@@ -98,7 +108,7 @@ def report_syntax_error(
     ):
         report.report(
             "keyword-as-name",
-            span,
+            place(found),
             word=found[0],
             help="write `after` without `on`"
             if before and (before[0], found[0]) == ("on", "after")
@@ -106,20 +116,36 @@ def report_syntax_error(
         )
     elif before and (found is None or (new_line and not _may_begin_anew(words))):
         # The mistake is where something is missing, not at the line that follows.
-        place = Span(source, offset + before.start(), offset + before.end())
-        report.report(
-            "syntax-error", place, message=f"expected {_either(expected)} after `{before[0]}`"
-        )
-        return place.start
+        message = f"expected {_either(expected)} after `{before[0]}`"
+        report.report("syntax-error", place(before), message=message)
+        return before.start()
     else:
         what = f"`{found[0]}`" if found else "the end of the file"
+        end = len(source.text)
         report.report(
             "syntax-error",
-            span,
+            place(found) if found else Span(source, end, end),
             message=f"expected {_either(expected)}, found {what}",
             help=advice(words, before, found) if found else None,
         )
-    return span.start
+    return min(at, len(text))
+
+
+def _taken_from_next_line(
+    text: str, before: re.Match[str] | None, found: re.Match[str] | None
+) -> re.Match[str] | None:
+    """The token behind which nothing stands, where the next line was taken for what is missing."""
+    if before is None or found is None or found[0] not in (":", "=", "."):
+        return None
+    line = text.rfind("\n", 0, before.start()) + 1
+    if text[line : before.start()].strip() or not _NAME.fullmatch(before[0]):
+        return None
+    early = _token_before(text, before.start())
+    return early if early and early[0] in _AFTER else None
+
+
+_NAME = re.compile(r"[A-Za-z_]\w*")
+_AFTER = {":": "a type", "->": "a name", "=": "a value", "initial": "a name", "do": "a name"}
 
 
 def _may_begin_anew(words: set[str]) -> bool:
@@ -159,5 +185,5 @@ def _either(expected: list[str]) -> str:
 def _token_before(text: str, at: int) -> re.Match[str] | None:
     """The last token before an offset, comments left out."""
     code = re.sub(r"//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/", lambda c: " " * len(c[0]), text[:at])
-    tokens = list(_TOKEN.finditer(code, max(code.rstrip().rfind("\n"), 0)))
+    tokens = list(TOKEN.finditer(code, max(code.rstrip().rfind("\n"), 0)))
     return tokens[-1] if tokens else None

@@ -114,9 +114,9 @@ def test_what_follows_a_wrong_declaration_is_kept() -> None:
     result, names = parsed("event A : b/C\nevent B b/C\nevent D : b/C\n")
 
     assert names == ["syntax-error"]
-    assert [str(node.name) for node in result.model.declarations] == ["A", "D"]
+    assert [str(node.name) for node in result.model.declarations] == ["A", "B", "D"]
     assert "B" in result.lost_names
-    assert not result.damaged
+    assert not result.damaged  # nothing but a colon is missing
 
 
 def test_what_surrounds_a_wrong_statement_is_kept() -> None:
@@ -131,13 +131,29 @@ def test_what_surrounds_a_wrong_statement_is_kept() -> None:
     assert "A" in result.lost_names
 
 
-def test_a_statement_is_left_out_with_its_block() -> None:
-    text = "member M {\n  camera Camera {\n    x = 1\n  }\n  lamp : Lamp\n}\n"
+def test_a_block_with_a_wrong_header_is_kept() -> None:
+    text = "member M extends {\n  camera Camera {\n    x = 1\n  }\n  lamp : Lamp\n}\n"
     result, names = parsed(text)
     (member,) = result.model.declarations
 
-    assert names == ["syntax-error"]
-    assert [str(item.name) for item in member.items] == ["lamp"]  # type: ignore[union-attr]
+    assert names == ["syntax-error", "syntax-error"]
+    assert [str(item.name) for item in member.items] == ["camera", "lamp"]  # type: ignore[union-attr]
+    assert result.damaged == {member}
+
+
+def test_what_is_missing_has_a_name_and_no_width() -> None:
+    result, _ = parsed("statemachine {\n  state {\n    initial B\n    state B\n  }\n}\n")
+    states = [node for node in walk(result.model) if isinstance(node, (StateMachine, State))]
+
+    assert [state.name.span.text for state in states] == ["", "", "B"]
+    assert len({str(state.name) for state in states}) == 3
+
+
+def test_places_are_those_of_the_file_behind_a_repair() -> None:
+    result, _ = parsed("event A b/C event D : b/E\nevent F : b/G\n")
+
+    assert [node.name.span.text for node in result.model.declarations] == ["A", "D", "F"]
+    assert result.model.declarations[0].span.text == "event A b/C"
 
 
 def test_a_mistake_in_each_of_many_statements() -> None:
@@ -149,7 +165,7 @@ def test_a_mistake_in_each_of_many_statements() -> None:
 def test_the_package_and_imports_are_kept_too() -> None:
     result, names = parsed('package a.b\nimport "c.swarm"\nevent\nimport "d.swarm"\n')
 
-    assert names == ["syntax-error"]
+    assert names == ["syntax-error", "syntax-error"]
     assert result.model.package is not None
     assert result.model.package.name == "a.b"
     assert [str(statement.path) for statement in result.model.imports] == ["c.swarm", "d.swarm"]

@@ -33,7 +33,7 @@ def faults(text: str) -> list[tuple[str, str, int]]:
         '"{ ( [" // { ( [\n/* { ( [ */',
         r'"\"{" "\\" { }',
         '/* " */ " /* "',
-        "// /* \n } ) ]",  # closers alone are for the parser
+        "a { b ( c\nd ) }",
         "",
     ],
 )
@@ -43,8 +43,17 @@ def test_nothing_to_say(text: str) -> None:
 
 def test_the_only_open_bracket() -> None:
     assert faults("a { b ( c }") == [("unclosed-bracket", "(", 6)]
-    assert faults("a { b [ c ) }") == [("unclosed-bracket", "[", 6)]
+    assert faults("a { b [ c ) }") == [("syntax-error", ")", 10)]
     assert faults("a { b") == [("unclosed-bracket", "{", 2)]
+
+
+def test_closers_alone() -> None:
+    assert faults("// /* \n } ) ]") == [("syntax-error", "}", 8)]
+    assert faults("a { } }\nb ) c") == [("syntax-error", "}", 6), ("syntax-error", ")", 10)]
+
+
+def test_a_block_without_its_opener() -> None:
+    assert faults("m {\n  a b\n    c\n  }\n}\n") == [("syntax-error", "b", 8)]
 
 
 def test_indentation_tells_whose_closer_is_missing() -> None:
@@ -74,6 +83,7 @@ def test_a_text_ends_on_its_line() -> None:
 
     assert faults(text) == [
         ("unterminated-text", '"b', 2),
+        ("unclosed-bracket", "{", 7),
         ("unterminated-text", '"e\\"', text.index('"e')),
     ]
 
@@ -108,18 +118,27 @@ def test_what_documentation_stands_before() -> None:
     assert [text[doc.next :] for doc in result.docs] == ["a\n/// Two.\n", ""]
 
 
-def test_blocks_are_comments_and_outermost_brackets() -> None:
-    text = "a { b ( ) } /* c */ [ d /* e */ ]"
-    result, _ = scanned(text)
+@pytest.mark.parametrize(
+    ("text", "repaired"),
+    [
+        ("m {\n  a {\n    x\n  b {\n    y\n  }\n}\n", "m {\n  a {\n    x}\n  b {\n    y\n  }\n}\n"),
+        ("m {\n  a\n    x\n  }\n}\n", "m {\n  a {\n    x\n  }\n}\n"),
+        ("a {\n  b } }\n} c", "a {\n  b }  \n  c"),
+        ("a [ b -> c", "a [ b] -> c"),
+        ("a (b, c\nd", "a (b, c)\nd"),
+        ("a [(b] c", "a [(b)] c"),
+        ('in "a/b : c', 'in "a/b" : c'),
+        ('on a"', 'on "a"'),
+        ("on \u201ca b\u201d", 'on "a b"'),
+        ("a \u2192 b\u00a0c", "a -> b c"),
+        ("a /* b\nc", "a /* b*/\nc"),
+        ("<<<<<<< HEAD\na\n=======\nb\n>>>>>>> x\nc", " " * 12 + "\na\n       \n \n         \nc"),
+    ],
+)
+def test_what_is_repaired_can_be_read(text: str, repaired: str) -> None:
+    result, found = scanned(text)
+    for start, end, instead in reversed(result.repairs):
+        text = text[:start] + instead + text[end:]
 
-    assert [text[start : end + 1].strip() for start, end in result.blocks] == [
-        "{ b ( ) }",
-        "/* c */",
-        "[ d /* e */ ]",
-    ]
-
-
-def test_no_brackets_are_blocks_where_one_is_open() -> None:
-    result, _ = scanned("a { } b { /* c */")
-
-    assert result.blocks == ((10, 17),)
+    assert text == repaired
+    assert found

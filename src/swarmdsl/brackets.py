@@ -1,0 +1,231 @@
+"""Brackets without their other half: which they are, and where that half belongs.
+
+Where closers are missing, those that are there do not say whose they are: a parser
+complains of the one at the end of the file, not of the one the writer forgot. So indentation
+is asked as well: a line that stands as far left as the one with the opener, or further, is
+outside of the block. Where that makes for more mistakes than counting, it is not trusted.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.source import Source, Span
+
+CLOSER = {"{": "}", "(": ")", "[": "]"}
+_OPENER = {closer: opener for opener, closer in CLOSER.items()}
+_TOKEN = re.compile(r"^[ \t]*(?=[^\s})\]])|->|[{}()\[\]]", re.MULTILINE)
+_BRACKET = re.compile(r"[{}()\[\]]")
+_CLOSERS = re.compile(r"[})\]\s]*")
+
+
+class Repair(NamedTuple):
+    """What to put in the place of a piece of text so that what is around it can be read."""
+
+    start: int
+    end: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A bracket without its other half.
+
+    `at` is its offset, that of the last word before it for a block without `{`; `before` is
+    the line before which the closer seems to belong, None where it does not matter.
+    """
+
+    kind: str  # unclosed, unopened, extra or wrong
+    at: int
+    repair: Repair
+    opener: int | None = None
+    before: int | None = None
+
+
+def find_faults(code: str) -> list[Fault]:
+    """The faulty brackets of a text in which comments and texts are blank, in order."""
+    if _balanced(code):
+        return []
+    counted = _Match(code, trust_indentation=False).faults
+    trusted = _Match(code, trust_indentation=True).faults
+    return sorted(trusted if len(trusted) <= len(counted) else counted, key=lambda fault: fault.at)
+
+
+def outermost(code: str) -> list[tuple[int, int]]:
+    """The pairs of brackets that are in no other, of a text where all have their other half."""
+    pairs: list[tuple[int, int]] = []
+    opened: list[int] = []
+    for bracket in _BRACKET.finditer(code):
+        if bracket[0] in CLOSER:
+            opened.append(bracket.start())
+        elif opened:
+            start = opened.pop()
+            if not opened:
+                pairs.append((start, bracket.start()))
+    return pairs
+
+
+def _balanced(code: str) -> bool:
+    opened: list[str] = []
+    for bracket in _BRACKET.findall(code):
+        if bracket in CLOSER:
+            opened.append(CLOSER[bracket])
+        elif not opened or opened.pop() != bracket:
+            return False
+    return not opened
+
+
+def report_fault(fault: Fault, source: Source, report: Diagnostics) -> None:
+    """Say what is wrong with a bracket."""
+    at, text = fault.at, source.text
+    place = Span(source, at, at + 1)
+    bracket = text[at]
+    if fault.kind == "unclosed":
+        closer = CLOSER[bracket]
+        help_ = None
+        if fault.before is not None:
+            line = source.line_column(fault.before)[0]
+            help_ = f"the indentation says that `{closer}` is missing before line {line}"
+        report.report("unclosed-bracket", place, bracket=bracket, help=help_)
+    elif fault.kind == "wrong" and fault.opener is not None:
+        opener = text[fault.opener]
+        report.report(
+            "syntax-error",
+            place,
+            message=f"expected `{CLOSER[opener]}`, found `{bracket}`",
+            related=(Label(Span(source, fault.opener, fault.opener + 1), "opened here"),),
+            help=f"close `{opener}` with `{CLOSER[opener]}`",
+        )
+    elif fault.kind == "unopened":
+        word = Span(source, at, fault.repair.start)
+        message = f"expected `{{` after `{word.text}`"
+        report.report("syntax-error", word, message=message, help="open the block with `{`")
+    else:
+        report.report(
+            "syntax-error",
+            place,
+            message=f"this `{bracket}` closes nothing",
+            help="nothing is open here that it could close: delete it, or open it before",
+        )
+
+
+class _Match:
+    """One walk over the brackets."""
+
+    def __init__(self, code: str, *, trust_indentation: bool) -> None:
+        self.faults: list[Fault] = []
+        self._code = code
+        self._trusts = trust_indentation
+        self._open: list[int] = []
+        skip = 0
+        for token in _TOKEN.finditer(code):
+            at = token.end() if token[0] not in ("->", *CLOSER, *_OPENER) else token.start()
+            if at < skip:
+                continue
+            if token[0] in _OPENER:
+                skip = self._close(at)
+            elif token[0] in CLOSER or token[0] == "->":
+                if token[0] in ("{", "->"):
+                    self._end_of_brackets(at)
+                if token[0] in CLOSER:
+                    self._open.append(at)
+            elif at < len(code):
+                self._begin_line(at)
+        while self._open:
+            self._unclosed(len(code), None)
+
+    def _begin_line(self, at: int) -> None:
+        column = self._column(at)
+        while self._open and column <= self._indentation(self._open[-1]):
+            block = self._code[self._open[-1]] == "{"
+            if block and (not self._trusts or self._code[at] == "{"):
+                break
+            self._unclosed(at, at if block else None)
+
+    def _end_of_brackets(self, at: int) -> None:
+        """Nothing in parentheses or square brackets goes on behind what stands here."""
+        while self._open and self._code[self._open[-1]] != "{":
+            self._unclosed(at, None)
+
+    def _close(self, at: int) -> int:
+        """Match a closer; return the offset from which to go on."""
+        code = self._code
+        opener = _OPENER[code[at]]
+        if opener == "{":
+            self._end_of_brackets(at)
+            if self._trusts and self._starts_line(at):
+                column = self._column(at)
+                while len(self._open) > 1 and column < self._indentation(self._open[-1]):
+                    self._unclosed(at, at)
+                if self._open and column > self._indentation(self._open[-1]):
+                    return self._extra(at)
+        else:
+            inside = self._open[self._last_block() + 1 :]
+            if any(code[other] == opener for other in inside):
+                while code[self._open[-1]] != opener:
+                    self._unclosed(at, None)
+            elif inside:
+                other = self._open.pop()
+                repair = Repair(at, at + 1, CLOSER[code[other]])
+                self.faults.append(Fault("wrong", at, repair, other))
+                return at + 1
+            else:
+                return self._extra(at)
+        if not self._open:
+            return self._extra(at)
+        self._open.pop()
+        return at + 1
+
+    def _last_block(self) -> int:
+        return max((i for i, at in enumerate(self._open) if self._code[at] == "{"), default=-1)
+
+    def _unclosed(self, end: int, before: int | None) -> None:
+        at = self._open.pop()
+        end = len(self._code[:end].rstrip())
+        if before is None and self._code[at] != "{":  # it does not go on on the next line
+            line = self._code.find("\n", at)
+            end = min(end, len(self._code[: line if line >= 0 else end].rstrip()))
+        repair = Repair(end, end, CLOSER[self._code[at]])
+        self.faults.append(Fault("unclosed", at, repair, before=before))
+
+    def _extra(self, at: int) -> int:
+        """A closer, and those that follow it at once, are too many, or a block has no opener."""
+        header = self._header(at) if self._trusts and self._code[at] == "}" else None
+        if header is not None:
+            self.faults.append(header)
+            return at + 1
+        found = _CLOSERS.match(self._code, at) if not self._open else None
+        end = found.end() if found else at + 1
+        blank = re.sub(r"\S", " ", self._code[at:end])
+        self.faults.append(Fault("extra", at, Repair(at, end, blank)))
+        return end
+
+    def _header(self, at: int) -> Fault | None:
+        """The line before an indented block without `{` that the closer at `at` closes."""
+        column = self._column(at)
+        lines = list(re.finditer(r"^[ \t]*(\S.*?)[ \t]*$", self._code[:at], re.MULTILINE))
+        inside = [line for line in lines if line.start(1) < at]
+        for count, line in enumerate(reversed(inside)):
+            if self._column(line.start(1)) <= column:
+                if count == 0 or re.search(r"[{}]", line[1]) or not line[1][0].isalpha():
+                    return None
+                word = re.search(r"[\w./]+$|\S$", line[1])
+                assert word is not None
+                start = line.start(1) + word.start()
+                return Fault("unopened", start, Repair(line.end(1), line.end(1), " {"))
+        return None
+
+    def _indentation(self, at: int) -> int:
+        line = self._code.rfind("\n", 0, at) + 1
+        found = re.compile(r"[ \t]*").match(self._code, line)
+        return len(found[0].expandtabs(4)) if found else 0
+
+    def _column(self, at: int) -> int:
+        line = self._code.rfind("\n", 0, at) + 1
+        return len(self._code[line:at].expandtabs(4))
+
+    def _starts_line(self, at: int) -> bool:
+        return not self._code[self._code.rfind("\n", 0, at) + 1 : at].strip()

@@ -1,0 +1,89 @@
+"""A text with repairs in it, which knows where each of its characters stood before them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from swarmdsl.brackets import Repair
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.expressions import parse_expression
+from swarmdsl.source import Source, Span
+from swarmdsl.syntax import Expression, Node, Ref, Word
+
+_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+
+
+@dataclass(frozen=True, slots=True)
+class Draft:
+    """A repaired text; `origins` are the offsets of its characters, and of its end, in the source.
+
+    What was put in has the place where it was put in.
+    """
+
+    text: str
+    origins: Sequence[int]
+
+    def piece(self, start: int, end: int) -> Draft:
+        """The part between two offsets."""
+        return Draft(self.text[start:end], self.origins[start : end + 1])
+
+    def repaired(self, repair: Repair) -> Draft:
+        """The same with one more repair."""
+        start, end, text = repair
+        first, last = self.origins[start], self.origins[end]
+        between = [min(first + at, last) for at in range(len(text))]
+        return Draft(
+            self.text[:start] + text + self.text[end:],
+            [*self.origins[:start], *between, *self.origins[end:]],
+        )
+
+    def blanked(self, start: int, end: int) -> Draft:
+        """The same with spaces in place of a piece."""
+        return Draft(
+            self.text[:start] + re.sub(r"[^\n]", " ", self.text[start:end]) + self.text[end:],
+            self.origins,
+        )
+
+    def restore(self, node: Node, source: Source) -> set[Expression]:
+        """Give all in a tree that was made of this text its place in the source.
+
+        Return the expressions with a repair in them: what they say is not in the source.
+        """
+        repaired: set[Expression] = set()
+        self._restore(node, source, repaired)
+        return repaired
+
+    def _restore(self, value: Any, source: Source, repaired: set[Expression]) -> Any:
+        if isinstance(value, (list, tuple)):
+            return type(value)(self._restore(item, source, repaired) for item in value)
+        if isinstance(value, Word):
+            span = self._place(value.span, source)
+            if value.strip("_") or not _WORD.fullmatch(value):
+                return Word(value, span)
+            # A placeholder: for a keyword, which it is as long as, or for nothing.
+            return Word(span.text if _WORD.fullmatch(span.text) else f"_{span.start}", span)
+        if isinstance(value, Ref):
+            value.span = self._place(value.span, source)
+        elif isinstance(value, Node):
+            span = self._place(value.span, source)
+            if isinstance(value, Expression) and span.text != value.span.text:
+                repaired.add(value)
+                value.tree = parse_expression(value.span, Diagnostics())
+            for attribute in fields(value):
+                inside = getattr(value, attribute.name)
+                if isinstance(inside, (list, tuple, Word, Ref, Node)) and inside != value.span:
+                    setattr(value, attribute.name, self._restore(inside, source, repaired))
+            value.span = span
+        return value
+
+    def _place(self, span: Span, source: Source) -> Span:
+        start = self.origins[span.start]
+        return Span(source, start, max(start, self.origins[span.end]))
+
+
+def untouched(text: str) -> Draft:
+    """A text without repairs."""
+    return Draft(text, range(len(text) + 1))

@@ -1,0 +1,74 @@
+"""What is likely meant by text that the language does not have: what to put in its place."""
+
+from __future__ import annotations
+
+import re
+
+from swarmdsl.suggest import closest
+from swarmdsl.syntax_advice import strange_character
+
+# How like a keyword a word must be to be taken for it.
+_SLIP = 0.85
+# What is written, where these could stand (anywhere, if none), and what is meant by it.
+_VALUE = frozenset({"PREFIX", "ROOT", "PRIMARY", "IDENT"})
+_INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
+    ("-->", frozenset({"`->`"}), "->"),
+    ("- >", frozenset({"`->`"}), "->"),
+    ("==>", frozenset({"`->`"}), "->"),
+    ("=>", frozenset({"`->`"}), "->"),
+    ("->", frozenset({"`=>`"}), "=>"),
+    *((update, frozenset({"`=`"}), "=") for update in (":=", "+=", "-=", "*=", "/=")),
+    *((update, frozenset({"`=`"}), "= 0") for update in ("++", "--")),
+    ("===", frozenset({"`]`"}), "=="),
+    ("&&", frozenset(), "and"),
+    ("||", frozenset(), "or"),
+    ("<>", frozenset(), "!="),
+    ("=", frozenset({"`]`"}), "=="),
+    ("==", frozenset({"`=`"}), "="),
+    (":", frozenset({"`->`"}), "->"),
+    (":", frozenset({"`=`"}), "="),
+    ("=", frozenset({"`:`"}), ":"),
+    ("!", _VALUE, "not "),
+)
+
+
+def replacement(expected: frozenset[str], text: str, at: int) -> tuple[int, int, str] | None:
+    """What to put in place of which piece of `text`, where a parser stops; None if unknown."""
+    for wrong, words, right in _INSTEAD:
+        start = at - 1 if wrong[0] == text[at - 1 : at] and not text.startswith(wrong, at) else at
+        if text.startswith(wrong, start) and (not words or words & expected):
+            return start, start + len(wrong), right
+    if between := re.compile(r"(?<=\w)-(?=\w)").match(text, at):
+        return at, between.end(), "_"
+    if quoted := re.compile(r"'([^'\"\n]*)'").match(text, at):
+        return at, quoted.end(), f'"{quoted[1]}"'
+    if comment := re.compile(r"#|--(?!>)").match(text, at):
+        return at, comment.end(), "//"
+    word = re.compile(r"[A-Za-z]+").match(text, at)
+    if word and not text[word.end() : word.end() + 1].isalnum():
+        literals = [one.strip("`") for one in expected if re.fullmatch(r"`[a-z]+`", one)]
+        keyword = closest(word[0], literals, _SLIP)
+        if keyword and keyword != word[0]:
+            return at, word.end(), keyword
+    return None
+
+
+# Characters that word processors, web pages and other keyboards have for plain ones.
+_LIKE = {
+    "\u2018": '"', "\u2019": '"', "\u201c": '"', "\u201d": '"', "\u201e": '"',
+    "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u2014": "-", "\u2212": "-",
+    "\u2190": "<-", "\u2192": "->", "\u27f6": "->", "\u21d2": "=>",
+    "\u2264": "<=", "\u2265": ">=", "\u2260": "!=", "\u00d7": "x", "\u00b7": "*",
+    "\u2026": "..", "\uff1a": ":", "\uff1b": " ", "\uff0c": ",", "\uff08": "(", "\uff09": ")",
+}  # fmt: skip
+
+
+def likeness(character: str) -> str | None:
+    """What a character that the language does not have is likely to stand for.
+
+    This is a space for other kinds of space, nothing for what nobody can see, and None for a
+    character that is like none.
+    """
+    if character.isspace():
+        return " "
+    return _LIKE.get(character, "" if strange_character(character) else None)

@@ -1,0 +1,146 @@
+"""Where a statement begins and ends, in a text that the parser does not accept.
+
+A statement stands on a line of its own, goes on on lines that are further to the right or
+begin with what can begin nothing, and ends with its block, if it has one. Some keywords begin
+a statement wherever they stand.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_TOKEN = re.compile(
+    r'(?P<comment>//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)|(?P<text>"(?:[^"\\\n]|\\[^\n])*")'
+    r"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|&&|\|\||\.\.|\S"
+)
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_STARTS = _words(
+    "do entry exit on after monitor internal initial state parallel choice deep history final "
+    "region var param connect"
+)
+# These begin a statement only at the start of a line, or are the second word of one.
+_NOT_AFTER = {
+    "state": {"parallel"}, "history": {"deep"}, "param": set(), "on": {"internal"},
+    "after": {"internal", "on"}, "monitor": {"internal"}, "done": {"."},
+}  # fmt: skip
+_GOES_ON = _words("-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or extends gives { on")
+# What a keyword cannot begin a statement after: it stands there as a name, or belongs to it.
+_LEAD = _words(
+    "-> => = : . , ( [ - / swarm endless extends initial do on send by struct enum type const "
+    "message service action event function sensor actuator controller virtual member statemachine "
+    "environment fitness optimize state region choice history final var param connect behavior "
+    "in out inout operation package import"
+)
+_NEXT = re.compile(r"[ \t]*(\S?)")
+_DECLARES = _words(
+    "struct enum const message service action swarm event function sensor actuator controller "
+    "virtual member endless statemachine environment fitness optimize import package"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """Offsets of a statement: of its start, of the `{` of its block or else its end, its end.
+
+    `around` are the headers of the blocks that it is in, outermost first.
+    """
+
+    start: int
+    header: int
+    end: int
+    around: tuple[tuple[int, int], ...]
+
+
+@dataclass(slots=True)
+class _Open:
+    start: int
+    column: int
+    brace: int = -1
+    brackets: int = 0
+
+
+def statement_at(text: str, at: int) -> Statement:
+    """The innermost statement whose header covers an offset, or ends before it."""
+    statements = _statements(text)
+    inside = [one for one in statements if one.start <= at < max(one.end, one.start + 1)]
+    if not inside:
+        inside = [one for one in statements if one.start <= at] or statements
+        return inside[-1] if inside else Statement(0, len(text), len(text), ())
+    return max(inside, key=lambda one: one.start)
+
+
+def _statements(text: str) -> list[Statement]:
+    """All statements, outer ones after those inside them."""
+    found: list[Statement] = []
+    opened: list[_Open] = []  # statements whose block is open
+    current: _Open | None = None
+    last = ""
+    last_end = line_end = 0
+    column = 0
+
+    def finish(end: int) -> None:
+        if current is not None:
+            header = current.brace if current.brace >= 0 else end
+            around = tuple((one.start, one.brace + 1) for one in opened)
+            found.append(Statement(current.start, header, end, around))
+
+    for token in _TOKEN.finditer(text):
+        if token.lastgroup == "comment":
+            continue
+        at, word = token.start(), token[0]
+        first = at >= line_end
+        if first:
+            line = text.rfind("\n", 0, at) + 1
+            column = len(text[line:at].expandtabs(4))
+            line_end = text.find("\n", at)
+            line_end = len(text) if line_end < 0 else line_end
+        if word == "{":
+            if current is None:
+                current = _Open(at, column)
+            current.brace = at
+            opened.append(current)
+            current = None
+        elif word == "}":
+            finish(last_end)
+            current = opened.pop() if opened else None
+            finish(at + 1)
+            current = None
+        else:
+            if current is not None and _begins(text, token, word, last, first, column, current):
+                finish(last_end)
+                current = None
+            if current is None:
+                current = _Open(at, column)
+            current.brackets += {"(": 1, "[": 1, ")": -1, "]": -1}.get(word, 0)
+        last, last_end = word, token.end()
+    finish(last_end)
+    while opened:
+        current = opened.pop()
+        finish(len(text.rstrip()))
+    return found
+
+
+def _begins(
+    text: str,
+    token: re.Match[str],
+    word: str,
+    last: str,
+    first: bool,
+    column: int,
+    current: _Open,
+) -> bool:
+    """Whether a token begins a statement although one is open."""
+    if word in _STARTS and last not in _NOT_AFTER.get(word, ()):
+        found = _NEXT.match(text, token.end())
+        follows = found[1] if found else ""
+        if not (word == "on" and follows == '"'):
+            return first or (follows not in ("", ":", "=", ".", ",", ")") and last not in _LEAD)
+    if not first:
+        return word in _DECLARES and column == 0 and last not in _LEAD and not current.brackets
+    return current.brackets <= 0 and word not in _GOES_ON and column <= current.column
