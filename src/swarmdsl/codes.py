@@ -109,6 +109,10 @@ CODES: dict[str, Code] = {
     "unhandled-event": Code("SW0521", "warning", "nothing{where} waits for event `{name}`"),
     "conflicting-regions": Code("SW0522", "warning", "{event} leads out of `{state}` in two ways"),
     "unsent-event": Code("SW0523", "warning", "nothing{where} sends event `{name}`", silent=True),
+    "choice-circle": Code(
+        "SW0524", "warning", "choice `{name}` leads back to itself through choices only"
+    ),
+    "zero-delay": Code("SW0526", "warning", "a delay of 0 waits for nothing"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),

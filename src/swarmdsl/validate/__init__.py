@@ -48,7 +48,9 @@ from swarmdsl.validate.optimization import (
     check_fitness,
     check_optimization,
 )
+from swarmdsl.validate.order import check_order
 from swarmdsl.validate.reachability import check_reachability
+from swarmdsl.validate.settling import check_settling
 from swarmdsl.validate.structure import check_structure, check_submachines
 from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
@@ -95,6 +97,8 @@ def _check(declaration: Declaration, context: Context) -> None:
         case StateMachine():
             check_structure(declaration, context)
             check_transitions(declaration, context)
+            check_settling(declaration, context)
+            check_order(declaration, context)
             check_reachability(declaration, context)
             check_activities(declaration, context)
             check_expressions(declaration, context)

@@ -43,6 +43,12 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 context.expect(node.delay, DURATION, context.typing)
                 if node.delay.tree is not None and _negative(node.delay.tree):
                     context.report.report("negative-delay", node.delay.span)
+                elif node.delay.tree is not None and _zero(node.delay.tree, context.typing):
+                    context.report.report(
+                        "zero-delay",
+                        node.delay.span,
+                        help="give it a length; `on done` of a state that does nothing is at once",
+                    )
             case Transition():
                 events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
                 all_events = events and len(events) == len(node.triggers)
@@ -65,6 +71,11 @@ def _negative(delay: ExpressionTree) -> bool:
     if isinstance(value, (int, float)):
         return value < 0
     return isinstance(delay, OperatorUse) and delay.operator == "-" and len(delay.operands) == 1
+
+
+def _zero(delay: ExpressionTree, typing: Typing) -> bool:
+    """Whether a delay is nothing; a number is none, which is reported as such."""
+    return fold(delay) == 0 and typing.infer(delay) == DURATION
 
 
 def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> None:

@@ -1,64 +1,59 @@
-"""Guards that decide nothing: they always hold, never do, or repeat an earlier one."""
+"""Guards that decide nothing: they always hold, or never do."""
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
-
-from swarmdsl.diagnostics import Label
 from swarmdsl.folding import fold
-from swarmdsl.syntax import (
-    Branch,
-    Choice,
-    Expression,
-    Parallel,
-    State,
-    StateMachine,
-    Transition,
-    walk,
-)
+from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, walk
+from swarmdsl.validate.conditions import always, condition_of, never
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.settling import endless, is_idle, transitions_of
 
 
 def check_guards(machine: StateMachine, context: Context) -> None:
-    """Check the guards of all transitions and branches of a machine."""
+    """Check the guards of all transitions and branches of a machine.
+
+    Where one that always holds makes a machine go round for ever, that has been reported.
+    """
+    reported = endless(machine, context)
     for node in walk(machine):
         match node:
             case Choice(branches=branches):
-                _check_alternatives(branches, context)
+                for branch in branches:
+                    if branch not in reported:
+                        _check(branch, _advice(branch, node), context)
             case State() | Parallel():
-                items = [item for item in node.items if isinstance(item, Transition)]
-                _check_alternatives(items, context)
+                for transition in transitions_of(node):
+                    if transition not in reported:
+                        _check(transition, _advice(transition, node), context)
 
 
-def _check_alternatives(items: Sequence[Transition | Branch], context: Context) -> None:
-    seen: dict[Hashable, Expression] = {}
-    for item in items:
-        guard = item.guard
-        if guard is None or guard.tree is None:
-            continue
-        value = fold(guard.tree)
-        if isinstance(value, bool):
-            held = "always" if value else "never"
-            context.report.report(
-                "constant-guard",
-                guard.span,
-                held=held,
-                help="remove the guard" if value else "remove the transition",
-            )
-            continue
-        triggers = getattr(item, "triggers", [])
-        for trigger in triggers or [item]:
-            place = trigger.span.text if triggers else ""
-            first = seen.setdefault((place, _words(guard)), guard)
-            if first is not guard:
-                context.report.report(
-                    "transition-never-fires",
-                    item.span,
-                    related=(Label(first.span, "the same guard holds here first"),),
-                    help="change one of the guards, or remove one of the two",
-                )
-                break
+def _check(item: Transition | Branch, advice: str, context: Context) -> None:
+    guard = item.guard
+    if guard is None or guard.tree is None:
+        return
+    holds = condition_of(item, context)
+    if never(holds):
+        held, help_ = "never", "remove the transition"
+    elif always(holds):
+        held, help_ = "always", advice
+    else:
+        return
+    known = fold(guard.tree) is not None
+    context.report.report(
+        "constant-guard",
+        guard.span,
+        held=held,
+        label="" if known else f"whatever the values are, this is {str(held == 'always').lower()}",
+        help=help_ if known else f"change the comparisons, or {help_}",
+    )
 
 
-def _words(guard: Expression) -> str:
-    return "".join(guard.span.text.split())
+def _advice(item: Transition | Branch, owner: Choice | State | Parallel) -> str:
+    """What to write instead of a guard that always holds: not every transition can go without."""
+    if isinstance(owner, Choice):
+        return "write `else` in its place, and nothing after it"
+    if isinstance(item, Branch) or item.triggers:
+        return "remove the guard"
+    if is_idle(owner) and item.target is not None:
+        return f"write `on done -> {item.target.name}`: it is taken at once"
+    return "give the transition a trigger: nothing in the state is ever waited for"

@@ -28,6 +28,7 @@ from swarmdsl.syntax import (
     Vertex,
     walk,
 )
+from swarmdsl.validate.conditions import condition_of, negated, possible
 from swarmdsl.validate.context import Context
 
 # More than anyone writes, and still generated in seconds.
@@ -258,7 +259,10 @@ def _check_initial(container: Container, owner: str, context: Context) -> None:
 
 
 def _check_choice(choice: Choice, context: Context) -> None:
-    if not any(branch.otherwise for branch in choice.branches):
+    """A choice can always be left: by `else`, or since one of its guards always holds."""
+    conditions = [condition_of(branch, context) for branch in choice.branches]
+    otherwise = any(branch.otherwise for branch in choice.branches)
+    if not otherwise and possible(negated(each) for each in conditions):
         context.report.report(
             "choice-without-else",
             choice.name.span,

@@ -1,0 +1,207 @@
+"""What guards say together: whether values exist for which all of them hold.
+
+A guard becomes `and` and `or` of atoms; an atom says in which set of values a term lies. A
+term is whatever is compared with a constant, or a truth value of which nothing more is known.
+At one moment a term has one value, so two guards that are looked at together agree about it.
+What comes out is certain: where it would take too long, values are said to exist.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable
+from dataclasses import dataclass, replace
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.enums import numbers
+from swarmdsl.folding import Folded, fold
+from swarmdsl.inference import Typing
+from swarmdsl.ir.types import INTEGERS, Named, Primitive, Type
+from swarmdsl.syntax import (
+    Branch,
+    Call,
+    EnumType,
+    EventTrigger,
+    ExpressionTree,
+    FieldUse,
+    MonitorTrigger,
+    NameUse,
+    OperatorUse,
+    Transition,
+    Value,
+)
+from swarmdsl.validate.context import Context
+from swarmdsl.validate.values import Numbers, Texts, Values, all_numbers, compared, these
+
+_MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
+_WHOLE = {*INTEGERS, "byte", "char"}
+# More alternatives than people write; each is a step of the search.
+_MOST_STEPS = 2_000
+
+
+@dataclass(frozen=True)
+class Atom:
+    """The value of a term is one of `values`; it could be any of `range`."""
+
+    term: Hashable
+    values: Values
+    range: Values
+
+
+@dataclass(frozen=True)
+class Combined:
+    """All parts hold, or (`every` False) one of them."""
+
+    every: bool
+    parts: tuple[Condition, ...] = ()
+
+
+Condition = Atom | Combined
+# Without parts: all of none hold, and one of none does not.
+ALWAYS = Combined(every=True)
+
+
+def condition(tree: ExpressionTree, typing: Typing) -> Condition:
+    """The condition that a `bool` expression is."""
+    known = fold(tree)
+    if isinstance(known, bool):
+        return ALWAYS if known else negated(ALWAYS)
+    match tree:
+        case OperatorUse(operator="and" | "or" as word, operands=operands):
+            return Combined(word == "and", tuple(condition(part, typing) for part in operands))
+        case OperatorUse(operator="not", operands=(operand,)):
+            return negated(condition(operand, typing))
+        case OperatorUse(operator=operator, operands=(left, right)) if operator in _MIRRORED:
+            return _comparison(str(operator), left, right, typing)
+    return _truth(_term(tree))
+
+
+def negated(some: Condition) -> Condition:
+    """The condition that holds where this one does not."""
+    if isinstance(some, Combined):
+        return Combined(not some.every, tuple(negated(part) for part in some.parts))
+    return Atom(some.term, some.values.complement(), some.range)
+
+
+def condition_of(item: Transition | Branch, context: Context) -> Condition:
+    """The condition under which a transition is taken when it is triggered."""
+    if item.guard is None:
+        return ALWAYS
+    if item.guard.tree is None:
+        return _truth(item)
+    triggers = item.triggers if isinstance(item, Transition) else []
+    events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
+    typing = context.with_event(events) if events else context.typing
+    return condition(item.guard.tree, replace(typing, report=Diagnostics()))
+
+
+def always(some: Condition) -> bool:
+    """Whether a condition holds for all values."""
+    return not possible([negated(some)])
+
+
+def never(some: Condition) -> bool:
+    """Whether a condition holds for no values."""
+    return not possible([some])
+
+
+def possible(conditions: Iterable[Condition]) -> bool:
+    """Whether there are values for which all of the conditions hold."""
+    steps = iter(range(_MOST_STEPS))
+
+    def search(pending: list[Condition], found: dict[Hashable, Values]) -> bool:
+        if next(steps, None) is None:
+            return True
+        found = dict(found)
+        forks: list[Combined] = []
+        while pending:
+            part = pending.pop()
+            if isinstance(part, Atom):
+                term = (part.term, type(part.range))
+                # Both sets are of one kind, which is a part of the name of the term.
+                left = found.get(term, part.range) & part.values  # type: ignore[operator]
+                if not left:
+                    return False
+                found[term] = left
+            elif part.every:
+                pending += part.parts
+            else:
+                forks.append(part)
+        if not forks:
+            return True
+        first, *others = forks
+        return any(search([*others, part], found) for part in first.parts)
+
+    return search(list(conditions), {})
+
+
+def _comparison(
+    operator: str, left: ExpressionTree, right: ExpressionTree, typing: Typing
+) -> Condition:
+    value = fold(right)
+    if value is None:
+        value, left, right = fold(left), right, left
+        operator = _MIRRORED[operator]
+    if value is None:
+        return _relation(operator, left, right)
+    if isinstance(value, bool):
+        holds = condition(left, typing)
+        return holds if value is (operator == "==") else negated(holds)
+    return _compared(operator, left, value, typing)
+
+
+def _compared(operator: str, tree: ExpressionTree, value: Folded, typing: Typing) -> Condition:
+    """The comparison of a term with a constant."""
+    if isinstance(value, str):
+        texts = Texts(frozenset({value}))
+        held = texts if operator == "==" else texts.complement()
+        return Atom(_term(tree), held, Texts(frozenset(), others=True))
+    known = _range(tree, typing.infer(tree), typing)
+    return Atom(_term(tree), compared(operator, value, whole=known.whole), known)
+
+
+def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
+    """The numbers that a term may be.
+
+    An enum in a message begins as 0, whether or not that is one of its values.
+    """
+    if isinstance(tree, Call) and tree.function == "len":
+        return compared(">=", 0, whole=True)
+    if isinstance(type_, Named):
+        enum = typing.interfaces.get(type_)
+        if isinstance(enum, EnumType):
+            return these([0, *numbers(enum).values()])
+    whole = isinstance(type_, Primitive) and type_.name in _WHOLE
+    return all_numbers(whole=whole)
+
+
+def _relation(operator: str, left: ExpressionTree, right: ExpressionTree) -> Condition:
+    """The comparison of two terms: a truth value; the same one when its sides are exchanged."""
+    first, second = _term(left), _term(right)
+    if operator in (">", ">=") or (operator in ("==", "!=") and hash(first) > hash(second)):
+        operator, first, second = _MIRRORED[operator], second, first
+    if operator == "!=":
+        return negated(_truth(("==", first, second)))
+    return _truth((operator, first, second))
+
+
+def _truth(term: Hashable) -> Condition:
+    return Atom(("holds", term), these([1]), these([0, 1]))
+
+
+def _term(tree: ExpressionTree) -> Hashable:
+    """What two expressions have in common that have the same value at one moment."""
+    value = fold(tree)
+    if value is not None:
+        return (type(value), value)
+    match tree:
+        case Value(value=value, unit=unit):
+            return (type(value), value, unit)
+        case NameUse(name=name, target=target):
+            return target or name
+        case FieldUse(base=base, name=name):
+            return (_term(base), str(name))
+        case Call(function=word, arguments=operands):
+            return (str(word), *map(_term, operands))
+        case OperatorUse(operator=word, operands=operands):
+            return (str(word), *map(_term, operands))
+    raise AssertionError(tree)

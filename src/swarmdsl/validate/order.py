@@ -1,0 +1,226 @@
+"""Order: which transitions of a state, or branches of a choice, are ever taken.
+
+Of several that are enabled the first in the text is taken (SCXML 3.13), and one that needs no
+event before all that wait for one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+
+from swarmdsl.diagnostics import Label
+from swarmdsl.folding import fold
+from swarmdsl.syntax import (
+    Branch,
+    Choice,
+    DoneTrigger,
+    EventTrigger,
+    MonitorTrigger,
+    OutcomeTrigger,
+    Parallel,
+    State,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    walk,
+)
+from swarmdsl.topics import awaited, heard_on
+from swarmdsl.validate.conditions import always, condition_of, negated, never, possible
+from swarmdsl.validate.context import Context
+from swarmdsl.validate.settling import Step, at_once, endless, immediate, transitions_of
+
+_AT_ONCE = ("at once",)
+
+
+def check_order(machine: StateMachine, context: Context) -> None:
+    """Report what is never taken because something else always comes before it."""
+    reported = endless(machine, context)
+    for node in walk(machine):
+        match node:
+            case State() | Parallel():
+                dead = _check_immediate(node, reported, context)
+                _check_transitions(
+                    [t for t in transitions_of(node) if t not in dead], node, context
+                )
+            case Choice():
+                _check_branches(node, context)
+
+
+def _check_immediate(
+    state: State | Parallel, reported: set[Step], context: Context
+) -> set[Transition]:
+    """Report what stands beside the way out that a state takes at once; return all of it.
+
+    Where it is left at once in a circle of such states, that is the mistake.
+    """
+    transitions = transitions_of(state)
+    first = next((t for t in transitions if immediate(t, state, context)), None)
+    if first is None or first.target is None:
+        return set()
+    before = transitions[: transitions.index(first)]
+    dead = [
+        *(t for t in before if t.triggers and not any(at_once(each, state) for each in t.triggers)),
+        *transitions[len(before) + 1 :],
+    ]
+    if dead and first not in reported:
+        context.report.report(
+            "transition-never-fires",
+            dead[0].span,
+            related=(
+                Label(first.span, "the state is left by this one as soon as it is entered"),
+                *(Label(other.span, "nor can this one fire") for other in dead[1:]),
+            ),
+            help=f"let `{state.name}` wait before it is left, or remove what it cannot wait for",
+        )
+    return set(dead)
+
+
+def _check_transitions(
+    transitions: list[Transition], state: State | Parallel, context: Context
+) -> None:
+    earlier: dict[Hashable, list[Transition]] = {}
+    for transition in transitions:
+        keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
+        sooner = [_sooner(trigger, transition, transitions) for trigger in transition.triggers]
+        blockers = [
+            [first] if first is not None else _covering(transition, _all(earlier, each), context)
+            for first, each in zip(sooner or [None], keys, strict=True)
+        ]
+        if all(blockers):
+            _report(transition, blockers[0], context)
+        elif not _decided(transition, context):
+            for key in (key for each in keys for key in each[:1]):
+                if key[0] != "after" or _leaves(transition):
+                    earlier.setdefault(key, []).append(transition)
+
+
+def _check_branches(choice: Choice, context: Context) -> None:
+    earlier: list[Branch] = []
+    for branch in choice.branches:
+        last = next((before for before in earlier if before.otherwise), None)
+        if last is not None:
+            context.report.report(
+                "transition-never-fires",
+                branch.span,
+                related=(Label(last.span, "this one is always taken first"),),
+                help="`else` comes last",
+            )
+            continue
+        blockers = _covering(branch, earlier, context)
+        if blockers:
+            _report(branch, blockers, context)
+        elif not _decided(branch, context):
+            earlier.append(branch)
+
+
+def _decided(item: Transition | Branch, context: Context) -> bool:
+    """Whether its guard decides nothing, which is reported as such."""
+    holds = condition_of(item, context)
+    return item.guard is not None and (always(holds) or never(holds))
+
+
+def _covering(
+    item: Transition | Branch, earlier: Sequence[Transition | Branch], context: Context
+) -> list[Transition | Branch]:
+    """Those of the earlier ones of which one is taken whenever this one could be.
+
+    What has no guard is there for what others leave: it is covered by another without one only.
+    """
+    plain = [before for before in earlier if before.guard is None and isinstance(item, Transition)]
+    if plain or item.guard is None:
+        return list(plain[:1])
+    holds = condition_of(item, context)
+    if never(holds):
+        return []
+    passed = {before: negated(condition_of(before, context)) for before in earlier}
+    for before, condition in passed.items():
+        if not possible([holds, condition]):
+            return [before]
+    if possible([holds, *passed.values()]):
+        return []
+    for before in earlier:
+        others = [condition for each, condition in passed.items() if each is not before]
+        if not possible([holds, *others]):
+            del passed[before]
+    return list(passed)
+
+
+def _report(
+    item: Transition | Branch, blockers: Sequence[Transition | Branch], context: Context
+) -> None:
+    guards = [blocker.guard for blocker in blockers if blocker.guard is not None]
+    if not guards:
+        related = [Label(blockers[0].span, "this one is always taken first")]
+        help_ = "give the first one a guard, or remove one of the two"
+    else:
+        message = "whenever the guard holds, this one does, and is looked at first"
+        if len(guards) > 1:
+            message = "whenever the guard holds, one of these does, and is looked at first"
+        elif item.guard is not None and _words(guards[0].span.text) == _words(item.guard.span.text):
+            message = "the same guard holds here first"
+        related = [
+            Label(guards[0].span, message),
+            *(Label(guard.span, "or this one") for guard in guards[1:]),
+        ]
+        help_ = "change one of the guards, their order, or remove a transition"
+    context.report.report("transition-never-fires", item.span, related=tuple(related), help=help_)
+
+
+def _words(text: str) -> str:
+    return "".join(text.split())
+
+
+def _all(
+    earlier: Mapping[Hashable, list[Transition]], keys: list[tuple[Hashable, ...]]
+) -> list[Transition]:
+    found = {transition: None for key in keys for transition in earlier.get(key, ())}
+    return sorted(found, key=lambda transition: transition.span.start)
+
+
+def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...]]:
+    """What a trigger reacts to, first itself, then the more general triggers that cover it."""
+    if at_once(trigger, state):
+        return [_AT_ONCE]
+    match trigger:
+        case EventTrigger() | MonitorTrigger():
+            event = awaited(trigger)
+            return [("event", heard_on(event), event.type.type)] if event is not None else []
+        case OutcomeTrigger(outcome=outcome):
+            return [("outcome", outcome)]
+        case DoneTrigger(region=region, final=final):
+            whole = ("done", region.name if region else None, None)
+            return [whole] if final is None else [(*whole[:2], final.name), whole]
+        case TimeTrigger(delay=delay):
+            return [("after", delay.span.text)]
+
+
+def _leaves(transition: Transition) -> bool:
+    """Whether it ends all delays of its state."""
+    return transition.target is not None and not transition.internal
+
+
+def _sooner(
+    trigger: Trigger, transition: Transition, transitions: Sequence[Transition]
+) -> Transition | None:
+    """The transition that leaves the state always, and after a shorter time or the same."""
+    delay = _delay(trigger)
+    found: tuple[float, Transition] | None = None
+    for other in transitions:
+        if delay is None or other is transition or other.guard is not None or not _leaves(other):
+            continue
+        before = other.span.start < transition.span.start
+        for sooner in map(_delay, other.triggers):
+            if sooner is None or not (sooner < delay or (before and sooner == delay)):
+                continue
+            if found is None or sooner < found[0]:
+                found = (sooner, other)
+    return found[1] if found is not None else None
+
+
+def _delay(trigger: Trigger) -> float | None:
+    """How long a trigger waits, where that is known and makes sense."""
+    if isinstance(trigger, TimeTrigger) and trigger.delay.tree is not None:
+        value = fold(trigger.delay.tree)
+        return value if isinstance(value, (int, float)) and value > 0 else None
+    return None

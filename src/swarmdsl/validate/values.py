@@ -1,0 +1,117 @@
+"""Sets of values that a comparison with a constant leaves: numbers and texts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from math import ceil, floor, inf
+
+# A bound beside a number: below it (-1), at it (0), or above it (1).
+Bound = tuple[float, int]
+Interval = tuple[Bound, Bound]
+
+_LEAST: Bound = (-inf, 0)
+_GREATEST: Bound = (inf, 0)
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """Intervals in ascending order that do not touch, and perhaps what is not a number.
+
+    A NaN is neither above nor below anything, nor is it equal to anything: `not (x > 3)` holds
+    for it, `x <= 3` does not. Of `whole` numbers only those in the intervals count.
+    """
+
+    intervals: tuple[Interval, ...]
+    nan: bool = False
+    whole: bool = False
+
+    def complement(self) -> Numbers:
+        """All other numbers."""
+        return Numbers(tuple(_gaps(self.intervals)), not self.nan, self.whole)
+
+    def __and__(self, other: Numbers) -> Numbers:
+        """The numbers in both sets."""
+        common = (
+            (max(low, least), min(high, most))
+            for low, high in self.intervals
+            for least, most in other.intervals
+        )
+        kept = tuple(interval for interval in common if interval[0] <= interval[1])
+        return Numbers(kept, self.nan and other.nan, self.whole)
+
+    def __bool__(self) -> bool:
+        """Whether there is a number in the set."""
+        return self.nan or any(
+            not self.whole or _has_whole(low, high) for low, high in self.intervals
+        )
+
+
+@dataclass(frozen=True)
+class Texts:
+    """These texts, or all but these."""
+
+    named: frozenset[str]
+    others: bool = False
+
+    def complement(self) -> Texts:
+        """All other texts."""
+        return Texts(self.named, not self.others)
+
+    def __and__(self, other: Texts) -> Texts:
+        """The texts in both sets."""
+        if self.others and other.others:
+            return Texts(self.named | other.named, True)
+        if self.others:
+            return Texts(other.named - self.named)
+        return Texts(self.named - other.named if other.others else self.named & other.named)
+
+    def __bool__(self) -> bool:
+        """Whether there is a text in the set."""
+        return self.others or bool(self.named)
+
+
+Values = Numbers | Texts
+
+
+def all_numbers(*, whole: bool) -> Numbers:
+    """Every number; only those that are not `whole` may be no number at all."""
+    return Numbers(((_LEAST, _GREATEST),), nan=not whole, whole=whole)
+
+
+def these(numbers: Iterable[int]) -> Numbers:
+    """Some whole numbers."""
+    return Numbers(tuple(((number, 0), (number, 0)) for number in sorted(set(numbers))), whole=True)
+
+
+def compared(operator: str, number: float, *, whole: bool) -> Numbers:
+    """The numbers for which a comparison with `number` holds."""
+    at = ((number, 0), (number, 0))
+    intervals: dict[str, tuple[Interval, ...]] = {
+        "==": (at,),
+        "!=": tuple(_gaps((at,))),
+        "<": ((_LEAST, (number, -1)),),
+        "<=": ((_LEAST, (number, 0)),),
+        ">": (((number, 1), _GREATEST),),
+        ">=": (((number, 0), _GREATEST),),
+    }
+    return Numbers(intervals[operator], nan=operator == "!=" and not whole, whole=whole)
+
+
+def _gaps(intervals: Iterable[Interval]) -> Iterator[Interval]:
+    start = _LEAST
+    for (low, beside_low), (high, beside_high) in intervals:
+        if start <= (low, beside_low - 1):
+            yield start, (low, beside_low - 1)
+        start = (high, beside_high + 1)
+    if start <= _GREATEST:
+        yield start, _GREATEST
+
+
+def _has_whole(low: Bound, high: Bound) -> bool:
+    """Whether there is a whole number between two bounds."""
+    if -inf in (low[0], high[0]) or inf in (low[0], high[0]):
+        return True
+    first = floor(low[0]) + 1 if low[1] > 0 else ceil(low[0])
+    last = ceil(high[0]) - 1 if high[1] < 0 else floor(high[0])
+    return first <= last
