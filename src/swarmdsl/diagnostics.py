@@ -6,6 +6,7 @@ exception: every phase reports and goes on.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -31,6 +32,9 @@ class Level(Enum):
 
 ALL_WARNINGS = "warnings"
 """Stands for every warning whose level is not given by its own name and that is not silent."""
+
+
+_MOST_HINTS = 50
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +72,7 @@ class Diagnostics:
 
     def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
         self._found: dict[Diagnostic, None] = {}
+        self._counts: Counter[str] = Counter()
         self._levels = levels or {}
 
     def report(
@@ -114,6 +119,15 @@ class Diagnostics:
             if level is Level.DENY:
                 found = replace(found, severity=Severity.ERROR)
         self._found.setdefault(found)
+        self._counts[found.name] += 1
+
+    def wants_hint(self, name: str) -> bool:
+        """Whether to look for what may be meant instead of something that does not exist.
+
+        Each look goes through all that exists. Whoever gets more than fifty such reports of
+        one name in the catalogue looks for a single cause, an import that is missing for instance.
+        """
+        return self._counts[name] < _MOST_HINTS
 
     @property
     def has_errors(self) -> bool:

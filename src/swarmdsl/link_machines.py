@@ -177,6 +177,10 @@ def _report_missing_state(
     name: str, at: Span, outer: Vertex | None, levels: tuple[Level, ...], report: Diagnostics
 ) -> None:
     """Report a name that no state in sight has; `outer` is the state it should be in."""
+    kind = "state" if outer is None else f"state in `{outer.name}`"
+    if not report.wants_hint("unresolved-name"):
+        report.report("unresolved-name", at, kind=kind, name=name)
+        return
     states = [state for level in levels for found in level.values() for state in found]
     ways = (_way_to(name, state) for state in states)
     way = next((way for way in ways if way), [])
@@ -190,7 +194,6 @@ def _report_missing_state(
             help=f"write `{'.'.join(state.name for state in way)}`",
         )
         return
-    kind = "state" if outer is None else f"state in `{outer.name}`"
     report_unresolved(kind, name, at, [str(state.name) for state in states], None, report)
 
 

@@ -205,6 +205,9 @@ class FileScope:
         if name.rpartition(".")[2] in self.lost:
             return
         kind = bare(kind_of_any(kinds))
+        if not report.wants_hint("unresolved-name"):
+            report.report("unresolved-name", at, kind=kind, name=name)
+            return
         elsewhere = next(
             (
                 (file, node)
@@ -255,7 +258,7 @@ def report_unresolved(
     report: Diagnostics,
 ) -> None:
     """Report a name that means nothing, with the most similar one that would."""
-    close = closest(name, candidates)
+    close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
     similar = nodes.get(close) if close and nodes else None
     report.report(
         "unresolved-name",

@@ -4,15 +4,29 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from difflib import get_close_matches
+from heapq import nlargest
+from itertools import pairwise
 
 from swarmdsl.diagnostics import listed
+
+# As many words are compared closely; out of more, those with most pairs of letters in common.
+_COMPARED = 50
 
 
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
     """The known word most like another, None when none is that like (1 is the same)."""
     by_lower = {name.lower(): name for name in known}
-    close = get_close_matches(word.lower(), by_lower, n=1, cutoff=likeness)
+    word = word.lower()
+    compared: Iterable[str] = by_lower
+    if len(by_lower) > _COMPARED:
+        pairs = _pairs(word)
+        compared = nlargest(_COMPARED, by_lower, key=lambda name: len(pairs & _pairs(name)))
+    close = get_close_matches(word, compared, n=1, cutoff=likeness)
     return by_lower[close[0]] if close else None
+
+
+def _pairs(word: str) -> set[tuple[str, str]]:
+    return set(pairwise(word))
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:

@@ -68,3 +68,19 @@ def test_six_mistakes_in_two_files(tmp_path: Path) -> None:
         ("main.swarm", 13, 13, "empty-multiplicity", "5..2"),
     ]
     assert result.system is None
+
+
+def test_hints_end_where_nobody_reads_them(tmp_path: Path) -> None:
+    names = [f"Ready{number:03}Up" for number in range(200)]
+    events = "".join(f"event {name} : std_msgs/Empty\n" for name in names)
+    triggers = "".join(f"on {name}s -> Done\n" for name in names)
+    path = tmp_path / "main.swarm"
+    path.write_text(
+        f"{events}statemachine M {{ initial A\nstate A {{\n{triggers}}}\nfinal Done\n}}\n"
+    )
+    found = [one for one in compiler.check([path]).report if one.name == "unresolved-name"]
+
+    assert [one.message for one in found] == [f"no event called `{name}s`" for name in names]
+    assert [one.help for one in found if one.help] == [
+        f"did you mean `{name}`?" for name in names[:50]
+    ]

@@ -167,6 +167,9 @@ def report_unknown_field(
     owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
 ) -> None:
     """Report a field that a message does not have, with those it has."""
+    if not report.wants_hint("unknown-field"):
+        report.report("unknown-field", at, owner=owner, name=name)
+        return
     names = [str(known.name) for known in fields]
     has = f"it has {listed(names, 'and')}" if names else "it has no fields"
     help_ = did_you_mean(name, names) or has
