@@ -36,7 +36,7 @@ fmt: $(READY) ## Format the code and repair its style.
 bench: $(READY) ## Measure the phases on large models.
 	$(BIN)/python benchmarks/bench.py
 
-fuzz: $(READY) ## Check 10,000 models with random mistakes; MUTANTS=100000 for more.
+fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
 	$(BIN)/pytest -q tests/front/test_mutations.py --mutants $(MUTANTS)
 
 bless: $(READY) ## Take today's output as what the golden tests expect.

@@ -56,7 +56,11 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         checked = sum(each["mutants"] for each in figures)
         wrong = sum(each["wrong"] for each in figures)
         slowest = max(each["slowest"] for each in figures)
+        files, unprintable, formatted = (
+            sum(each[name] for each in figures) for name in ("files", "unprintable", "formatted")
+        )
         terminalreporter.write_line(
             f"{checked} mutants, none crashed: {wrong} rejected with a diagnostic, "
-            f"the slowest in {slowest:.2f} s"
+            f"the slowest in {slowest:.2f} s; {formatted} formatted; {checked - wrong} emitted "
+            f"as {files} files, {checked - wrong - unprintable} of them printed"
         )

@@ -1,4 +1,8 @@
-"""Models with random mistakes: no exception, and what is found is in the file."""
+"""Models with random mistakes: no exception, and what is found is in the file.
+
+What is still a model is emitted for every target and printed, and what can be parsed is
+formatted.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,21 @@ from time import perf_counter
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl import compiler, plugins
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.emit import Request, emit
+from swarmdsl.format import formatted
+from swarmdsl.ir import System
+from swarmdsl.printer import UnprintableError, print_system
+from swarmdsl.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(
     [*(ROOT / "examples").rglob("*.swarm"), *(ROOT / "tests" / "golden").glob("*/model.swarm")]
 )
 SEEDS = 10
+PROFILES = [Request("scxml", {"profile": profile}) for profile in ("portable", "cpswarm")]
+REQUESTS = [*PROFILES, *(Request(name) for name in plugins.BUILT_IN if name != "scxml")]
 _TOKEN = re.compile(r'"[^"\n]*"|\w+|->|=>|[^\w\s]|\s+')
 _CHARACTERS = "{}()[]\"/*\\'-><=.,:;#@0 \n\t\x00\ufeff\u00a0é€"
 Mutation = Callable[[str, random.Random], str]
@@ -89,6 +101,24 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return root
 
 
+def emitted(system: System) -> int:
+    """How many files all targets make of a system; one that cannot express it makes none."""
+    made = 0
+    for request in REQUESTS:
+        report = Diagnostics()
+        made += sum(map(len, emit(system, [request], report).values()))
+        assert not {"unknown-target", "bad-option"} & {found.name for found in report}
+    return made
+
+
+def printable(system: System) -> bool:
+    """Whether a system has a text."""
+    try:
+        return bool(print_system(system))
+    except UnprintableError:
+        return False
+
+
 @pytest.mark.parametrize("seed", range(SEEDS))
 def test_mutants(
     seed: int,
@@ -98,7 +128,7 @@ def test_mutants(
 ) -> None:
     dice = random.Random(seed)
     mutants = pytestconfig.getoption("--mutants") // SEEDS
-    wrong = 0
+    wrong = unprintable = laid_out = files = 0
     slowest = 0.0
     for _ in range(mutants):
         model = dice.choice(MODELS)
@@ -111,6 +141,10 @@ def test_mutants(
         result = compiler.check([path])
         slowest = max(slowest, perf_counter() - start)
         path.write_text(original, encoding="utf-8")
+        laid_out += formatted(Source(str(path), text), Diagnostics()) is not None
+        if result.system is not None:
+            files += emitted(result.system)
+            unprintable += not printable(result.system)
 
         spans = [found.primary.span for found in result.report if found.primary]
         assert all(0 <= span.start <= span.end <= len(span.source.text) for span in spans)
@@ -121,6 +155,9 @@ def test_mutants(
     assert wrong > mutants // 2  # the mutations do something
     record_property("mutants", mutants)
     record_property("wrong", wrong)
+    record_property("files", files)
+    record_property("unprintable", unprintable)
+    record_property("formatted", laid_out)
     record_property("slowest", slowest)
 
 
