@@ -13,6 +13,7 @@ from swarmdsl.syntax import (
     Choice,
     Container,
     DoneTrigger,
+    History,
     Initial,
     Parallel,
     State,
@@ -26,7 +27,7 @@ from swarmdsl.validate.conditions import always, condition_of
 from swarmdsl.validate.context import Context
 
 # What leads on to another state without waiting.
-Step = Transition | Branch | Initial
+Step = Transition | Branch | Initial | History
 
 
 def check_settling(machine: StateMachine, context: Context) -> None:
@@ -102,6 +103,8 @@ def _steps(vertex: Vertex, context: Context) -> Iterator[Step]:
     match vertex:
         case Choice(branches=branches):
             yield from (branch for branch in branches if _certain(branch, context))
+        case History(target=default) if isinstance(default.target, History):
+            yield vertex
         case State() | Parallel():
             yield from (t for t in transitions_of(vertex) if immediate(t, vertex, context))
             containers: list[Container] = [*regions(vertex)]
