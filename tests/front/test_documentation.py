@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from shutil import copytree
@@ -13,6 +13,7 @@ import pytest
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.format import formatted
+from swarmdsl.ir import System
 from swarmdsl.parse import parse
 from swarmdsl.source import Source
 from swarmdsl.syntax import (
@@ -115,6 +116,51 @@ def test_documentation_is_in_the_representation(folder: Path, tmp_path: Path) ->
 
     assert expected
     assert set(expected) - found == set()
+
+
+def test_what_is_said_of_effects_on_entry_stands_together(
+    compiled: Callable[[str], System],
+) -> None:
+    system = compiled(
+        """
+        statemachine M {
+          var n : int32
+          initial A
+          state A {
+            /// One.
+            entry / n = 1
+            entry / n = n + 1
+            /// Two.
+            // More.
+            entry / n = n * 2
+            exit / n = 0
+            after 1 s -> End
+          }
+          final End
+        }
+        """
+    )
+
+    assert system.machines[0].states[0].docs == (("entry", "One.\nTwo."),)
+
+
+def test_a_behavior_is_inherited_with_what_is_said_of_it(
+    compiled: Callable[[str], System],
+) -> None:
+    system = compiled(
+        """
+        statemachine M { initial A state A { after 1 s -> E } final E }
+        member Base {
+          /// Runs.
+          behavior M
+        }
+        member Plain extends Base { }
+        member Own extends Base { behavior M }
+        """
+    )
+    docs = {member.name: member.docs for member in system.members}
+
+    assert docs == {"Base": (said := (("behavior", "Runs."),)), "Plain": said, "Own": ()}
 
 
 def texts(node: Any) -> Iterator[str]:

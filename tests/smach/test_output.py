@@ -329,3 +329,55 @@ def test_same_model_same_text(compiled: Callable[[str], System]) -> None:
         for _ in range(2)
     )
     assert first == second
+
+
+def test_what_is_said_of_lines_in_a_state_stands_where_they_are_done(generate: Generate) -> None:
+    """Each once: above the state or the decision it belongs to, or in the function that does it."""
+    said = [
+        *("At first.", "At last.", "Counted.", "Asks.", "Known.", "Tried again."),
+        *("Given up.", "Enough.", "Not enough."),
+    ]
+    model = """
+    event Saw : std_msgs/Empty
+    function ask : abstraction { service "ask" : std_srvs/Trigger }
+    statemachine Watch {
+      var seen : int32 = 0
+      initial Waiting
+      state Waiting {
+        /// At first.
+        entry / seen = 0
+        /// At last.
+        exit / seen = seen + 1
+        /// Counted.
+        on Saw / seen = seen + 1
+        after 1 s -> Asking
+      }
+      state Asking {
+        /// Asks.
+        do ask
+        /// Known.
+        on succeeded -> Which
+        /// Tried again.
+        on aborted [seen < 3] / seen = seen + 1 -> Asking
+        /// Given up.
+        on aborted -> End
+      }
+      choice Which {
+        /// Enough.
+        [seen > 1] -> End
+        /// Not enough.
+        else -> Waiting
+      }
+      final End
+    }
+    """
+    (text,) = [file.text for path, file in generate(model).items() if path.endswith("/watch.py")]
+    lines = [line.strip() for line in text.splitlines()]
+
+    for each in said:
+        assert lines.count(f"# {each}") == 1, each
+        above = lines[lines.index(f"# {each}") - 1]
+        assert above.startswith("# model.swarm:"), each
+    doing = [lines[lines.index(f"# {each}") + 1] for each in ("Counted.", "At first.", "At last.")]
+    counted = "userdata.seen = userdata.seen + 1"
+    assert doing == [counted, "userdata.seen = 0", counted]
