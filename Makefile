@@ -12,7 +12,7 @@ VSIX_DIR := dist
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-editor check fmt bench fuzz bless dist vsix clean
+.PHONY: demo test test-editor check fmt bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example and show what was made.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -37,7 +37,10 @@ bench: $(READY) ## Measure the phases on large models.
 	$(BIN)/python benchmarks/bench.py
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
-	$(BIN)/pytest -q tests/front/test_mutations.py --mutants $(MUTANTS)
+	$(BIN)/pytest -q tests/front/test_mutations.py tests/peg --mutants $(MUTANTS)
+
+parser: $(READY) ## Make the parser from the grammar.
+	$(BIN)/python -m swarmdsl.peg
 
 bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless

@@ -106,6 +106,23 @@ def _quantity(text: str) -> tuple[int | float, str]:
     return (int(digits) if digits.isdigit() else float(digits)), unit
 
 
+def quantity_value(digits: str) -> int | float:
+    """The number that is written so."""
+    return int(digits) if digits.isdigit() else float(digits)
+
+
+def is_too_large(text: str, digits: str, unit: str) -> bool:
+    """Whether no type holds a number with its unit, which may be empty."""
+    if len(text) > _MOST_DIGITS:
+        return True
+    value = quantity_value(digits)
+    if isinstance(value, float) and isinf(value):
+        return True
+    if unit:
+        return nanoseconds(text, unit) > _LONGEST
+    return isinstance(value, int) and value > _LARGEST
+
+
 def nanoseconds(text: str, unit: str) -> int:
     """The length of a duration, exactly as written, which a float may not be."""
     return round(Decimal(text.removesuffix(unit).rstrip()) * UNITS[unit])
@@ -114,14 +131,8 @@ def nanoseconds(text: str, unit: str) -> int:
 def _too_large(token: object) -> bool:
     if not isinstance(token, Token) or token.type != "QUANTITY":
         return False
-    if len(token) > _MOST_DIGITS:
-        return True
-    value, unit = _quantity(token)
-    if isinstance(value, float) and isinf(value):
-        return True
-    if unit:
-        return nanoseconds(token, unit) > _LONGEST
-    return isinstance(value, int) and value > _LARGEST
+    digits, unit = _QUANTITY.fullmatch(token).groups()  # type: ignore[union-attr]
+    return is_too_large(str(token), digits, unit)
 
 
 def _report_unexpected(error: UnexpectedInput, span: Span, report: Diagnostics) -> None:

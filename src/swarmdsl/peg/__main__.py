@@ -1,0 +1,9 @@
+"""Writes `swarm_parser.py`: `python -m swarmdsl.peg`, or `make parser`."""
+
+from __future__ import annotations
+
+from swarmdsl.parse import metamodel
+from swarmdsl.peg.swarm import PATH, parser
+
+if __name__ == "__main__":
+    PATH.write_text(parser(metamodel()), encoding="utf-8")

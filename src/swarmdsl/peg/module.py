@@ -1,0 +1,71 @@
+"""What a generated parser consists of: constants, the function `parse`, and the program."""
+
+from __future__ import annotations
+
+from swarmdsl.peg.analysis import Analysis
+from swarmdsl.peg.emission import Emission, Target
+from swarmdsl.peg.grammar import Grammar, Terminal, inside
+from swarmdsl.peg.program import Program
+
+_DEFINITIONS = '''\
+new_span = tuple.__new__
+new_word = str.__new__
+
+{constants}
+RESERVED = frozenset({reserved})
+TERMINALS = (
+{terminals}
+)
+PROGRAM = (
+{program}
+)
+
+
+def parse(source, docs, limit):
+    """Parse a file to a model; None where it does not follow the grammar.
+
+    With the model comes how many expressions are wrong: they have no trees. Documentation
+    is taken from `docs`, which maps places to texts. Raises TooDeepError for nesting beyond
+    `limit`.
+    """
+    text = source.text
+    depth = 0
+    ahead = behind = TOKEN(text, re.match(BLANK, text).end())
+    token = ahead[1]
+{begin}
+{functions}
+{tables}
+
+    model = r_{start}()
+    if model is None or ahead.start() < len(text):
+        return None
+    return model, {result}
+'''
+
+
+def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
+    """The source of the definitions, and the classes of nodes that it needs.
+
+    It also needs `re`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
+    """
+    emission = Emission(Analysis(grammar), target)
+    used = Program(grammar)
+    rules = [grammar.rules[name] for name in used.rules]
+    nodes = [rule for rule in rules if rule.name in target.nodes.keys() - target.written.keys()]
+    for rule in nodes:
+        emission.rule(rule)
+    emission.ordered_attempts()
+    terminals = [part for rule in rules for part in inside(rule.body) if isinstance(part, Terminal)]
+    reserved = {word for terminal in terminals for word in terminal.reserved or ()}
+    text = _DEFINITIONS.format(
+        constants="\n".join(emission.constants()),
+        reserved=sorted(reserved),
+        terminals="\n".join(f"    {terminal!r}," for terminal in used.terminals),
+        program="\n".join(f"    {pair!r}," for pair in used.instructions),
+        begin=target.begin,
+        functions="\n".join(emission.lines),
+        tables="\n".join(f"    {name} = {table}" for name, table in emission.tables.items()),
+        start=grammar.start,
+        result=target.result,
+    )
+    return text, sorted(rule.name for rule in nodes)

@@ -1,0 +1,3566 @@
+"""Parses .swarm files: made from grammar/*.tx by `make parser`, not to be edited."""
+
+# mypy: ignore-errors
+import re
+
+from swarmdsl.expression_parser import ExpressionParser, Language, TooDeepError
+from swarmdsl.expressions import unquoted
+from swarmdsl.source import Span
+from swarmdsl.syntax import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
+
+new_span = tuple.__new__
+new_word = str.__new__
+
+BLANK = '[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*'
+TOKEN = re.compile('([A-Za-z_][A-Za-z0-9_]*\\b|[!-/:-@\\[-^`{-~]|)' + BLANK).match
+REGEX0 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+REGEX1 = re.compile('("(?:[^"\\\\\\n]|\\\\[^\\n])*")' + BLANK, re.MULTILINE).match
+REGEX2 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?)' + BLANK, re.MULTILINE).match
+REGEX3 = re.compile('((?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?)' + BLANK, re.MULTILINE).match
+REGEX4 = re.compile('((?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+REGEX5 = re.compile('(<=?\\s*-?\\d+\\b)' + BLANK, re.MULTILINE).match
+REGEX6 = re.compile('((?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+)' + BLANK, re.MULTILINE).match
+REGEX7 = re.compile('(-?\\d+\\b(?!\\.\\d))' + BLANK, re.MULTILINE).match
+REGEX8 = re.compile('(\\.\\.)' + BLANK, re.MULTILINE).match
+REGEX9 = re.compile('(\\->)' + BLANK, re.MULTILINE).match
+REGEX10 = re.compile('(\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b)' + BLANK, re.MULTILINE).match
+REGEX11 = re.compile('(\\d+\\b|\\*)' + BLANK, re.MULTILINE).match
+REGEX12 = re.compile('(=>)' + BLANK, re.MULTILINE).match
+SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+SET2 = frozenset(['', '!', '"', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~'])
+SET3 = frozenset(['', '!', '"', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', '{', '|', '}', '~'])
+SET4 = frozenset(['abstraction', 'swarm'])
+SET5 = frozenset(['actuator', 'controller', 'sensor', 'virtual'])
+SET6 = frozenset(['', '.', '/'])
+SET7 = frozenset(['evaluations', 'seed', 'steps'])
+SET8 = frozenset(['action', 'service'])
+SET9 = frozenset(['in', 'out'])
+SET10 = frozenset(['in', 'inout', 'out'])
+SET11 = frozenset(['maximize', 'minimize'])
+SET12 = frozenset(['[', 'else'])
+SET13 = frozenset(['after', 'monitor', 'on'])
+SET14 = frozenset(['aborted', 'preempted', 'succeeded'])
+RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
+TERMINALS = (
+    ('\\Z', 'EOF', ''),
+    ('package\\b', '', 'package'),
+    ('optimize\\b', '', 'optimize'),
+    ('\\{', '', '{'),
+    ('\\}', '', '}'),
+    ('import\\b', '', 'import'),
+    ('ros\\b', '', 'ros'),
+    ('struct\\b', '', 'struct'),
+    ('enum\\b', '', 'enum'),
+    (':', '', ':'),
+    ('type\\b', '', 'type'),
+    ('=', '', '='),
+    ('const\\b', '', 'const'),
+    ('message\\b', '', 'message'),
+    ('service\\b', '', 'service'),
+    ('request\\b', '', 'request'),
+    ('response\\b', '', 'response'),
+    ('action\\b', '', 'action'),
+    ('goal\\b', '', 'goal'),
+    ('result\\b', '', 'result'),
+    ('feedback\\b', '', 'feedback'),
+    ('swarm\\b', '', 'swarm'),
+    ('event\\b', '', 'event'),
+    ('on\\b', '', 'on'),
+    ('function\\b', '', 'function'),
+    ('extends\\b', '', 'extends'),
+    ('member\\b', '', 'member'),
+    ('endless\\b', '', 'endless'),
+    ('statemachine\\b', '', 'statemachine'),
+    ('environment\\b', '', 'environment'),
+    ('fitness\\b', '', 'fitness'),
+    ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*', '', ''),
+    ('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?', '', ''),
+    ('abstraction\\b', '', 'abstraction'),
+    ('sensor\\b', '', 'sensor'),
+    ('actuator\\b', '', 'actuator'),
+    ('controller\\b', '', 'controller'),
+    ('virtual\\b', '', 'virtual'),
+    ('(?!(?:aborted|action|actuator|after|and|behavior|choice|communication|connect|const|controller|do|done|else|endless|entry|enum|environment|event|exit|extends|false|final|fitness|function|gives|history|import|in|initial|inout|member|message|monitor|not|on|operation|optimize|or|out|package|parallel|param|preempted|region|send|sensor|service|state|statemachine|struct|succeeded|swarm|true|type|var|virtual)\\b)[A-Za-z_][A-Za-z0-9_]*\\b', 'IDENT', ''),
+    ('count\\b', '', 'count'),
+    ('of\\b', '', 'of'),
+    ('in\\b', '', 'in'),
+    ('\\.\\.', '', '..'),
+    ('\\.', '', '.'),
+    ('step\\b', '', 'step'),
+    ('"(?:[^"\\\\\\n]|\\\\[^\\n])*"', 'QUOTED', ''),
+    ('(?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*', '', ''),
+    ('<=?\\s*-?\\d+\\b', 'STRINGBOUND', ''),
+    ('(?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+', 'ARRAY', ''),
+    ('-?\\d+\\b(?!\\.\\d)', 'INTEGER', ''),
+    ('(?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?', '', ''),
+    ('param\\b', '', 'param'),
+    ('operation\\b', '', 'operation'),
+    ('\\(', '', '('),
+    (',', '', ','),
+    ('\\)', '', ')'),
+    ('behavior\\b', '', 'behavior'),
+    ('communication\\b', '', 'communication'),
+    ('connect\\b', '', 'connect'),
+    ('\\->', '', '->'),
+    ('var\\b', '', 'var'),
+    ('initial\\b', '', 'initial'),
+    ('\\[', '', '['),
+    ('\\]', '', ']'),
+    ('world\\b', '', 'world'),
+    ('size\\b', '', 'size'),
+    ('x\\b', '', 'x'),
+    ('steps\\b', '', 'steps'),
+    ('evaluations\\b', '', 'evaluations'),
+    ('seed\\b', '', 'seed'),
+    ('[A-Za-z_][A-Za-z0-9_]*\\b', 'WORD', ''),
+    ('and\\b', '', 'and'),
+    ('or\\b', '', 'or'),
+    ('==', '', '=='),
+    ('!=', '', '!='),
+    ('<=', '', '<='),
+    ('>=', '', '>='),
+    ('<', '', '<'),
+    ('>', '', '>'),
+    ('\\+', '', '+'),
+    ('\\*', '', '*'),
+    ('/', '', '/'),
+    ('%', '', '%'),
+    ('out\\b', '', 'out'),
+    ('inout\\b', '', 'inout'),
+    ('state\\b', '', 'state'),
+    ('parallel\\b', '', 'parallel'),
+    ('choice\\b', '', 'choice'),
+    ('deep\\b', '', 'deep'),
+    ('history\\b', '', 'history'),
+    ('final\\b', '', 'final'),
+    ('\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b', 'LENGTH', ''),
+    ('maximize\\b', '', 'maximize'),
+    ('minimize\\b', '', 'minimize'),
+    ('not\\b', '', 'not'),
+    ('true\\b', '', 'true'),
+    ('false\\b', '', 'false'),
+    ('-(?!>)', 'MINUS', ''),
+    ('else\\b', '', 'else'),
+    ('\\d+\\b|\\*', 'BOUND', ''),
+    ('\\d+(?:\\.\\d+)?(?:[eE][+-]?\\d+)?(?:[ \\t]*(?:us|ms|s|min|h))?\\b(?!\\.\\d)', 'QUANTITY', ''),
+    ('do\\b', '', 'do'),
+    ('by\\b', '', 'by'),
+    ('gives\\b', '', 'gives'),
+    ('entry\\b', '', 'entry'),
+    ('exit\\b', '', 'exit'),
+    ('internal\\b', '', 'internal'),
+    ('region\\b', '', 'region'),
+    ('=>', '', '=>'),
+    ('after\\b', '', 'after'),
+    ('monitor\\b', '', 'monitor'),
+    ('send\\b', '', 'send'),
+    ('done\\b', '', 'done'),
+    ('succeeded\\b', '', 'succeeded'),
+    ('aborted\\b', '', 'aborted'),
+    ('preempted\\b', '', 'preempted'),
+)
+PROGRAM = (
+    (3, 3),
+    (0, 0),
+    (5, 0),
+    (1, 6),
+    (3, 22),
+    (2, 6),
+    (1, 9),
+    (3, 25),
+    (2, 6),
+    (1, 21),
+    (1, 16),
+    (3, 33),
+    (1, 15),
+    (3, 33),
+    (2, 12),
+    (2, 20),
+    (3, 77),
+    (1, 20),
+    (3, 77),
+    (2, 17),
+    (2, 9),
+    (4, 0),
+    (0, 1),
+    (3, 85),
+    (4, 0),
+    (1, 28),
+    (3, 87),
+    (2, 32),
+    (1, 31),
+    (3, 91),
+    (2, 32),
+    (3, 94),
+    (4, 0),
+    (1, 36),
+    (3, 97),
+    (2, 76),
+    (1, 39),
+    (3, 105),
+    (2, 76),
+    (1, 42),
+    (3, 117),
+    (2, 76),
+    (1, 45),
+    (3, 122),
+    (2, 76),
+    (1, 48),
+    (3, 129),
+    (2, 76),
+    (1, 51),
+    (3, 146),
+    (2, 76),
+    (1, 54),
+    (3, 167),
+    (2, 76),
+    (1, 57),
+    (3, 196),
+    (2, 76),
+    (1, 60),
+    (3, 208),
+    (2, 76),
+    (1, 63),
+    (3, 218),
+    (2, 76),
+    (1, 66),
+    (3, 230),
+    (2, 76),
+    (1, 69),
+    (3, 242),
+    (2, 76),
+    (1, 72),
+    (3, 253),
+    (2, 76),
+    (1, 75),
+    (3, 261),
+    (2, 76),
+    (3, 269),
+    (4, 0),
+    (0, 2),
+    (3, 277),
+    (0, 3),
+    (1, 83),
+    (3, 280),
+    (2, 80),
+    (0, 4),
+    (4, 0),
+    (3, 277),
+    (4, 0),
+    (0, 5),
+    (0, 6),
+    (3, 288),
+    (4, 0),
+    (0, 5),
+    (3, 288),
+    (4, 0),
+    (0, 5),
+    (3, 290),
+    (4, 0),
+    (0, 7),
+    (3, 293),
+    (0, 3),
+    (1, 103),
+    (3, 295),
+    (2, 100),
+    (0, 4),
+    (4, 0),
+    (0, 8),
+    (3, 293),
+    (1, 111),
+    (0, 9),
+    (3, 299),
+    (2, 111),
+    (0, 3),
+    (1, 115),
+    (3, 307),
+    (2, 112),
+    (0, 4),
+    (4, 0),
+    (0, 10),
+    (3, 293),
+    (0, 11),
+    (3, 299),
+    (4, 0),
+    (0, 12),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (0, 11),
+    (3, 313),
+    (4, 0),
+    (0, 13),
+    (3, 315),
+    (0, 3),
+    (1, 144),
+    (1, 139),
+    (3, 122),
+    (1, 138),
+    (3, 122),
+    (2, 135),
+    (2, 143),
+    (3, 295),
+    (1, 143),
+    (3, 295),
+    (2, 140),
+    (2, 132),
+    (0, 4),
+    (4, 0),
+    (0, 14),
+    (3, 315),
+    (0, 3),
+    (1, 157),
+    (0, 15),
+    (0, 3),
+    (1, 155),
+    (3, 295),
+    (2, 152),
+    (0, 4),
+    (2, 157),
+    (1, 165),
+    (0, 16),
+    (0, 3),
+    (1, 163),
+    (3, 295),
+    (2, 160),
+    (0, 4),
+    (2, 165),
+    (0, 4),
+    (4, 0),
+    (0, 17),
+    (3, 315),
+    (0, 3),
+    (1, 178),
+    (0, 18),
+    (0, 3),
+    (1, 176),
+    (3, 295),
+    (2, 173),
+    (0, 4),
+    (2, 178),
+    (1, 186),
+    (0, 19),
+    (0, 3),
+    (1, 184),
+    (3, 295),
+    (2, 181),
+    (0, 4),
+    (2, 186),
+    (1, 194),
+    (0, 20),
+    (0, 3),
+    (1, 192),
+    (3, 295),
+    (2, 189),
+    (0, 4),
+    (2, 194),
+    (0, 4),
+    (4, 0),
+    (1, 199),
+    (0, 21),
+    (2, 199),
+    (0, 22),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (1, 207),
+    (0, 23),
+    (3, 288),
+    (2, 207),
+    (4, 0),
+    (0, 24),
+    (3, 293),
+    (0, 9),
+    (3, 317),
+    (0, 3),
+    (1, 216),
+    (3, 322),
+    (2, 213),
+    (0, 4),
+    (4, 0),
+    (3, 330),
+    (3, 293),
+    (1, 224),
+    (0, 25),
+    (3, 277),
+    (2, 224),
+    (0, 3),
+    (1, 228),
+    (3, 341),
+    (2, 225),
+    (0, 4),
+    (4, 0),
+    (0, 26),
+    (3, 293),
+    (1, 236),
+    (0, 25),
+    (3, 277),
+    (2, 236),
+    (0, 3),
+    (1, 240),
+    (3, 352),
+    (2, 237),
+    (0, 4),
+    (4, 0),
+    (1, 245),
+    (0, 27),
+    (2, 245),
+    (0, 28),
+    (3, 293),
+    (0, 3),
+    (1, 251),
+    (3, 369),
+    (2, 248),
+    (0, 4),
+    (4, 0),
+    (0, 21),
+    (3, 293),
+    (0, 3),
+    (1, 259),
+    (3, 380),
+    (2, 256),
+    (0, 4),
+    (4, 0),
+    (0, 29),
+    (3, 293),
+    (0, 3),
+    (1, 267),
+    (3, 388),
+    (2, 264),
+    (0, 4),
+    (4, 0),
+    (0, 30),
+    (3, 293),
+    (0, 3),
+    (1, 275),
+    (3, 393),
+    (2, 272),
+    (0, 4),
+    (4, 0),
+    (3, 401),
+    (0, 31),
+    (4, 0),
+    (1, 283),
+    (3, 403),
+    (2, 287),
+    (1, 286),
+    (3, 406),
+    (2, 287),
+    (3, 414),
+    (4, 0),
+    (3, 426),
+    (4, 0),
+    (3, 401),
+    (0, 32),
+    (4, 0),
+    (3, 401),
+    (4, 0),
+    (3, 428),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (3, 430),
+    (1, 303),
+    (3, 433),
+    (2, 303),
+    (1, 306),
+    (3, 435),
+    (2, 306),
+    (4, 0),
+    (3, 293),
+    (1, 312),
+    (0, 11),
+    (3, 437),
+    (2, 312),
+    (4, 0),
+    (3, 439),
+    (4, 0),
+    (3, 445),
+    (4, 0),
+    (1, 320),
+    (0, 33),
+    (2, 321),
+    (0, 21),
+    (4, 0),
+    (1, 325),
+    (3, 448),
+    (2, 329),
+    (1, 328),
+    (3, 453),
+    (2, 329),
+    (3, 458),
+    (4, 0),
+    (1, 333),
+    (0, 34),
+    (2, 340),
+    (1, 336),
+    (0, 35),
+    (2, 340),
+    (1, 339),
+    (0, 36),
+    (2, 340),
+    (0, 37),
+    (4, 0),
+    (1, 344),
+    (3, 467),
+    (2, 351),
+    (1, 347),
+    (3, 458),
+    (2, 351),
+    (1, 350),
+    (3, 476),
+    (2, 351),
+    (3, 488),
+    (4, 0),
+    (1, 355),
+    (3, 488),
+    (2, 368),
+    (1, 358),
+    (3, 491),
+    (2, 368),
+    (1, 361),
+    (3, 467),
+    (2, 368),
+    (1, 364),
+    (3, 458),
+    (2, 368),
+    (1, 367),
+    (3, 499),
+    (2, 368),
+    (3, 504),
+    (4, 0),
+    (1, 372),
+    (3, 458),
+    (2, 379),
+    (1, 375),
+    (3, 515),
+    (2, 379),
+    (1, 378),
+    (3, 524),
+    (2, 379),
+    (3, 527),
+    (4, 0),
+    (1, 383),
+    (3, 541),
+    (2, 387),
+    (1, 386),
+    (3, 544),
+    (2, 387),
+    (3, 547),
+    (4, 0),
+    (1, 391),
+    (3, 556),
+    (2, 392),
+    (3, 559),
+    (4, 0),
+    (1, 396),
+    (3, 568),
+    (2, 400),
+    (1, 399),
+    (3, 458),
+    (2, 400),
+    (3, 573),
+    (4, 0),
+    (0, 38),
+    (4, 0),
+    (3, 576),
+    (3, 313),
+    (4, 0),
+    (0, 39),
+    (0, 40),
+    (3, 401),
+    (0, 41),
+    (3, 313),
+    (0, 42),
+    (3, 313),
+    (4, 0),
+    (3, 401),
+    (0, 43),
+    (3, 401),
+    (0, 41),
+    (3, 313),
+    (0, 42),
+    (3, 313),
+    (1, 425),
+    (0, 44),
+    (3, 313),
+    (2, 425),
+    (4, 0),
+    (0, 45),
+    (4, 0),
+    (3, 584),
+    (4, 0),
+    (3, 401),
+    (0, 46),
+    (4, 0),
+    (0, 47),
+    (4, 0),
+    (0, 48),
+    (4, 0),
+    (0, 49),
+    (4, 0),
+    (3, 586),
+    (1, 444),
+    (3, 591),
+    (3, 586),
+    (2, 440),
+    (4, 0),
+    (3, 401),
+    (0, 50),
+    (4, 0),
+    (3, 629),
+    (3, 288),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (3, 634),
+    (3, 288),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (0, 51),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (1, 466),
+    (0, 11),
+    (3, 313),
+    (2, 466),
+    (4, 0),
+    (3, 639),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (1, 475),
+    (0, 23),
+    (3, 288),
+    (2, 475),
+    (4, 0),
+    (0, 52),
+    (3, 293),
+    (0, 53),
+    (1, 486),
+    (3, 647),
+    (1, 485),
+    (0, 54),
+    (3, 647),
+    (2, 481),
+    (2, 486),
+    (0, 55),
+    (4, 0),
+    (0, 56),
+    (3, 277),
+    (4, 0),
+    (0, 57),
+    (3, 293),
+    (0, 3),
+    (1, 497),
+    (3, 655),
+    (2, 494),
+    (0, 4),
+    (4, 0),
+    (0, 58),
+    (3, 659),
+    (0, 59),
+    (3, 659),
+    (4, 0),
+    (3, 293),
+    (0, 9),
+    (3, 277),
+    (1, 514),
+    (0, 3),
+    (1, 512),
+    (3, 655),
+    (2, 509),
+    (0, 4),
+    (2, 514),
+    (4, 0),
+    (0, 60),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (1, 523),
+    (0, 11),
+    (3, 313),
+    (2, 523),
+    (4, 0),
+    (0, 61),
+    (3, 277),
+    (4, 0),
+    (1, 530),
+    (3, 665),
+    (2, 540),
+    (1, 533),
+    (3, 690),
+    (2, 540),
+    (1, 536),
+    (3, 699),
+    (2, 540),
+    (1, 539),
+    (3, 707),
+    (2, 540),
+    (3, 715),
+    (4, 0),
+    (0, 29),
+    (3, 277),
+    (4, 0),
+    (0, 30),
+    (3, 277),
+    (4, 0),
+    (3, 293),
+    (0, 9),
+    (3, 277),
+    (1, 555),
+    (0, 62),
+    (3, 718),
+    (0, 63),
+    (2, 555),
+    (4, 0),
+    (0, 64),
+    (3, 288),
+    (4, 0),
+    (0, 65),
+    (3, 724),
+    (0, 66),
+    (3, 724),
+    (1, 567),
+    (0, 66),
+    (3, 724),
+    (2, 567),
+    (4, 0),
+    (0, 41),
+    (3, 293),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (3, 726),
+    (3, 313),
+    (4, 0),
+    (1, 579),
+    (0, 67),
+    (2, 583),
+    (1, 582),
+    (0, 68),
+    (2, 583),
+    (0, 69),
+    (4, 0),
+    (0, 70),
+    (4, 0),
+    (1, 589),
+    (3, 731),
+    (2, 586),
+    (3, 736),
+    (4, 0),
+    (1, 594),
+    (0, 71),
+    (2, 628),
+    (1, 597),
+    (0, 72),
+    (2, 628),
+    (1, 600),
+    (0, 73),
+    (2, 628),
+    (1, 603),
+    (0, 74),
+    (2, 628),
+    (1, 606),
+    (0, 75),
+    (2, 628),
+    (1, 609),
+    (0, 76),
+    (2, 628),
+    (1, 612),
+    (0, 77),
+    (2, 628),
+    (1, 615),
+    (0, 78),
+    (2, 628),
+    (1, 618),
+    (0, 79),
+    (2, 628),
+    (1, 621),
+    (3, 758),
+    (2, 628),
+    (1, 624),
+    (0, 80),
+    (2, 628),
+    (1, 627),
+    (0, 81),
+    (2, 628),
+    (0, 82),
+    (4, 0),
+    (1, 632),
+    (0, 17),
+    (2, 633),
+    (0, 14),
+    (4, 0),
+    (1, 637),
+    (0, 41),
+    (2, 638),
+    (0, 83),
+    (4, 0),
+    (1, 642),
+    (0, 84),
+    (2, 646),
+    (1, 645),
+    (0, 41),
+    (2, 646),
+    (0, 83),
+    (4, 0),
+    (1, 651),
+    (3, 634),
+    (3, 428),
+    (2, 652),
+    (3, 428),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (3, 428),
+    (0, 11),
+    (3, 313),
+    (4, 0),
+    (1, 663),
+    (3, 401),
+    (0, 43),
+    (2, 663),
+    (3, 401),
+    (4, 0),
+    (0, 85),
+    (3, 293),
+    (1, 682),
+    (0, 11),
+    (3, 277),
+    (1, 681),
+    (0, 53),
+    (1, 679),
+    (3, 760),
+    (1, 678),
+    (0, 54),
+    (3, 760),
+    (2, 674),
+    (2, 679),
+    (0, 55),
+    (2, 681),
+    (2, 682),
+    (1, 689),
+    (0, 3),
+    (1, 687),
+    (3, 764),
+    (2, 684),
+    (0, 4),
+    (2, 689),
+    (4, 0),
+    (0, 86),
+    (0, 85),
+    (3, 293),
+    (0, 3),
+    (1, 697),
+    (3, 781),
+    (2, 694),
+    (0, 4),
+    (4, 0),
+    (0, 87),
+    (3, 293),
+    (0, 3),
+    (1, 705),
+    (3, 792),
+    (2, 702),
+    (0, 4),
+    (4, 0),
+    (1, 710),
+    (0, 88),
+    (2, 710),
+    (0, 89),
+    (3, 293),
+    (0, 59),
+    (3, 277),
+    (4, 0),
+    (0, 90),
+    (3, 293),
+    (4, 0),
+    (3, 809),
+    (1, 723),
+    (0, 42),
+    (3, 809),
+    (2, 723),
+    (4, 0),
+    (0, 91),
+    (4, 0),
+    (1, 729),
+    (0, 92),
+    (2, 730),
+    (0, 93),
+    (4, 0),
+    (1, 734),
+    (0, 94),
+    (2, 735),
+    (3, 758),
+    (4, 0),
+    (1, 739),
+    (3, 811),
+    (2, 757),
+    (1, 742),
+    (3, 426),
+    (2, 757),
+    (1, 745),
+    (0, 95),
+    (2, 757),
+    (1, 748),
+    (0, 96),
+    (2, 757),
+    (1, 751),
+    (3, 813),
+    (2, 757),
+    (1, 754),
+    (3, 824),
+    (2, 757),
+    (0, 53),
+    (3, 439),
+    (0, 55),
+    (4, 0),
+    (0, 97),
+    (4, 0),
+    (3, 428),
+    (0, 11),
+    (3, 313),
+    (4, 0),
+    (1, 767),
+    (3, 830),
+    (2, 780),
+    (1, 770),
+    (3, 862),
+    (2, 780),
+    (1, 773),
+    (3, 870),
+    (2, 780),
+    (1, 776),
+    (3, 878),
+    (2, 780),
+    (1, 779),
+    (3, 524),
+    (2, 780),
+    (3, 527),
+    (4, 0),
+    (1, 784),
+    (3, 936),
+    (2, 791),
+    (1, 787),
+    (3, 862),
+    (2, 791),
+    (1, 790),
+    (3, 870),
+    (2, 791),
+    (3, 878),
+    (4, 0),
+    (1, 797),
+    (0, 62),
+    (3, 313),
+    (0, 63),
+    (2, 798),
+    (0, 98),
+    (1, 806),
+    (0, 81),
+    (3, 944),
+    (1, 805),
+    (0, 54),
+    (3, 944),
+    (2, 801),
+    (2, 806),
+    (0, 59),
+    (3, 277),
+    (4, 0),
+    (0, 99),
+    (4, 0),
+    (0, 100),
+    (4, 0),
+    (3, 401),
+    (0, 53),
+    (1, 822),
+    (3, 439),
+    (1, 821),
+    (0, 54),
+    (3, 439),
+    (2, 817),
+    (2, 822),
+    (0, 55),
+    (4, 0),
+    (3, 949),
+    (1, 829),
+    (0, 43),
+    (3, 584),
+    (2, 825),
+    (4, 0),
+    (0, 101),
+    (3, 277),
+    (1, 847),
+    (0, 53),
+    (1, 838),
+    (0, 102),
+    (3, 293),
+    (2, 845),
+    (1, 845),
+    (3, 760),
+    (1, 844),
+    (0, 54),
+    (3, 760),
+    (2, 840),
+    (2, 845),
+    (0, 55),
+    (2, 847),
+    (1, 861),
+    (0, 103),
+    (1, 853),
+    (0, 102),
+    (3, 293),
+    (2, 860),
+    (0, 53),
+    (3, 954),
+    (1, 859),
+    (0, 54),
+    (3, 954),
+    (2, 855),
+    (0, 55),
+    (2, 861),
+    (4, 0),
+    (0, 104),
+    (0, 81),
+    (3, 944),
+    (1, 869),
+    (0, 54),
+    (3, 944),
+    (2, 865),
+    (4, 0),
+    (0, 105),
+    (0, 81),
+    (3, 944),
+    (1, 877),
+    (0, 54),
+    (3, 944),
+    (2, 873),
+    (4, 0),
+    (1, 881),
+    (0, 106),
+    (2, 881),
+    (1, 922),
+    (1, 890),
+    (0, 23),
+    (3, 958),
+    (1, 889),
+    (0, 54),
+    (3, 958),
+    (2, 885),
+    (2, 902),
+    (1, 897),
+    (3, 966),
+    (1, 896),
+    (0, 54),
+    (3, 966),
+    (2, 892),
+    (2, 902),
+    (3, 969),
+    (1, 902),
+    (0, 54),
+    (3, 969),
+    (2, 898),
+    (1, 907),
+    (0, 62),
+    (3, 313),
+    (0, 63),
+    (2, 907),
+    (1, 919),
+    (0, 81),
+    (3, 944),
+    (1, 914),
+    (0, 54),
+    (3, 944),
+    (2, 910),
+    (1, 918),
+    (0, 59),
+    (3, 277),
+    (2, 918),
+    (2, 921),
+    (0, 59),
+    (3, 277),
+    (2, 935),
+    (0, 62),
+    (3, 313),
+    (0, 63),
+    (1, 933),
+    (0, 81),
+    (3, 944),
+    (1, 932),
+    (0, 54),
+    (3, 944),
+    (2, 928),
+    (2, 933),
+    (0, 59),
+    (3, 277),
+    (4, 0),
+    (0, 107),
+    (3, 293),
+    (0, 3),
+    (1, 942),
+    (3, 974),
+    (2, 939),
+    (0, 4),
+    (4, 0),
+    (1, 947),
+    (3, 979),
+    (2, 948),
+    (3, 993),
+    (4, 0),
+    (1, 952),
+    (0, 22),
+    (2, 953),
+    (3, 401),
+    (4, 0),
+    (3, 428),
+    (0, 108),
+    (3, 997),
+    (4, 0),
+    (1, 961),
+    (3, 999),
+    (2, 965),
+    (1, 964),
+    (3, 1001),
+    (2, 965),
+    (3, 1011),
+    (4, 0),
+    (0, 109),
+    (3, 1013),
+    (4, 0),
+    (0, 110),
+    (3, 288),
+    (0, 9),
+    (3, 299),
+    (4, 0),
+    (1, 977),
+    (3, 524),
+    (2, 978),
+    (3, 527),
+    (4, 0),
+    (0, 111),
+    (3, 277),
+    (1, 992),
+    (0, 53),
+    (1, 990),
+    (3, 760),
+    (1, 989),
+    (0, 54),
+    (3, 760),
+    (2, 985),
+    (2, 990),
+    (0, 55),
+    (2, 992),
+    (4, 0),
+    (3, 997),
+    (0, 11),
+    (3, 313),
+    (4, 0),
+    (3, 586),
+    (4, 0),
+    (3, 1015),
+    (4, 0),
+    (1, 1005),
+    (3, 401),
+    (0, 43),
+    (2, 1005),
+    (0, 112),
+    (1, 1010),
+    (0, 43),
+    (3, 401),
+    (2, 1010),
+    (4, 0),
+    (3, 277),
+    (4, 0),
+    (3, 1023),
+    (4, 0),
+    (1, 1018),
+    (0, 113),
+    (2, 1022),
+    (1, 1021),
+    (0, 114),
+    (2, 1022),
+    (0, 115),
+    (4, 0),
+    (3, 586),
+    (1, 1028),
+    (3, 1029),
+    (3, 586),
+    (2, 1024),
+    (4, 0),
+    (1, 1032),
+    (0, 79),
+    (2, 1036),
+    (1, 1035),
+    (3, 758),
+    (2, 1036),
+    (0, 80),
+    (4, 0),
+)
+
+
+def parse(source, docs, limit):
+    """Parse a file to a model; None where it does not follow the grammar.
+
+    With the model comes how many expressions are wrong: they have no trees. Documentation
+    is taken from `docs`, which maps places to texts. Raises TooDeepError for nesting beyond
+    `limit`.
+    """
+    text = source.text
+    depth = 0
+    ahead = behind = TOKEN(text, re.match(BLANK, text).end())
+    token = ahead[1]
+    expressions = ExpressionParser(LANGUAGE, source, limit)
+    expression = expressions.expression
+    operand = expressions.operand
+    delay = expressions.delay
+
+    def r_Model():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        package_ = None
+        imports_ = []
+        declarations_ = []
+        optimizations_ = []
+        if token == 'package':
+            ahead1, behind2 = ahead, behind
+            while True:
+                value = r_Package()
+                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                package_ = value
+                break
+        while True:
+            ahead3, behind4 = ahead, behind
+            rule = Import_RULES.get(token)
+            if rule is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            value = rule()
+            if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            imports_.append(value)
+        while token in SET0:
+            ahead5, behind6 = ahead, behind
+            before7 = len(declarations_)
+            before8 = len(optimizations_)
+            if token in SET1:
+                rule = Declaration_RULES.get(token)
+                if rule is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                value = rule()
+                if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                declarations_.append(value)
+                while True:
+                    ahead9, behind10 = ahead, behind
+                    rule = Declaration_RULES.get(token)
+                    if rule is None: ahead = ahead9; token = ahead[1]; behind = behind10; break
+                    value = rule()
+                    if value is None: ahead = ahead9; token = ahead[1]; behind = behind10; break
+                    declarations_.append(value)
+            elif token == 'optimize':
+                value = r_Optimization()
+                if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                optimizations_.append(value)
+                while token == 'optimize':
+                    ahead11, behind12 = ahead, behind
+                    value = r_Optimization()
+                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    optimizations_.append(value)
+            else: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+        return Model(new_span(Span, (source, start, behind.end(1))), package_, imports_, declarations_, optimizations_)
+
+    def r_Package():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        if not (token == 'package'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        value = new_word(Word, text1)
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        made = Package(new_span(Span, (source, start, behind.end(1))), name_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Optimization():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        swarm_ = None
+        items_ = []
+        if not (token == 'optimize'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        swarm_ = Ref(text1, 'Swarm', new_span(Span, (source, at, at + len(text1))))
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead3, behind4 = ahead, behind
+            rule = OptimizationItem_RULES.get(token, r_ParamRange)
+            if rule is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            value = rule()
+            if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Optimization(new_span(Span, (source, start, behind.end(1))), swarm_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ImportRos():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        path_ = None
+        if not (token == 'import'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token == 'ros'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        path_ = value
+        made = ImportRos(new_span(Span, (source, start, behind.end(1))), path_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ImportFile():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        path_ = None
+        if not (token == 'import'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        path_ = value
+        made = ImportFile(new_span(Span, (source, start, behind.end(1))), path_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ImportLibrary():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        if not (token == 'import'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX2(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        name_ = text1
+        made = ImportLibrary(new_span(Span, (source, start, behind.end(1))), name_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_StructType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        fields_ = []
+        if not (token == 'struct'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while token not in SET3:
+            ahead1, behind2 = ahead, behind
+            value = r_Field()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            fields_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = StructType(new_span(Span, (source, start, behind.end(1))), name_, fields_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_EnumType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        underlying_ = None
+        values_ = []
+        if not (token == 'enum'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if token == ':':
+            ahead1, behind2 = ahead, behind
+            before3 = underlying_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                value = r_TypeRef()
+                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; underlying_ = before3; break
+                underlying_ = value
+                break
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while token not in SET2:
+            ahead4, behind5 = ahead, behind
+            value = r_EnumValue()
+            if value is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+            values_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = EnumType(new_span(Span, (source, start, behind.end(1))), name_, underlying_, values_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_AliasType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        if not (token == 'type'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '='): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = AliasType(new_span(Span, (source, start, behind.end(1))), name_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Constant():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        value_ = None
+        if not (token == 'const'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        if not (token == '='): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        made = Constant(new_span(Span, (source, start, behind.end(1))), name_, type_, value_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_MessageType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        constants_ = []
+        fields_ = []
+        if not (token == 'message'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '/':
+            match2 = REGEX3(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        value = new_word(Word, text1)
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while token not in SET3:
+            ahead3, behind4 = ahead, behind
+            before5 = len(constants_)
+            before6 = len(fields_)
+            chosen7 = False
+            if not chosen7 and token == 'const':
+                ahead8, behind9 = ahead, behind
+                while True:
+                    value = r_Constant()
+                    if value is None: ahead = ahead8; token = ahead[1]; behind = behind9; break
+                    constants_.append(value)
+                    while token == 'const':
+                        ahead10, behind11 = ahead, behind
+                        value = r_Constant()
+                        if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                        constants_.append(value)
+                    chosen7 = True
+                    break
+            if not chosen7 and token not in SET3:
+                ahead12, behind13 = ahead, behind
+                while True:
+                    value = r_Field()
+                    if value is None: ahead = ahead12; token = ahead[1]; behind = behind13; break
+                    fields_.append(value)
+                    while token not in SET3:
+                        ahead14, behind15 = ahead, behind
+                        value = r_Field()
+                        if value is None: ahead = ahead14; token = ahead[1]; behind = behind15; break
+                        fields_.append(value)
+                    chosen7 = True
+                    break
+            if not chosen7: ahead = ahead3; token = ahead[1]; behind = behind4; del constants_[before5:]; del fields_[before6:]; break
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = MessageType(new_span(Span, (source, start, behind.end(1))), name_, constants_, fields_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ServiceType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        request_ = []
+        response_ = []
+        if not (token == 'service'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '/':
+            match2 = REGEX3(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        value = new_word(Word, text1)
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if token == 'request':
+            ahead3, behind4 = ahead, behind
+            before5 = len(request_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '{'): ahead = ahead3; token = ahead[1]; behind = behind4; del request_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead6, behind7 = ahead, behind
+                    value = r_Field()
+                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    request_.append(value)
+                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del request_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if token == 'response':
+            ahead8, behind9 = ahead, behind
+            before10 = len(response_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '{'): ahead = ahead8; token = ahead[1]; behind = behind9; del response_[before10:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead11, behind12 = ahead, behind
+                    value = r_Field()
+                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    response_.append(value)
+                if not (token == '}'): ahead = ahead8; token = ahead[1]; behind = behind9; del response_[before10:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = ServiceType(new_span(Span, (source, start, behind.end(1))), name_, request_, response_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ActionType():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        goal_ = []
+        result_ = []
+        feedback_ = []
+        if not (token == 'action'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '/':
+            match2 = REGEX3(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        value = new_word(Word, text1)
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if token == 'goal':
+            ahead3, behind4 = ahead, behind
+            before5 = len(goal_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '{'): ahead = ahead3; token = ahead[1]; behind = behind4; del goal_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead6, behind7 = ahead, behind
+                    value = r_Field()
+                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    goal_.append(value)
+                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del goal_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if token == 'result':
+            ahead8, behind9 = ahead, behind
+            before10 = len(result_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '{'): ahead = ahead8; token = ahead[1]; behind = behind9; del result_[before10:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead11, behind12 = ahead, behind
+                    value = r_Field()
+                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    result_.append(value)
+                if not (token == '}'): ahead = ahead8; token = ahead[1]; behind = behind9; del result_[before10:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if token == 'feedback':
+            ahead13, behind14 = ahead, behind
+            before15 = len(feedback_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '{'): ahead = ahead13; token = ahead[1]; behind = behind14; del feedback_[before15:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead16, behind17 = ahead, behind
+                    value = r_Field()
+                    if value is None: ahead = ahead16; token = ahead[1]; behind = behind17; break
+                    feedback_.append(value)
+                if not (token == '}'): ahead = ahead13; token = ahead[1]; behind = behind14; del feedback_[before15:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = ActionType(new_span(Span, (source, start, behind.end(1))), name_, goal_, result_, feedback_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Event():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        swarm_ = False
+        name_ = None
+        type_ = None
+        topic_ = None
+        if token == 'swarm':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            swarm_ = True
+        if not (token == 'event'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        if token == 'on':
+            ahead1, behind2 = ahead, behind
+            before3 = topic_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                match4 = REGEX1(text, ahead.start())
+                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; topic_ = before3; break
+                behind = match4
+                ahead = TOKEN(text, match4.end()); token = ahead[1]
+                value = new_word(Word, unquoted(match4[1]))
+                value.span = new_span(Span, (source, at, behind.end(1)))
+                topic_ = value
+                break
+        made = Event(new_span(Span, (source, start, behind.end(1))), swarm_, name_, type_, topic_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Function():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        category_ = None
+        items_ = []
+        if not (token == 'function'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token in SET4): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        category_ = behind[1]
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = FunctionItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Function(new_span(Span, (source, start, behind.end(1))), name_, category_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Component():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        kind_ = None
+        name_ = None
+        base_ = None
+        items_ = []
+        if not (token in SET5): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        kind_ = behind[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if token == 'extends':
+            ahead1, behind2 = ahead, behind
+            before3 = base_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; base_ = before3; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                text4 = behind[1]
+                if token == '.':
+                    match5 = REGEX0(text, ahead.start())
+                    if match5[1]:
+                        text4 += match5[1]; behind = match5
+                        ahead = TOKEN(text, match5.end()); token = ahead[1]
+                base_ = Ref(text4, 'Component', new_span(Span, (source, at, at + len(text4))))
+                break
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead6, behind7 = ahead, behind
+            rule = ComponentItem_RULES.get(token)
+            if rule is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            value = rule()
+            if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Component(new_span(Span, (source, start, behind.end(1))), kind_, name_, base_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Member():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        base_ = None
+        items_ = []
+        if not (token == 'member'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if token == 'extends':
+            ahead1, behind2 = ahead, behind
+            before3 = base_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; base_ = before3; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                text4 = behind[1]
+                if token == '.':
+                    match5 = REGEX0(text, ahead.start())
+                    if match5[1]:
+                        text4 += match5[1]; behind = match5
+                        ahead = TOKEN(text, match5.end()); token = ahead[1]
+                base_ = Ref(text4, 'Member', new_span(Span, (source, at, at + len(text4))))
+                break
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead6, behind7 = ahead, behind
+            rule = MemberItem_RULES.get(token, r_Part)
+            if rule is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            value = rule()
+            if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Member(new_span(Span, (source, start, behind.end(1))), name_, base_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_StateMachine():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        endless_ = False
+        name_ = None
+        items_ = []
+        if token == 'endless':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            endless_ = True
+        if not (token == 'statemachine'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = MachineItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = StateMachine(new_span(Span, (source, start, behind.end(1))), endless_, name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Swarm():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        items_ = []
+        if not (token == 'swarm'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = SwarmItem_RULES.get(token, r_Role)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Swarm(new_span(Span, (source, start, behind.end(1))), name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Environment():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        items_ = []
+        if not (token == 'environment'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = EnvironmentItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Environment(new_span(Span, (source, start, behind.end(1))), name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Fitness():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        items_ = []
+        if not (token == 'fitness'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = FitnessItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Fitness(new_span(Span, (source, start, behind.end(1))), name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Field():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        at = ahead.start()
+        if not (token not in SET3): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = Field(new_span(Span, (source, start, behind.end(1))), name_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_TypeRef():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        bound_ = None
+        array_ = None
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token in SET6:
+            match2 = REGEX4(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        name_ = text1
+        if token == '<':
+            ahead3, behind4 = ahead, behind
+            while True:
+                match5 = REGEX5(text, ahead.start())
+                if match5 is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+                behind = match5
+                ahead = TOKEN(text, match5.end()); token = ahead[1]
+                bound_ = match5[1]
+                break
+        if token == '[':
+            ahead6, behind7 = ahead, behind
+            while True:
+                match8 = REGEX6(text, ahead.start())
+                if match8 is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                behind = match8
+                ahead = TOKEN(text, match8.end()); token = ahead[1]
+                array_ = match8[1]
+                break
+        return TypeRef(new_span(Span, (source, start, behind.end(1))), name_, bound_, array_)
+
+    def r_EnumValue():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        value_ = None
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if token == '=':
+            ahead1, behind2 = ahead, behind
+            before3 = value_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                match4 = REGEX7(text, ahead.start())
+                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; value_ = before3; break
+                behind = match4
+                ahead = TOKEN(text, match4.end()); token = ahead[1]
+                value_ = match4[1]
+                break
+        made = EnumValue(new_span(Span, (source, start, behind.end(1))), name_, value_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Setting():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        value_ = None
+        if not (token in SET7): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        name_ = behind[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        made = Setting(new_span(Span, (source, start, behind.end(1))), name_, value_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_CountRange():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        role_ = None
+        lower_ = None
+        upper_ = None
+        if not (token == 'count'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token == 'of'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        role_ = Ref(behind[1], 'Role', new_span(Span, (source, at, at + len(behind[1]))))
+        if not (token == 'in'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        lower_ = value
+        match1 = REGEX8(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        upper_ = value
+        made = CountRange(new_span(Span, (source, start, behind.end(1))), role_, lower_, upper_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ParamRange():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        role_ = None
+        param_ = None
+        lower_ = None
+        upper_ = None
+        step_ = None
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        role_ = Ref(behind[1], 'Role', new_span(Span, (source, at, at + len(behind[1]))))
+        if not (token == '.'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        param_ = Ref(behind[1], 'Param', new_span(Span, (source, at, at + len(behind[1]))))
+        if not (token == 'in'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        lower_ = value
+        match1 = REGEX8(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        upper_ = value
+        if token == 'step':
+            ahead2, behind3 = ahead, behind
+            before4 = step_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                found = expression(ahead)
+                if found is None: ahead = ahead2; token = ahead[1]; behind = behind3; step_ = before4; break
+                value, behind, ahead = found; token = ahead[1]
+                step_ = value
+                break
+        made = ParamRange(new_span(Span, (source, start, behind.end(1))), role_, param_, lower_, upper_, step_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Communication():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        paradigm_ = None
+        name_ = None
+        type_ = None
+        if not (token in SET8): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        paradigm_ = behind[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = Communication(new_span(Span, (source, start, behind.end(1))), paradigm_, name_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_FunctionPort():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        direction_ = None
+        topic_ = None
+        type_ = None
+        if not (token in SET9): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        direction_ = behind[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        topic_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = FunctionPort(new_span(Span, (source, start, behind.end(1))), direction_, topic_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Param():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        default_ = None
+        if not (token == 'param'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        if token == '=':
+            ahead1, behind2 = ahead, behind
+            before3 = default_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                found = expression(ahead)
+                if found is None: ahead = ahead1; token = ahead[1]; behind = behind2; default_ = before3; break
+                value, behind, ahead = found; token = ahead[1]
+                default_ = value
+                break
+        made = Param(new_span(Span, (source, start, behind.end(1))), name_, type_, default_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Port():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        direction_ = None
+        name_ = None
+        type_ = None
+        topic_ = None
+        if not (token in SET10): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        direction_ = behind[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        if token == 'on':
+            ahead1, behind2 = ahead, behind
+            before3 = topic_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                match4 = REGEX1(text, ahead.start())
+                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; topic_ = before3; break
+                behind = match4
+                ahead = TOKEN(text, match4.end()); token = ahead[1]
+                value = new_word(Word, unquoted(match4[1]))
+                value.span = new_span(Span, (source, at, behind.end(1)))
+                topic_ = value
+                break
+        made = Port(new_span(Span, (source, start, behind.end(1))), direction_, name_, type_, topic_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Operation():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        parameters_ = []
+        if not (token == 'operation'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '('): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if token not in SET3:
+            ahead1, behind2 = ahead, behind
+            while True:
+                value = r_Parameter()
+                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                parameters_.append(value)
+                while token == ',':
+                    ahead3, behind4 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    value = r_Parameter()
+                    if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+                    parameters_.append(value)
+                break
+        if not (token == ')'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Operation(new_span(Span, (source, start, behind.end(1))), name_, parameters_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_BehaviorUse():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        machine_ = None
+        if not (token == 'behavior'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        machine_ = Ref(text1, 'StateMachine', new_span(Span, (source, at, at + len(text1))))
+        made = BehaviorUse(new_span(Span, (source, start, behind.end(1))), machine_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_CommunicationSettings():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        technology_ = None
+        values_ = []
+        if not (token == 'communication'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        technology_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while token not in SET3:
+            ahead1, behind2 = ahead, behind
+            value = r_PartValue()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            values_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = CommunicationSettings(new_span(Span, (source, start, behind.end(1))), technology_, values_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Connector():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        source_ = None
+        target_ = None
+        if not (token == 'connect'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_PortRef()
+        if value is None: return None
+        source_ = value
+        match1 = REGEX9(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = r_PortRef()
+        if value is None: return None
+        target_ = value
+        made = Connector(new_span(Span, (source, start, behind.end(1))), source_, target_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Part():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        component_ = None
+        values_ = []
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        component_ = Ref(text1, 'Component', new_span(Span, (source, at, at + len(text1))))
+        if token == '{':
+            ahead3, behind4 = ahead, behind
+            before5 = len(values_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while token not in SET3:
+                    ahead6, behind7 = ahead, behind
+                    value = r_PartValue()
+                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    values_.append(value)
+                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del values_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        made = Part(new_span(Span, (source, start, behind.end(1))), name_, component_, values_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Variable():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        initial_ = None
+        if not (token == 'var'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        if token == '=':
+            ahead1, behind2 = ahead, behind
+            before3 = initial_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                found = expression(ahead)
+                if found is None: ahead = ahead1; token = ahead[1]; behind = behind2; initial_ = before3; break
+                value, behind, ahead = found; token = ahead[1]
+                initial_ = value
+                break
+        made = Variable(new_span(Span, (source, start, behind.end(1))), name_, type_, initial_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Initial():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        target_ = None
+        if not (token == 'initial'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        target_ = Ref(text1, 'Vertex', new_span(Span, (source, at, at + len(text1))))
+        made = Initial(new_span(Span, (source, start, behind.end(1))), target_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_EnvironmentUse():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        environment_ = None
+        if not (token == 'environment'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        environment_ = Ref(text1, 'Environment', new_span(Span, (source, at, at + len(text1))))
+        made = EnvironmentUse(new_span(Span, (source, start, behind.end(1))), environment_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_FitnessUse():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        fitness_ = None
+        if not (token == 'fitness'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        fitness_ = Ref(text1, 'Fitness', new_span(Span, (source, at, at + len(text1))))
+        made = FitnessUse(new_span(Span, (source, start, behind.end(1))), fitness_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Role():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        member_ = None
+        multiplicity_ = None
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        member_ = Ref(text1, 'Member', new_span(Span, (source, at, at + len(text1))))
+        if token == '[':
+            ahead3, behind4 = ahead, behind
+            before5 = multiplicity_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                value = r_Multiplicity()
+                if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; multiplicity_ = before5; break
+                multiplicity_ = value
+                if not (token == ']'): ahead = ahead3; token = ahead[1]; behind = behind4; multiplicity_ = before5; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        made = Role(new_span(Span, (source, start, behind.end(1))), name_, member_, multiplicity_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_World():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        file_ = None
+        if not (token == 'world'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        file_ = value
+        made = World(new_span(Span, (source, start, behind.end(1))), file_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Size():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        width_ = None
+        depth_ = None
+        height_ = None
+        if not (token == 'size'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        match1 = REGEX10(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        width_ = match1[1]
+        if not (token == 'x'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        match2 = REGEX10(text, ahead.start())
+        if match2 is None: return None
+        behind = match2
+        ahead = TOKEN(text, match2.end()); token = ahead[1]
+        depth_ = match2[1]
+        if token == 'x':
+            ahead3, behind4 = ahead, behind
+            before5 = height_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                match6 = REGEX10(text, ahead.start())
+                if match6 is None: ahead = ahead3; token = ahead[1]; behind = behind4; height_ = before5; break
+                behind = match6
+                ahead = TOKEN(text, match6.end()); token = ahead[1]
+                height_ = match6[1]
+                break
+        made = Size(new_span(Span, (source, start, behind.end(1))), width_, depth_, height_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_FitnessInput():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        type_ = None
+        if not (token == 'in'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = FitnessInput(new_span(Span, (source, start, behind.end(1))), name_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Objective():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        goal_ = None
+        value_ = None
+        if not (token in SET11): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        goal_ = behind[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        made = Objective(new_span(Span, (source, start, behind.end(1))), goal_, value_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Parameter():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        direction_ = None
+        name_ = None
+        type_ = None
+        chosen1 = False
+        if not chosen1 and token in SET9:
+            ahead2, behind3 = ahead, behind
+            before4 = direction_
+            before5 = name_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                direction_ = behind[1]
+                at = ahead.start()
+                if not (token not in SET3): ahead = ahead2; token = ahead[1]; behind = behind3; direction_ = before4; name_ = before5; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                value = new_word(Word, behind[1])
+                value.span = new_span(Span, (source, at, behind.end(1)))
+                name_ = value
+                chosen1 = True
+                break
+        if not chosen1 and token not in SET3:
+            ahead6, behind7 = ahead, behind
+            while True:
+                at = ahead.start()
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                value = new_word(Word, behind[1])
+                value.span = new_span(Span, (source, at, behind.end(1)))
+                name_ = value
+                chosen1 = True
+                break
+        if not chosen1: return None
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        made = Parameter(new_span(Span, (source, start, behind.end(1))), direction_, name_, type_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_PartValue():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        value_ = None
+        at = ahead.start()
+        if not (token not in SET3): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '='): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        made = PartValue(new_span(Span, (source, start, behind.end(1))), name_, value_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_PortRef():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        part_ = None
+        port_ = None
+        if token not in SET2:
+            ahead1, behind2 = ahead, behind
+            before3 = part_
+            while True:
+                at = ahead.start()
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                part_ = Ref(behind[1], 'Part', new_span(Span, (source, at, at + len(behind[1]))))
+                if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; part_ = before3; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        port_ = Ref(behind[1], 'Port', new_span(Span, (source, at, at + len(behind[1]))))
+        return PortRef(new_span(Span, (source, start, behind.end(1))), part_, port_)
+
+    def r_State():
+        nonlocal ahead, token, behind, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ahead.start()
+        name_ = None
+        machine_ = None
+        bindings_ = []
+        items_ = []
+        if not (token == 'state'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if token == '=':
+            ahead1, behind2 = ahead, behind
+            before3 = machine_
+            before4 = len(bindings_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; machine_ = before3; del bindings_[before4:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                text5 = behind[1]
+                if token == '.':
+                    match6 = REGEX0(text, ahead.start())
+                    if match6[1]:
+                        text5 += match6[1]; behind = match6
+                        ahead = TOKEN(text, match6.end()); token = ahead[1]
+                machine_ = Ref(text5, 'StateMachine', new_span(Span, (source, at, at + len(text5))))
+                if token == '(':
+                    ahead7, behind8 = ahead, behind
+                    before9 = len(bindings_)
+                    while True:
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        if token not in SET3:
+                            ahead10, behind11 = ahead, behind
+                            while True:
+                                value = r_Argument()
+                                if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                                bindings_.append(value)
+                                while token == ',':
+                                    ahead12, behind13 = ahead, behind
+                                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                                    value = r_Argument()
+                                    if value is None: ahead = ahead12; token = ahead[1]; behind = behind13; break
+                                    bindings_.append(value)
+                                break
+                        if not (token == ')'): ahead = ahead7; token = ahead[1]; behind = behind8; del bindings_[before9:]; break
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        break
+                break
+        if token == '{':
+            ahead14, behind15 = ahead, behind
+            before16 = len(items_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                while True:
+                    ahead17, behind18 = ahead, behind
+                    rule = StateItem_RULES.get(token)
+                    if rule is None: ahead = ahead17; token = ahead[1]; behind = behind18; break
+                    value = rule()
+                    if value is None: ahead = ahead17; token = ahead[1]; behind = behind18; break
+                    items_.append(value)
+                if not (token == '}'): ahead = ahead14; token = ahead[1]; behind = behind15; del items_[before16:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        depth -= 1
+        made = State(new_span(Span, (source, start, behind.end(1))), name_, machine_, bindings_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Parallel():
+        nonlocal ahead, token, behind, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ahead.start()
+        name_ = None
+        items_ = []
+        if not (token == 'parallel'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token == 'state'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = ParallelItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        depth -= 1
+        made = Parallel(new_span(Span, (source, start, behind.end(1))), name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Choice():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        branches_ = []
+        if not (token == 'choice'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while token in SET12:
+            ahead1, behind2 = ahead, behind
+            value = r_Branch()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            branches_.append(value)
+        if not (token == '}'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        made = Choice(new_span(Span, (source, start, behind.end(1))), name_, branches_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_History():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        deep_ = False
+        name_ = None
+        target_ = None
+        if token == 'deep':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            deep_ = True
+        if not (token == 'history'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        match1 = REGEX9(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text2 = behind[1]
+        if token == '.':
+            match3 = REGEX0(text, ahead.start())
+            if match3[1]:
+                text2 += match3[1]; behind = match3
+                ahead = TOKEN(text, match3.end()); token = ahead[1]
+        target_ = Ref(text2, 'Vertex', new_span(Span, (source, at, at + len(text2))))
+        made = History(new_span(Span, (source, start, behind.end(1))), deep_, name_, target_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_FinalState():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        if not (token == 'final'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        made = FinalState(new_span(Span, (source, start, behind.end(1))), name_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Multiplicity():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        lower_ = None
+        upper_ = None
+        match1 = REGEX11(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        lower_ = match1[1]
+        if token == '.':
+            ahead2, behind3 = ahead, behind
+            before4 = upper_
+            while True:
+                match5 = REGEX8(text, ahead.start())
+                if match5 is None: ahead = ahead2; token = ahead[1]; behind = behind3; upper_ = before4; break
+                behind = match5
+                ahead = TOKEN(text, match5.end()); token = ahead[1]
+                match6 = REGEX11(text, ahead.start())
+                if match6 is None: ahead = ahead2; token = ahead[1]; behind = behind3; upper_ = before4; break
+                behind = match6
+                ahead = TOKEN(text, match6.end()); token = ahead[1]
+                upper_ = match6[1]
+                break
+        return Multiplicity(new_span(Span, (source, start, behind.end(1))), lower_, upper_)
+
+    def r_Argument():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        name_ = None
+        value_ = None
+        at = ahead.start()
+        if not (token not in SET3): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '='): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        return Argument(new_span(Span, (source, start, behind.end(1))), name_, value_)
+
+    def r_Branch():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        guard_ = None
+        otherwise_ = ''
+        effects_ = []
+        target_ = None
+        if token == '[':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            found = expression(ahead)
+            if found is None: return None
+            value, behind, ahead = found; token = ahead[1]
+            guard_ = value
+            if not (token == ']'): return None
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        elif token == 'else':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            otherwise_ = 'else'
+        else: return None
+        if token == '/':
+            ahead1, behind2 = ahead, behind
+            before3 = len(effects_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                rule = Effect_RULES.get(token, r_Assignment)
+                if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; del effects_[before3:]; break
+                value = rule()
+                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; del effects_[before3:]; break
+                effects_.append(value)
+                while token == ',':
+                    ahead4, behind5 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    rule = Effect_RULES.get(token, r_Assignment)
+                    if rule is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+                    value = rule()
+                    if value is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+                    effects_.append(value)
+                break
+        match6 = REGEX9(text, ahead.start())
+        if match6 is None: return None
+        behind = match6
+        ahead = TOKEN(text, match6.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text7 = behind[1]
+        if token == '.':
+            match8 = REGEX0(text, ahead.start())
+            if match8[1]:
+                text7 += match8[1]; behind = match8
+                ahead = TOKEN(text, match8.end()); token = ahead[1]
+        target_ = Ref(text7, 'Vertex', new_span(Span, (source, at, at + len(text7))))
+        made = Branch(new_span(Span, (source, start, behind.end(1))), guard_, otherwise_, effects_, target_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Activity():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        function_ = None
+        goal_callback_ = None
+        arguments_ = []
+        result_callback_ = None
+        results_ = []
+        if not (token == 'do'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        function_ = Ref(text1, 'Function', new_span(Span, (source, at, at + len(text1))))
+        if token == '(':
+            ahead3, behind4 = ahead, behind
+            before5 = goal_callback_
+            before6 = len(arguments_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                chosen7 = False
+                if not chosen7 and token == 'by':
+                    ahead8, behind9 = ahead, behind
+                    before10 = goal_callback_
+                    while True:
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        at = ahead.start()
+                        if not (token not in SET2): ahead = ahead8; token = ahead[1]; behind = behind9; goal_callback_ = before10; break
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        value = new_word(Word, behind[1])
+                        value.span = new_span(Span, (source, at, behind.end(1)))
+                        goal_callback_ = value
+                        chosen7 = True
+                        break
+                if not chosen7 and True:
+                    ahead11, behind12 = ahead, behind
+                    before13 = len(arguments_)
+                    while True:
+                        if token not in SET3:
+                            ahead14, behind15 = ahead, behind
+                            while True:
+                                value = r_Argument()
+                                if value is None: ahead = ahead14; token = ahead[1]; behind = behind15; break
+                                arguments_.append(value)
+                                while token == ',':
+                                    ahead16, behind17 = ahead, behind
+                                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                                    value = r_Argument()
+                                    if value is None: ahead = ahead16; token = ahead[1]; behind = behind17; break
+                                    arguments_.append(value)
+                                break
+                        chosen7 = True
+                        break
+                if not chosen7: ahead = ahead3; token = ahead[1]; behind = behind4; goal_callback_ = before5; del arguments_[before6:]; break
+                if not (token == ')'): ahead = ahead3; token = ahead[1]; behind = behind4; goal_callback_ = before5; del arguments_[before6:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if token == 'gives':
+            ahead18, behind19 = ahead, behind
+            before20 = result_callback_
+            before21 = len(results_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if token == 'by':
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    at = ahead.start()
+                    if not (token not in SET2): ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    value = new_word(Word, behind[1])
+                    value.span = new_span(Span, (source, at, behind.end(1)))
+                    result_callback_ = value
+                elif token == '(':
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    value = r_ResultMapping()
+                    if value is None: ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                    results_.append(value)
+                    while token == ',':
+                        ahead22, behind23 = ahead, behind
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        value = r_ResultMapping()
+                        if value is None: ahead = ahead22; token = ahead[1]; behind = behind23; break
+                        results_.append(value)
+                    if not (token == ')'): ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                else: ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                break
+        made = Activity(new_span(Span, (source, start, behind.end(1))), function_, goal_callback_, arguments_, result_callback_, results_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Entry():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        effects_ = []
+        if not (token == 'entry'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token == '/'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        rule = Effect_RULES.get(token, r_Assignment)
+        if rule is None: return None
+        value = rule()
+        if value is None: return None
+        effects_.append(value)
+        while token == ',':
+            ahead1, behind2 = ahead, behind
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            rule = Effect_RULES.get(token, r_Assignment)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            effects_.append(value)
+        made = Entry(new_span(Span, (source, start, behind.end(1))), effects_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Exit():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        effects_ = []
+        if not (token == 'exit'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token == '/'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        rule = Effect_RULES.get(token, r_Assignment)
+        if rule is None: return None
+        value = rule()
+        if value is None: return None
+        effects_.append(value)
+        while token == ',':
+            ahead1, behind2 = ahead, behind
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            rule = Effect_RULES.get(token, r_Assignment)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            effects_.append(value)
+        made = Exit(new_span(Span, (source, start, behind.end(1))), effects_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Transition():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        internal_ = False
+        triggers_ = []
+        guard_ = None
+        effects_ = []
+        target_ = None
+        if token == 'internal':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            internal_ = True
+        if token in SET13:
+            if token == 'on':
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
+                if rule is None: return None
+                value = rule()
+                if value is None: return None
+                triggers_.append(value)
+                while token == ',':
+                    ahead1, behind2 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
+                    if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                    value = rule()
+                    if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                    triggers_.append(value)
+            elif token == 'after':
+                value = r_TimeTrigger()
+                if value is None: return None
+                triggers_.append(value)
+                while token == ',':
+                    ahead3, behind4 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    value = r_TimeTrigger()
+                    if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+                    triggers_.append(value)
+            elif token == 'monitor':
+                value = r_MonitorTrigger()
+                if value is None: return None
+                triggers_.append(value)
+                while token == ',':
+                    ahead5, behind6 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    value = r_MonitorTrigger()
+                    if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; break
+                    triggers_.append(value)
+            else: return None
+            if token == '[':
+                ahead7, behind8 = ahead, behind
+                before9 = guard_
+                while True:
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    found = expression(ahead)
+                    if found is None: ahead = ahead7; token = ahead[1]; behind = behind8; guard_ = before9; break
+                    value, behind, ahead = found; token = ahead[1]
+                    guard_ = value
+                    if not (token == ']'): ahead = ahead7; token = ahead[1]; behind = behind8; guard_ = before9; break
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    break
+            if token == '/':
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                rule = Effect_RULES.get(token, r_Assignment)
+                if rule is None: return None
+                value = rule()
+                if value is None: return None
+                effects_.append(value)
+                while token == ',':
+                    ahead10, behind11 = ahead, behind
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    rule = Effect_RULES.get(token, r_Assignment)
+                    if rule is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                    value = rule()
+                    if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                    effects_.append(value)
+                if token == '-':
+                    ahead12, behind13 = ahead, behind
+                    before14 = target_
+                    while True:
+                        match15 = REGEX9(text, ahead.start())
+                        if match15 is None: ahead = ahead12; token = ahead[1]; behind = behind13; target_ = before14; break
+                        behind = match15
+                        ahead = TOKEN(text, match15.end()); token = ahead[1]
+                        at = ahead.start()
+                        if not (token not in SET2): ahead = ahead12; token = ahead[1]; behind = behind13; target_ = before14; break
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        text16 = behind[1]
+                        if token == '.':
+                            match17 = REGEX0(text, ahead.start())
+                            if match17[1]:
+                                text16 += match17[1]; behind = match17
+                                ahead = TOKEN(text, match17.end()); token = ahead[1]
+                        target_ = Ref(text16, 'Vertex', new_span(Span, (source, at, at + len(text16))))
+                        break
+            elif token == '-':
+                match18 = REGEX9(text, ahead.start())
+                if match18 is None: return None
+                behind = match18
+                ahead = TOKEN(text, match18.end()); token = ahead[1]
+                at = ahead.start()
+                if not (token not in SET2): return None
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                text19 = behind[1]
+                if token == '.':
+                    match20 = REGEX0(text, ahead.start())
+                    if match20[1]:
+                        text19 += match20[1]; behind = match20
+                        ahead = TOKEN(text, match20.end()); token = ahead[1]
+                target_ = Ref(text19, 'Vertex', new_span(Span, (source, at, at + len(text19))))
+            else: return None
+        elif token == '[':
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            found = expression(ahead)
+            if found is None: return None
+            value, behind, ahead = found; token = ahead[1]
+            guard_ = value
+            if not (token == ']'): return None
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            if token == '/':
+                ahead21, behind22 = ahead, behind
+                before23 = len(effects_)
+                while True:
+                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    rule = Effect_RULES.get(token, r_Assignment)
+                    if rule is None: ahead = ahead21; token = ahead[1]; behind = behind22; del effects_[before23:]; break
+                    value = rule()
+                    if value is None: ahead = ahead21; token = ahead[1]; behind = behind22; del effects_[before23:]; break
+                    effects_.append(value)
+                    while token == ',':
+                        ahead24, behind25 = ahead, behind
+                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        rule = Effect_RULES.get(token, r_Assignment)
+                        if rule is None: ahead = ahead24; token = ahead[1]; behind = behind25; break
+                        value = rule()
+                        if value is None: ahead = ahead24; token = ahead[1]; behind = behind25; break
+                        effects_.append(value)
+                    break
+            match26 = REGEX9(text, ahead.start())
+            if match26 is None: return None
+            behind = match26
+            ahead = TOKEN(text, match26.end()); token = ahead[1]
+            at = ahead.start()
+            if not (token not in SET2): return None
+            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            text27 = behind[1]
+            if token == '.':
+                match28 = REGEX0(text, ahead.start())
+                if match28[1]:
+                    text27 += match28[1]; behind = match28
+                    ahead = TOKEN(text, match28.end()); token = ahead[1]
+            target_ = Ref(text27, 'Vertex', new_span(Span, (source, at, at + len(text27))))
+        else: return None
+        made = Transition(new_span(Span, (source, start, behind.end(1))), internal_, triggers_, guard_, effects_, target_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_Region():
+        nonlocal ahead, token, behind, depth
+        depth += 1
+        if depth > limit: raise TooDeepError
+        start = ahead.start()
+        name_ = None
+        items_ = []
+        if not (token == 'region'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        name_ = value
+        if not (token == '{'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        while True:
+            ahead1, behind2 = ahead, behind
+            rule = RegionItem_RULES.get(token)
+            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            value = rule()
+            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            items_.append(value)
+        if not (token == '}'): depth -= 1; return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        depth -= 1
+        made = Region(new_span(Span, (source, start, behind.end(1))), name_, items_)
+        if start in docs: made.doc = docs.pop(start)
+        return made
+
+    def r_ResultMapping():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        field_ = None
+        target_ = None
+        at = ahead.start()
+        if not (token not in SET3): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = new_word(Word, behind[1])
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        field_ = value
+        match1 = REGEX12(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        found = operand(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        target_ = value
+        return ResultMapping(new_span(Span, (source, start, behind.end(1))), field_, target_)
+
+    def r_TimeTrigger():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        delay_ = None
+        if not (token == 'after'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = delay(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        delay_ = value
+        return TimeTrigger(new_span(Span, (source, start, behind.end(1))), delay_)
+
+    def r_MonitorTrigger():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        topic_ = None
+        type_ = None
+        if not (token == 'monitor'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        match1 = REGEX1(text, ahead.start())
+        if match1 is None: return None
+        behind = match1
+        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        value = new_word(Word, unquoted(match1[1]))
+        value.span = new_span(Span, (source, at, behind.end(1)))
+        topic_ = value
+        if not (token == ':'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        value = r_TypeRef()
+        if value is None: return None
+        type_ = value
+        return MonitorTrigger(new_span(Span, (source, start, behind.end(1))), topic_, type_)
+
+    def r_Send():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        event_ = None
+        arguments_ = []
+        if not (token == 'send'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        event_ = Ref(text1, 'Event', new_span(Span, (source, at, at + len(text1))))
+        if token == '(':
+            ahead3, behind4 = ahead, behind
+            before5 = len(arguments_)
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if token not in SET3:
+                    ahead6, behind7 = ahead, behind
+                    while True:
+                        value = r_Argument()
+                        if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                        arguments_.append(value)
+                        while token == ',':
+                            ahead8, behind9 = ahead, behind
+                            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                            value = r_Argument()
+                            if value is None: ahead = ahead8; token = ahead[1]; behind = behind9; break
+                            arguments_.append(value)
+                        break
+                if not (token == ')'): ahead = ahead3; token = ahead[1]; behind = behind4; del arguments_[before5:]; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        return Send(new_span(Span, (source, start, behind.end(1))), event_, arguments_)
+
+    def r_Assignment():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        target_ = None
+        value_ = None
+        found = operand(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        target_ = value
+        if not (token == '='): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        found = expression(ahead)
+        if found is None: return None
+        value, behind, ahead = found; token = ahead[1]
+        value_ = value
+        return Assignment(new_span(Span, (source, start, behind.end(1))), target_, value_)
+
+    def r_OutcomeTrigger():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        outcome_ = None
+        if not (token in SET14): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        outcome_ = behind[1]
+        return OutcomeTrigger(new_span(Span, (source, start, behind.end(1))), outcome_)
+
+    def r_DoneTrigger():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        region_ = None
+        final_ = None
+        if token not in SET2:
+            ahead1, behind2 = ahead, behind
+            before3 = region_
+            while True:
+                at = ahead.start()
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                region_ = Ref(behind[1], 'Region', new_span(Span, (source, at, at + len(behind[1]))))
+                if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; region_ = before3; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                break
+        if not (token == 'done'): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if token == '.':
+            ahead4, behind5 = ahead, behind
+            before6 = final_
+            while True:
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at = ahead.start()
+                if not (token not in SET2): ahead = ahead4; token = ahead[1]; behind = behind5; final_ = before6; break
+                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                final_ = Ref(behind[1], 'FinalState', new_span(Span, (source, at, at + len(behind[1]))))
+                break
+        return DoneTrigger(new_span(Span, (source, start, behind.end(1))), region_, final_)
+
+    def r_EventTrigger():
+        nonlocal ahead, token, behind
+        start = ahead.start()
+        event_ = None
+        at = ahead.start()
+        if not (token not in SET2): return None
+        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        text1 = behind[1]
+        if token == '.':
+            match2 = REGEX0(text, ahead.start())
+            if match2[1]:
+                text1 += match2[1]; behind = match2
+                ahead = TOKEN(text, match2.end()); token = ahead[1]
+        event_ = Ref(text1, 'Event', new_span(Span, (source, at, at + len(text1))))
+        return EventTrigger(new_span(Span, (source, start, behind.end(1))), event_)
+
+    def try_ImportRos_ImportFile_ImportLibrary():
+        nonlocal ahead, token, behind
+        ahead1, behind1 = ahead, behind
+        made = r_ImportRos()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        made = r_ImportFile()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        return r_ImportLibrary()
+
+    def try_Event_Swarm():
+        nonlocal ahead, token, behind
+        ahead1, behind1 = ahead, behind
+        made = r_Event()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        return r_Swarm()
+
+    def try_CountRange_ParamRange():
+        nonlocal ahead, token, behind
+        ahead1, behind1 = ahead, behind
+        made = r_CountRange()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        return r_ParamRange()
+
+    def try_Setting_ParamRange():
+        nonlocal ahead, token, behind
+        ahead1, behind1 = ahead, behind
+        made = r_Setting()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        return r_ParamRange()
+
+    def try_DoneTrigger_EventTrigger():
+        nonlocal ahead, token, behind
+        ahead1, behind1 = ahead, behind
+        made = r_DoneTrigger()
+        if made is not None: return made
+        ahead = ahead1; token = ahead[1]; behind = behind1
+        return r_EventTrigger()
+
+    Import_RULES = {'import': try_ImportRos_ImportFile_ImportLibrary}
+    Declaration_RULES = {'action': r_ActionType, 'actuator': r_Component, 'const': r_Constant, 'controller': r_Component, 'endless': r_StateMachine, 'enum': r_EnumType, 'environment': r_Environment, 'event': r_Event, 'fitness': r_Fitness, 'function': r_Function, 'member': r_Member, 'message': r_MessageType, 'sensor': r_Component, 'service': r_ServiceType, 'statemachine': r_StateMachine, 'struct': r_StructType, 'swarm': try_Event_Swarm, 'type': r_AliasType, 'virtual': r_Component}
+    OptimizationItem_RULES = {'count': try_CountRange_ParamRange, 'evaluations': try_Setting_ParamRange, 'seed': try_Setting_ParamRange, 'steps': try_Setting_ParamRange}
+    FunctionItem_RULES = {'action': r_Communication, 'in': r_FunctionPort, 'out': r_FunctionPort, 'param': r_Param, 'service': r_Communication}
+    ComponentItem_RULES = {'behavior': r_BehaviorUse, 'in': r_Port, 'inout': r_Port, 'operation': r_Operation, 'out': r_Port, 'param': r_Param}
+    MemberItem_RULES = {'behavior': r_BehaviorUse, 'communication': r_CommunicationSettings, 'connect': r_Connector, 'in': r_Port, 'inout': r_Port, 'out': r_Port, 'param': r_Param}
+    MachineItem_RULES = {'choice': r_Choice, 'deep': r_History, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'parallel': r_Parallel, 'param': r_Param, 'state': r_State, 'var': r_Variable}
+    SwarmItem_RULES = {'environment': r_EnvironmentUse, 'fitness': r_FitnessUse}
+    EnvironmentItem_RULES = {'size': r_Size, 'world': r_World}
+    FitnessItem_RULES = {'in': r_FitnessInput, 'maximize': r_Objective, 'minimize': r_Objective, 'param': r_Param}
+    StateItem_RULES = {'[': r_Transition, 'after': r_Transition, 'choice': r_Choice, 'deep': r_History, 'do': r_Activity, 'entry': r_Entry, 'exit': r_Exit, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'parallel': r_Parallel, 'state': r_State}
+    ParallelItem_RULES = {'[': r_Transition, 'after': r_Transition, 'entry': r_Entry, 'exit': r_Exit, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'region': r_Region}
+    Effect_RULES = {'': r_Assignment, '"': r_Assignment, '(': r_Assignment, '-': r_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'send': r_Send, 'true': r_Assignment}
+    Trigger_RULES = {'aborted': r_OutcomeTrigger, 'done': r_DoneTrigger, 'preempted': r_OutcomeTrigger, 'succeeded': r_OutcomeTrigger}
+    RegionItem_RULES = {'choice': r_Choice, 'deep': r_History, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'parallel': r_Parallel, 'state': r_State}
+
+    model = r_Model()
+    if model is None or ahead.start() < len(text):
+        return None
+    return model, len(expressions.faults)
+
+LANGUAGE = Language(TOKEN, BLANK, RESERVED)

@@ -1,0 +1,190 @@
+"""What stock textX and Lark make of a text: what the parsers of swarmdsl are held against."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
+from functools import cache
+from typing import Any
+
+from lark import Lark, Token, Tree
+from lark.exceptions import UnexpectedInput
+from textx import TextXSyntaxError
+
+from swarmdsl.expressions import is_too_large, quantity_value, unquoted
+from swarmdsl.parse import metamodel
+from swarmdsl.peg.swarm import TARGET
+from swarmdsl.resources import grammar
+from swarmdsl.scan import NESTING_LIMIT
+from swarmdsl.source import Source, Span
+from swarmdsl.syntax import (
+    NODES,
+    Call,
+    Expression,
+    ExpressionTree,
+    FieldUse,
+    Model,
+    NameUse,
+    Node,
+    OperatorUse,
+    Ref,
+    Value,
+    Word,
+)
+
+
+@dataclass
+class Expected:
+    """A model, and the places of the expressions that are wrong."""
+
+    model: Model
+    wrong: set[tuple[int, int]] = field(default_factory=set)
+
+
+@dataclass
+class Refused:
+    """Where textX stops, and the rules and texts of the terminals that could come there."""
+
+    at: int
+    expected: set[tuple[str, str]]
+
+
+def parse(text: str) -> Expected | Refused:
+    """What textX and Lark make of a text."""
+    source = Source("model.swarm", text)
+    sys.setrecursionlimit(20_000)  # textX takes some thirty frames a level
+    try:
+        made = metamodel().model_from_str(text)
+    except TextXSyntaxError as error:
+        rules = [rule for rule in error.expected_rules if rule.rule_name != "Comment"]
+        expected = {
+            ("" if rule.rule_name == "sep" else rule.rule_name, getattr(rule, "to_match", ""))
+            for rule in rules
+        }
+        return Refused(error.__cause__.position, expected)
+    if isinstance(made, str):  # textX makes no model of nothing
+        return Expected(Model(Span(source, 0, 0), None, [], [], []))
+    conversion = _Conversion(source)
+    return Expected(conversion.converted(made), conversion.wrong)
+
+
+class _Conversion:
+    def __init__(self, source: Source) -> None:
+        self._source = source
+        self.wrong: set[tuple[int, int]] = set()
+
+    def converted(self, made: Any) -> Any:
+        """The node of a textX object, with all below it."""
+        if isinstance(made, list):
+            return [self.converted(item) for item in made]
+        if made is None or isinstance(made, (str, bool)):
+            return made
+        if hasattr(made, "obj_name"):  # an unresolved textX reference
+            span = Span(self._source, made.position, made.position + len(made.obj_name))
+            return Ref(made.obj_name, made.cls.__name__, span)
+        span = Span(self._source, made._tx_position, made._tx_position_end)
+        rule = type(made).__name__
+        if rule in TARGET.words:
+            return Word(unquoted(made.text) if rule == "Text" else made.text, span)
+        if rule in TARGET.written:
+            return self._expression(span)
+        node = NODES[rule]
+        attributes = {
+            attribute.name: self.converted(getattr(made, attribute.name))
+            for attribute in fields(node)
+            if attribute.init and attribute.name != "span"
+        }
+        return node(span, **attributes)
+
+    def _expression(self, span: Span) -> Expression:
+        made = Expression(span)
+        made.tree = expression_tree(span)
+        if made.tree is None:
+            self.wrong.add((span.start, span.end))
+        return made
+
+
+def expression_tree(span: Span) -> ExpressionTree | None:
+    """What Lark makes of the text of an expression; None where it is wrong."""
+    try:
+        tree = _expressions().parse(span.text)
+    except UnexpectedInput:
+        return None
+    if _depth(tree) > NESTING_LIMIT or any(tree.scan_values(_is_too_large)):
+        return None
+    return _build(tree, span.source, span.start)
+
+
+@cache
+def _expressions() -> Lark:
+    text = (grammar() / "expression.lark").read_text(encoding="utf-8")
+    return Lark(text, parser="lalr", propagate_positions=True, maybe_placeholders=False)
+
+
+def _depth(tree: Tree[Token]) -> int:
+    depth, level = 0, [tree]
+    while level:
+        depth += 1
+        level = [child for inner in level for child in inner.children if isinstance(child, Tree)]
+    return depth
+
+
+def _is_too_large(token: object) -> bool:
+    if not isinstance(token, Token) or token.type != "QUANTITY":
+        return False
+    return is_too_large(token, *_quantity(token))
+
+
+def _quantity(text: str) -> tuple[str, str]:
+    digits = text.rstrip("usminh").rstrip()
+    return digits, text.removeprefix(digits).strip()
+
+
+def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
+    assert tree.meta.start_pos is not None
+    assert tree.meta.end_pos is not None
+    span = Span(source, base + tree.meta.start_pos, base + tree.meta.end_pos)
+    operands = [_build(child, source, base) for child in tree.children if isinstance(child, Tree)]
+    words = [
+        Word(child, Span(source, base + child.start_pos, base + child.end_pos))
+        for child in tree.children
+        if isinstance(child, Token) and child.start_pos is not None and child.end_pos is not None
+    ]
+    match tree.data:
+        case "operation":
+            return OperatorUse(span, words[0], tuple(operands))
+        case "field":
+            return FieldUse(span, operands[0], words[0])
+        case "call":
+            return Call(span, words[0], tuple(operands))
+        case "name":
+            return NameUse(span, str(words[0]))
+        case "text":
+            return Value(span, unquoted(words[0]))
+        case "truth":
+            return Value(span, words[0] == "true")
+    digits, unit = _quantity(words[0])
+    return Value(span, quantity_value(digits), unit)
+
+
+def differences(one: Any, other: Any, where: str = "model") -> Iterator[str]:
+    """Where two models are not the same: classes, attributes, places."""
+    if type(one) is not type(other):
+        yield f"{where}: {one!r} and {other!r}"
+    elif isinstance(one, (list, tuple)) and not isinstance(one, Span):
+        if len(one) != len(other):
+            yield f"{where}: {len(one)} and {len(other)} items"
+        for number, (left, right) in enumerate(zip(one, other, strict=False)):
+            yield from differences(left, right, f"{where}[{number}]")
+    elif isinstance(one, (Node, Ref)):
+        for attribute in fields(one):
+            left, right = getattr(one, attribute.name), getattr(other, attribute.name)
+            yield from differences(left, right, f"{where}.{attribute.name}")
+    elif isinstance(one, Span):
+        if one[1:] != other[1:]:
+            yield f"{where}: {one[1:]} and {other[1:]}, {one.text!r} and {other.text!r}"
+    elif one != other:
+        yield f"{where}: {one!r} and {other!r}"
+    elif isinstance(one, Word):
+        yield from differences(one.span, other.span, f"{where}.span")
