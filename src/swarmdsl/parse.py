@@ -128,7 +128,11 @@ def _attach_docs(parsed: Parsed, docs: tuple[DocComment, ...], report: Diagnosti
         if owner is not None:
             owner.doc = doc.text
         elif not parsed.lost_names:
-            report.report("unattached-doc-comment", doc.span)
+            report.report(
+                "unattached-doc-comment",
+                doc.span,
+                help="move it to the line before what it documents, or begin it with `//`",
+            )
 
 
 @contextmanager
