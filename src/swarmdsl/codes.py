@@ -30,7 +30,7 @@ class Code(NamedTuple):
 CODES: dict[str, Code] = {
     # ---- files and imports
     "file-not-found": Code("SW0001", "error", "no such file: `{path}`"),
-    "not-a-file": Code("SW0002", "error", "`{path}` is a folder, not a .swarm file"),
+    "not-a-file": Code("SW0002", "error", "`{path}` is {actual}, not {expected}"),
     "unreadable-file": Code("SW0003", "error", "cannot read `{path}`: {reason}"),
     "not-text": Code("SW0004", "error", "`{path}` is not UTF-8 text"),
     "empty-file": Code("SW0005", "error", "nothing is declared in this file"),
@@ -123,7 +123,7 @@ CODES: dict[str, Code] = {
     "type-cycle": Code("SW0605", "error", "type `{name}` is defined by itself"),
     "nested-array": Code("SW0606", "error", "ROS has no arrays of arrays"),
     "shared-callback": Code("SW0607", "error", "callback `{name}` serves two functions"),
-    "impossible-array": Code("SW0608", "error", "an array cannot have {size} elements"),
+    "impossible-array": Code("SW0608", "error", "{what} cannot have {size}"),
     "enum-value": Code("SW0609", "error", "value `{name}` of enum `{enum}` {fault}"),
     "unknown-interface": Code("SW0610", "warning", "nothing is known of `{name}`"),
     "bad-topic": Code("SW0611", "error", "`{name}` cannot be the name of {what} in ROS"),

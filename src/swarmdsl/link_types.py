@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from swarmdsl.diagnostics import Diagnostics, Label
@@ -18,6 +19,7 @@ from swarmdsl.syntax import (
     StructType,
     TypeRef,
 )
+from swarmdsl.syntax_advice import SIZES
 
 _TYPES: tuple[type[Interface], ...] = (
     StructType,
@@ -39,8 +41,9 @@ _OTHER_NAMES = {
     "str": "string",
 }
 
-# No message has room for more elements than such a number counts.
+# No message has room for more elements or characters than such a number counts.
 _MOST_DIGITS = 9
+_BRACKETS = re.compile(r"\[\s*(<=?)?\s*([^\]\s]*)\s*\]")
 
 
 def interface_name(file: File, name: str) -> Named:
@@ -57,18 +60,22 @@ def written_type(ref: TypeRef) -> Type | None:
 
 def _written_element(ref: TypeRef) -> Type | None:
     if ref.name in PRIMITIVES:
-        return Primitive(ref.name, int(ref.bound.strip("<= \t\n")) if ref.bound else None)
+        return Primitive(ref.name, int(_bound(ref)) if ref.bound else None)
     package, slash, name = ref.name.partition("/")
     return Named(package, name) if slash else None
 
 
 def _in_array(element: Type, ref: TypeRef) -> Array:
-    size = _size(ref)
-    return Array(element, int(size) if size else None, "<=" in ref.array)
+    ((bounded, size),) = _BRACKETS.findall(ref.array)
+    return Array(element, int(size) if size else None, bool(bounded))
 
 
-def _size(ref: TypeRef) -> str:
-    return ref.array.strip("[<=] \t\n")
+def _bound(ref: TypeRef) -> str:
+    return ref.bound.strip("<= \t\n")
+
+
+def _is_size(number: str) -> bool:
+    return number.isdigit() and len(number) <= _MOST_DIGITS and int(number) > 0
 
 
 class TypeLinker:
@@ -110,6 +117,8 @@ class TypeLinker:
 
     def _named(self, ref: TypeRef, scope: FileScope) -> Type | AliasType | None:
         """What the name of a type means; None when it means nothing, which is reported."""
+        if ref.bound and not self._check_bound(ref):
+            return None
         written = _written_element(ref)
         if written is not None:
             return written
@@ -141,14 +150,36 @@ class TypeLinker:
         """The type of a reference whose name, without the brackets behind it, means `element`."""
         if element is None or not ref.array:
             return element
-        if isinstance(element, Array):
+        brackets = _BRACKETS.findall(ref.array)
+        if isinstance(element, Array) or len(brackets) > 1:
             self._report.report("nested-array", ref.span, help="put the inner array into a struct")
             return element
-        size = _size(ref)
-        if size and (len(size) > _MOST_DIGITS or int(size) == 0):
-            self._report.report("impossible-array", ref.span, size=size)
+        ((bounded, size),) = brackets
+        fault = ""
+        if bounded == "<" or (bounded and not size):
+            fault = "such a bound"
+        elif size and not _is_size(size):
+            fault = f"{size} elements"
+        if fault:
+            self._report.report(
+                "impossible-array", ref.span, what="an array", size=fault, help=SIZES
+            )
             return None
         return _in_array(element, ref)
+
+    def _check_bound(self, ref: TypeRef) -> bool:
+        """Report a bound that no text has; return whether there is none such."""
+        if ref.name not in ("string", "wstring"):
+            what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
+        elif not ref.bound.startswith("<="):
+            what, size, help_ = "a text", "such a bound", f"write `{ref.name}<={_bound(ref)}`"
+        elif not _is_size(_bound(ref)):
+            what, size = "a text", f"at most {_bound(ref)} characters"
+            help_ = f"write `{ref.name}` for a text of any length"
+        else:
+            return True
+        self._report.report("impossible-array", ref.span, what=what, size=size, help=help_)
+        return False
 
     def _report_cycle(self, aliases: list[AliasType]) -> None:
         first, *others = aliases

@@ -13,7 +13,7 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
-from swarmdsl.ros.interface_file import parse_interface
+from swarmdsl.ros.interface_file import KINDS, parse_interface
 from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import did_you_mean
@@ -151,6 +151,15 @@ class _Loader:
     def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
         folder = Path(file.source.name).parent
         match statement:
+            case ImportFile(path=wanted) if Path(wanted).suffix[1:] in KINDS:
+                self._report.report(
+                    "not-a-file",
+                    wanted.span,
+                    path=wanted,
+                    actual="an interface of ROS",
+                    expected="a .swarm file",
+                    help=f'write `import ros "{Path(wanted).parent.as_posix()}"`, with its folder',
+                )
             case ImportFile(path=wanted):
                 yield _Step(_relative(folder, wanted), file, statement)
             case ImportRos(path=wanted):
@@ -264,7 +273,15 @@ def read_source(path: Path, at: Span | None, report: Diagnostics) -> Source | No
 def read_bytes(path: Path, at: Span | None, report: Diagnostics) -> bytes | None:
     """Read a file; None when it cannot be read, which is reported at `at`."""
     if os.path.isdir(path):  # noqa: PTH112 - as above
-        report.report("not-a-file", at, path=path, help="name a file in it")
+        report.report(
+            "not-a-file",
+            at,
+            path=path,
+            actual="a folder",
+            expected="a .swarm file",
+            help="name a file in it"
+            + (", or write `import ros` if it has interfaces of ROS" if at is not None else ""),
+        )
         return None
     try:
         return path.read_bytes()
@@ -316,6 +333,8 @@ def _unified(text: str) -> str:
 
 
 def _similar_file(path: Path) -> str | None:
+    if path.with_name(f"{path.name}{SUFFIX}").is_file():
+        return f"did you mean `{path.name}{SUFFIX}`?"
     try:
         names = [entry.name for entry in path.parent.iterdir() if entry.suffix == SUFFIX]
     except OSError:

@@ -6,11 +6,13 @@ import re
 import unicodedata
 from functools import cache
 
+from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.resources import grammar
 from swarmdsl.suggest import closest
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
 _COMMENTS = "a comment starts with `//`"
+SIZES = "write `[]` for any number of elements, `[4]` for as many, `[<=4]` for at most as many"
 # What other languages write, and what is written here.
 _OTHERWISE = {
     ";": "no `;` is needed: a line break ends a statement",
@@ -25,6 +27,7 @@ _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # How like a keyword a word must be: `Start` is not meant to be `state`.
 _SLIP = 0.85
+_PARAMETER = re.compile(r"[(,]\s*(?:inout|(?:in|out)\s+(?:in|out))$")
 _UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
 
 
@@ -48,6 +51,12 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
         return _NAMES
     if "a name" in expected and re.fullmatch(r"\w+", token) and not _NAME.fullmatch(token):
         return _NAMES
+    if before and "`:`" in expected and _PARAMETER.search(text, 0, before.end()):
+        return "a parameter is `in` or `out`: what goes both ways are two parameters"
+    if "`:`" in expected and last in PRIMITIVES and _NAME.fullmatch(token):
+        return f"the name comes first: `{token} : {last}`"
+    if token == "[" and "`[`" in expected:
+        return SIZES
     if token == "/" and joined:
         return "the name of a type follows, as in `std_msgs/Empty`"
     if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:

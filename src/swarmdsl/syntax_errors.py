@@ -76,7 +76,8 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
     """
     at, text = failure.at, draft.text
     words = _words(failure.expected)
-    expected = _grouped(words)
+    # What looks like what is expected, and is not: an array whose size is none.
+    expected = _grouped(words - {f"`{text[at : at + 1]}`"})
     found = TOKEN.match(text, at)
     before = _token_before(text, at)
     wants_name = "a name" in words

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.ir import Binary, Literal, Named, State, StateMachine, System, Transition
+from swarmdsl.ir import Binary, Literal, Named, Service, State, StateMachine, System, Transition
 from swarmdsl.ir.types import FLOAT, INT
 from swarmdsl.printer import UnprintableError, normalized, print_system
 
@@ -269,3 +269,41 @@ def _system(folder: Path, text: str) -> System:
     path = folder / "model.swarm"
     path.write_text(text, encoding="utf-8")
     return compiled(path)
+
+
+def test_parameters_of_operations_are_called_by_any_word(tmp_path: Path) -> None:
+    path = tmp_path / "maps.swarm"
+    path.write_text(
+        """
+        virtual Map {
+          operation move(in : int32, out : int32, in to : int32, out state : uint8)
+          operation put(on : int32, in in : string, out out : uint8, out from : uint8)
+          operation ask(in /* where */ : int32, out
+            on : uint8)
+        }
+        statemachine M {
+          var value : uint8
+          initial A
+          state A {
+            do Map.put(on = 3, in = "x") gives (out => value, from => value)
+            on succeeded [value > 3] -> F
+            on succeeded, aborted -> F
+          }
+          final F
+        }
+        """,
+        encoding="utf-8",
+    )
+    system = compiled(path)
+    services = {
+        service.type.name: ([f.name for f in service.request], [f.name for f in service.response])
+        for service in system.interfaces
+        if isinstance(service, Service)
+    }
+
+    assert services == {
+        "MapMove": (["in", "out", "to"], ["state"]),
+        "MapPut": (["on", "in"], ["out", "from"]),
+        "MapAsk": (["in"], ["on"]),
+    }
+    assert printed_and_compiled(system, tmp_path) == normalized(system)

@@ -10,6 +10,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.libraries import SUFFIX
 from swarmdsl.ros.interface_file import KINDS, Kind
 from swarmdsl.source import Span
 
@@ -21,6 +22,10 @@ _BUILT = frozenset(
     f"{name}{suffix}" for name in ("build", "devel", "install") for suffix in ("", "_isolated")
 )
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
+_WANTED = (
+    "name the folder of a ROS package with .msg, .srv or .action files, "
+    "or one with several such packages"
+)
 
 
 @dataclass(frozen=True)
@@ -40,7 +45,17 @@ def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[
     or one with several packages below it: a ROS workspace, for instance.
     """
     if not folder.exists():
-        report.report("file-not-found", at, path=folder)
+        report.report("file-not-found", at, path=folder, help=_WANTED)
+        return []
+    if not folder.is_dir():
+        report.report(
+            "not-a-file",
+            at,
+            path=folder,
+            actual="a file",
+            expected="a folder",
+            help="write `import` without `ros`" if folder.suffix == SUFFIX else _WANTED,
+        )
         return []
     finder = _Finder(folder, at, report)
     found: dict[tuple[str, Kind, str], InterfacePath] = {}
@@ -59,8 +74,7 @@ def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[
             "file-not-found",
             at,
             path=folder / "*.msg",
-            help="name the folder of a ROS package with .msg, .srv or .action files, "
-            "or one with several such packages",
+            help=_WANTED,
         )
     return [found[key] for key in sorted(found, key=_order)]
 
