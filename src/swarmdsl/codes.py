@@ -112,6 +112,7 @@ CODES: dict[str, Code] = {
     "choice-circle": Code(
         "SW0524", "warning", "choice `{name}` leads back to itself through choices only"
     ),
+    "early-read": Code("SW0525", "warning", "variable `{name}` may be read before it is written"),
     "zero-delay": Code("SW0526", "warning", "a delay of 0 waits for nothing"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),

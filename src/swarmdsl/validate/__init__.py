@@ -34,6 +34,7 @@ from swarmdsl.validate.enums import check_enum
 from swarmdsl.validate.events import check_events
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
+from swarmdsl.validate.initialization import check_initialization
 from swarmdsl.validate.interfaces import (
     check_event,
     check_function,
@@ -76,6 +77,7 @@ def validate(project: Project, report: Diagnostics) -> None:
     # Whoever uses a library cannot mend what is only a warning there.
     report.include(found for found in in_libraries if found.severity is Severity.ERROR)
     check_events([node for _, node in used], context)
+    check_initialization(project, context)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
 
