@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from swarmdsl.diagnostics import Label
 from swarmdsl.link_machines import all_resolved, regions, vertices
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
     Choice,
     Container,
+    DoneTrigger,
+    FinalState,
     History,
     Initial,
     Parallel,
@@ -15,6 +20,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
+    walk,
 )
 from swarmdsl.validate.context import Context
 
@@ -42,7 +48,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
         outer = around[state]
         if not isinstance(outer, StateMachine):
             work.append(outer)  # to be in a state is to be in those around it
-    _report(machine, reached, context)
+    _report(machine, reached, machine, context)
 
 
 def _collect(container: Container, around: dict[Vertex | Region, Container]) -> None:
@@ -77,16 +83,50 @@ def _successors(state: Vertex | Region) -> list[Vertex | Region]:
     return found + [target for target in targets if target is not None]
 
 
-def _report(container: Container, reached: set[Vertex | Region], context: Context) -> None:
+def _waiting(
+    final: Vertex, container: Container, reached: set[Vertex | Region], machine: StateMachine
+) -> Iterator[DoneTrigger]:
+    """The triggers that wait for a final state, which is not reached, in vain.
+
+    A parallel state waits for each of its regions, each for any of its final states.
+    """
+    if not isinstance(final, FinalState):
+        return
+    ends = [state for state in vertices(container) if isinstance(state, FinalState)]
+    for owner in walk(machine):
+        if not isinstance(owner, (State, Parallel)) or owner not in reached:
+            continue
+        for transition in owner.items:
+            for trigger in transition.triggers if isinstance(transition, Transition) else ():
+                if not isinstance(trigger, DoneTrigger):
+                    continue
+                of = trigger.region.target if trigger.region is not None else owner
+                if trigger.final is not None:
+                    if trigger.final.target is final:
+                        yield trigger
+                elif (of is container or (container in regions(owner) and of is owner)) and not any(
+                    end in reached for end in ends
+                ):
+                    yield trigger
+
+
+def _report(
+    container: Container, reached: set[Vertex | Region], machine: StateMachine, context: Context
+) -> None:
     for region in regions(container):
-        _report(region, reached, context)
+        _report(region, reached, machine, context)
     names = set()
     for state in vertices(container):
         if state in reached:
             if isinstance(state, (State, Parallel)):
-                _report(state, reached, context)
+                _report(state, reached, machine, context)
         elif state.name not in names:
+            waiting = _waiting(state, container, reached, machine)
             context.report.report(
-                "unreachable-state", state.name.span, kind=bare(kind_of(state)), name=state.name
+                "unreachable-state",
+                state.name.span,
+                kind=bare(kind_of(state)),
+                name=state.name,
+                related=tuple(Label(trigger.span, "so this never happens") for trigger in waiting),
             )
         names.add(state.name)

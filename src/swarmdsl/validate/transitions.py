@@ -64,8 +64,11 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
     if not simple and completes(of, context):
         return
     help_ = "add a final state to it"
+    related = [Label(of.name.span, "declared here")]
     if isinstance(of, Parallel):
         help_ = "a parallel state is done when each of its regions has reached a final state"
+        endless = [region for region in regions(of) if not completes(region, context)]
+        related = [Label(region.name.span, "this region has no final state") for region in endless]
     elif isinstance(of, State) and of.machine is not None:
         help_ = f"state machine `{of.machine.name}` has no final state"
     elif simple:
@@ -74,7 +77,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
         "done-without-content",
         trigger.span,
         owner=f"{bare(kind_of(of))} `{of.name}`",
-        related=(Label(of.name.span, "declared here"),),
+        related=tuple(related),
         help=help_,
     )
 
