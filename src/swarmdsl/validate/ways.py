@@ -31,7 +31,6 @@ from swarmdsl.syntax import (
     Transition,
     Trigger,
     Vertex,
-    walk,
 )
 from swarmdsl.validate.settling import at_once, transitions_of
 from swarmdsl.validate.steps import Step, Write, in_order, on, reads, results, tests, while_active
@@ -57,6 +56,7 @@ class Ways:
         self._around: dict[Vertex | Region, Container] = {}
         self._active: dict[Vertex, Point] = {}
         self._find(machine)
+        self._exits = {state: self._path(state) for state in self._active if on(Exit, state)}
         self.start = self._enter(machine, [], None)
         for vertex in self._active:
             self._leave(vertex)
@@ -146,11 +146,11 @@ class Ways:
             and ((inward and outer is source) or outer not in (source, target))
         ][-1]
         left = sources[sources.index(stays) + 1 :]
-        inside = set(walk(left[0] if left else source)) - {*left, source}
+        around = left[0] if left else source
         exits: list[Step] = [
             step
-            for state in walk(left[0] if left else source)
-            if state in inside and isinstance(state, (State, Parallel))
+            for state, within in self._exits.items()
+            if around in within and state not in (*left, source)
             for step in on(Exit, state)
             if isinstance(step, Write)
         ]
