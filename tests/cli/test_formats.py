@@ -221,6 +221,23 @@ def test_sarif_of_a_denied_warning(swarmc, tmp_path) -> None:
     assert run["tool"]["driver"]["rules"][0]["defaultConfiguration"] == {"level": "warning"}
 
 
+def test_sarif_of_a_silent_warning(swarmc, tmp_path) -> None:
+    path = tmp_path / "m.swarm"
+    path.write_text(
+        "swarm event E : std_msgs/Empty\n"
+        "statemachine M { initial A\nstate A { on E -> Z }\nfinal Z\n}\n",
+        encoding="utf-8",
+    )
+    ran = swarmc("check", path, "--warn", "unsent-event", "--format", "sarif")
+    (run,) = json.loads(ran.out)["runs"]
+
+    assert [result["level"] for result in run["results"]] == ["warning"]
+    assert run["tool"]["driver"]["rules"][0]["defaultConfiguration"] == {
+        "level": "warning",
+        "enabled": False,
+    }
+
+
 @pytest.mark.skipif(os.name == "nt", reason="such a name cannot be given to a file there")
 def test_a_path_that_is_no_text_is_a_uri(swarmc, tmp_path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)

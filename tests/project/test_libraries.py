@@ -265,3 +265,32 @@ def test_what_is_wrong_in_a_library_is_told_and_no_more(tmp_path) -> None:
     assert [(each.name, each.primary.span.line) for each in found.report] == [
         ("missing-initial", 2)
     ]
+
+
+def test_only_the_events_that_are_used_of_a_library_have_topics(swarmc, project) -> None:
+    library = "package robots\nevent Battery : std_msgs/Float32\nevent Bumper : std_msgs/Float32\n"
+    main = """\
+import robots.*
+statemachine Watch {
+  initial Waiting
+  state Waiting {
+    on Battery                       -> Done
+    monitor "battery" : std_msgs/Bool -> Done
+    monitor "bumper"  : std_msgs/Bool -> Done
+  }
+  final Done
+}
+"""
+    project(
+        {
+            "swarm.toml": "[project]\nsources = ['main.swarm']\n",
+            "main.swarm": main,
+            "robots.swarm": library,
+        }
+    )
+
+    # The mistake is in the project, not in the library.
+    assert swarmc("check", "--format", "concise").out == (
+        "main.swarm:6:25: error[SW0612] topic `battery` carries `std_msgs/Float32`, "
+        "not `std_msgs/Bool`\n"
+    )
