@@ -155,6 +155,8 @@ class _Match:
         code = self._code
         opener = _OPENER[code[at]]
         if opener == "{":
+            if self._open and self._is_wrong(at):
+                return self._wrong(at)
             self._end_of_brackets(at)
             if self._trusts and self._starts_line(at):
                 column = self._column(at)
@@ -168,15 +170,24 @@ class _Match:
                 while code[self._open[-1]] != opener:
                     self._unclosed(at, None)
             elif inside:
-                other = self._open.pop()
-                repair = Repair(at, at + 1, CLOSER[code[other]])
-                self.faults.append(Fault("wrong", at, repair, other))
-                return at + 1
+                return self._wrong(at)
             else:
                 return self._extra(at)
         if not self._open:
             return self._extra(at)
         self._open.pop()
+        return at + 1
+
+    def _is_wrong(self, at: int) -> bool:
+        """Whether a `}` closes a parenthesis of its line: no block was opened there."""
+        line = self._code.rfind("\n", 0, at)
+        block = self._last_block()
+        return self._open[-1] > line and (block < 0 or self._open[block] < line)
+
+    def _wrong(self, at: int) -> int:
+        opener = self._open.pop()
+        repair = Repair(at, at + 1, CLOSER[self._code[opener]])
+        self.faults.append(Fault("wrong", at, repair, opener))
         return at + 1
 
     def _last_block(self) -> int:

@@ -14,8 +14,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
+from typing import get_args
 
 from swarmdsl.brackets import outermost
 from swarmdsl.diagnostics import Diagnostics, Label
@@ -24,7 +25,7 @@ from swarmdsl.repairs import mend
 from swarmdsl.scan import Scan
 from swarmdsl.source import Source, Span
 from swarmdsl.statements import statement_at
-from swarmdsl.syntax import Declaration, Expression, Model
+from swarmdsl.syntax import Declaration, Expression, Model, Ref, Vertex, Word, walk
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
 Parser = Callable[[Source, str, int], Model | Failure]
@@ -79,6 +80,7 @@ class _Recovery:
         self._scanned = scanned
         self._parser = parser
         self._report = report
+        self._unnamed: set[str] = set()  # kinds of what has no name that could be read
         self._parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
 
     def parse(self) -> Parsed:
@@ -91,7 +93,16 @@ class _Recovery:
             piece = self._parse_piece(draft.piece(start, end))
             if piece is not None:
                 self._add(piece)
+        self._lose_references()
         return self._parsed
+
+    def _lose_references(self) -> None:
+        """Take names that nothing has for those of what has none."""
+        names = {str(getattr(node, "name", "")) for node in walk(self._parsed.model)}
+        for node in walk(self._parsed.model):
+            for value in (getattr(node, one.name) for one in fields(node)):
+                if isinstance(value, Ref) and value.kind in self._unnamed:
+                    self._parsed.lost_names.update({value.name} - names)
 
     def _add(self, piece: Model) -> None:
         model = self._parsed.model
@@ -128,26 +139,37 @@ class _Recovery:
         known = {fault for fault in self._scanned.faults if begin <= fault < end}
         damaged = bool(known)
         failed: set[int] = set()
+        doubtful: list[tuple[int, int]] = []
         for _ in range(_ERRORS_PER_DECLARATION):
             result = self._parser(Source(source.name, draft.text), draft.text, 0)
             if isinstance(result, Model):
                 parsed.repaired |= draft.restore(result, source)
                 if damaged:
                     parsed.damaged.update(result.declarations)
+                # What a broken import leads to is anyone's guess.
+                result.imports = [
+                    one
+                    for one in result.imports
+                    if not any(start <= one.span.start < end for start, end in doubtful)
+                ]
                 self._lose(draft, known)
+                self._unnamed.update(_unnamed(result))
                 return result
             silent = Diagnostics()
             at = report_syntax_error(result, source, draft, silent)
             statement = statement_at(draft.text, at)
             span = draft.origins[statement.start], draft.origins[statement.header]
-            if not any(span[0] <= place <= span[1] for place in known):
-                self._report.include(silent)
-            known.add(draft.origins[at])
             mended = None
             if span[0] not in failed:
                 mended = mend(draft, statement, self._failure)
             failed.add(span[0])
+            if not any(span[0] <= place <= span[1] for place in known):
+                advice = mended.help if mended else None
+                self._report.include(replace(one, help=one.help or advice) for one in silent)
+            known.add(draft.origins[at])
             if mended is not None:
+                if not mended.whole:
+                    doubtful.append((span[0], span[1]))
                 self._lose_names(draft.text[statement.start : statement.header] + " _")
                 damaged = damaged or not mended.whole
                 draft = mended.draft
@@ -171,6 +193,16 @@ class _Recovery:
 
     def _lose_names(self, text: str) -> None:
         self._parsed.lost_names.update(_IDENTIFIER.findall(text))
+
+
+def _unnamed(model: Model) -> Iterator[str]:
+    """What may refer to the nodes in a tree whose name could not be read."""
+    for node in walk(model):
+        name = getattr(node, "name", None)
+        if isinstance(name, Word) and name.span.text != name:
+            yield type(node).__name__
+            if isinstance(node, get_args(Vertex)):
+                yield "Vertex"
 
 
 def _declaration_starts(text: str) -> Iterator[int]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from swarmdsl.brackets import Repair
 from swarmdsl.draft import Draft
@@ -32,6 +32,8 @@ _PLACEHOLDERS = {
     "LENGTH": "1 m",
     "QUANTITY": "0",
 }
+# A bracket that is put in may not be the one that was meant.
+_OPENING = ("`(`", "`[`", "`/`", "`.`")
 _SYMBOLS = ("`:`", "`->`", "`=`", "`=>`", "`..`", "`)`", "`]`", "`(`", "`[`", "`,`", "`/`", "`.`")
 # Of several keywords that would do, the one that says least.
 _KEYWORDS = ("`state`", "`swarm`", "`in`", "`on`", "`of`", "`x`")
@@ -41,10 +43,27 @@ _MOST_PLACEHOLDERS = 6
 
 @dataclass(frozen=True, slots=True)
 class Mended:
-    """A statement that can be read again; `whole` if nothing of its meaning was left open."""
+    """A text in which a statement can be read again.
+
+    `whole` if nothing of its meaning was left open, `guessed` if one keyword was chosen of
+    several; `help` is how to write what was written otherwise.
+    """
 
     draft: Draft
     whole: bool
+    guessed: bool = False
+    help: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Change:
+    repair: Repair
+    whole: bool = False
+    guessed: bool = False
+    help: str | None = None
+
+
+_Attempt = Callable[[Draft], Failure | None]
 
 
 def mend(
@@ -53,14 +72,12 @@ def mend(
     """Repair the header of a statement; None if nothing helps, or nothing of it is wrong alone."""
     text = draft.text
     before = "".join(text[start:end] + "\n" for start, end in statement.around)
-    block = "{ }" if text[statement.header : statement.end] else ""
-    after = f" {block}\n" + "}" * len(statement.around)
+    block = text[statement.header : statement.end]
+    closers = "\n" + "}" * len(statement.around)
 
-    def attempt(header: Draft) -> Failure | None:
-        failure = parse(before + header.text + after)
-        if failure is None:
-            return None
-        return Failure(failure.at - len(before), failure.expected)
+    def attempt(header: Draft, inside: str = " { }" if block else "") -> Failure | None:
+        failure = parse(before + header.text + inside + closers)
+        return failure and Failure(failure.at - len(before), failure.expected)
 
     header = draft.piece(statement.start, statement.header)
     failure = attempt(header)
@@ -69,63 +86,64 @@ def mend(
     mended = _edited(header, failure, attempt) or _cut(header, failure, attempt)
     if mended is None:
         return None
-    return Mended(
-        Draft(
-            text[: statement.start] + mended.draft.text + text[statement.header :],
-            [
-                *draft.origins[: statement.start],
-                *mended.draft.origins[:-1],
-                *draft.origins[statement.header :],
-            ],
-        ),
-        mended.whole,
+    if mended.guessed and (not block or attempt(mended.draft, block)):
+        return None  # there is nothing to keep, or it is something else
+    start, end = statement.start, statement.header
+    repaired = Draft(
+        text[:start] + mended.draft.text + text[end:],
+        [*draft.origins[:start], *mended.draft.origins[:-1], *draft.origins[end:]],
     )
+    return replace(mended, draft=repaired)
 
 
-def _edited(
-    header: Draft, failure: Failure, attempt: Callable[[Draft], Failure | None]
-) -> Mended | None:
+def _edited(header: Draft, failure: Failure, attempt: _Attempt) -> Mended | None:
     """Change a few tokens, each time the one the parser stops at."""
-    whole = True
-    for _ in range(_STEPS):
-        furthest: tuple[int, Draft, Failure, bool] | None = None
-        for repair, sure in _candidates(header.text, failure):
-            changed = header.repaired(repair)
+    so_far = Mended(header, whole=True)
+    for step in range(_STEPS):
+        header = so_far.draft
+        furthest: tuple[int, Mended, Failure] | None = None
+        for change in _changes(header.text, failure):
+            changed = header.repaired(change.repair)
+            mended = Mended(
+                changed,
+                so_far.whole and change.whole,
+                so_far.guessed or change.guessed,
+                so_far.help if step else change.help,
+            )
             result = attempt(changed)
             if result is None:
-                return Mended(changed, whole and sure)
+                return mended
             gained = len(header.text) - len(changed.text) + result.at - failure.at
-            if result.at > repair.start + len(repair.text) and (
-                furthest is None or gained > furthest[0]
-            ):
-                furthest = gained, changed, result, sure
-        if furthest is None or furthest[0] <= 0:
+            beyond = result.at > change.repair.start + len(change.repair.text)
+            if beyond and gained > (furthest[0] if furthest else 0):
+                furthest = gained, mended, result
+        if furthest is None:
             return None
-        _, header, failure, sure = furthest
-        whole = whole and sure
+        _, so_far, failure = furthest
     return None
 
 
-def _cut(
-    header: Draft, failure: Failure, attempt: Callable[[Draft], Failure | None]
-) -> Mended | None:
+def _cut(header: Draft, failure: Failure, attempt: _Attempt) -> Mended | None:
     """Leave out the rest of a header, and put placeholders for what it has to have."""
     header = header.blanked(min(failure.at, len(header.text)), len(header.text))
+    guessed = False
     for _ in range(_MOST_PLACEHOLDERS):
         result = attempt(header)
         if result is None:
-            return Mended(header, whole=False)
+            return Mended(header, whole=False, guessed=guessed)
         at = len(header.text.rstrip())
-        tried = (header.repaired(Repair(at, at, f" {word}")) for word in _missing(result))
-        better = []
-        for changed in tried:
+        tried = []
+        missing = _missing(result)
+        for word in missing:
+            changed = header.repaired(Repair(at, at, f" {word}"))
             after = attempt(changed)
+            guess = guessed or (word.isalpha() and len(missing) > 1)
             if after is None:
-                return Mended(changed, whole=False)
-            better.append((after.at - len(changed.text), changed))
-        if not better:
+                return Mended(changed, whole=False, guessed=guess)
+            tried.append((after.at - len(changed.text), changed, guess))
+        if not tried:
             return None
-        header = max(better, key=lambda one: one[0])[1]
+        _, header, guessed = max(tried, key=lambda one: one[0])
     return None
 
 
@@ -139,25 +157,32 @@ def _missing(failure: Failure) -> list[str]:
     return list(dict.fromkeys([*symbols, *places, *(word.strip("`") for word in words)]))
 
 
-def _candidates(text: str, failure: Failure) -> Iterator[tuple[Repair, bool]]:
-    """Changes at the token that the parser stops at, and whether they leave nothing open."""
+def _changes(text: str, failure: Failure) -> Iterator[_Change]:
+    """Changes at the token that the parser stops at, what leaves least open first."""
+    expected = failure.expected
     end = len(text.rstrip())
     at = min(failure.at, end)
     found = TOKEN.match(text, at) if at < end else None
     gap = len(text[:at].rstrip())
     if found is not None:
-        if meant := replacement(failure.expected, text, at):
-            yield Repair(*meant), "_" not in meant[2]
-        if found[0] in keywords() and failure.expected & {"IDENT", "QNAME", "TYPENAME"}:
-            yield Repair(at, found.end(), "_" * len(found[0])), False
+        if meant := replacement(expected, text, at):
+            # A name that is written otherwise is another name.
+            yield _Change(Repair(*meant), "_" not in meant[2], help=f"write `{meant[2].strip()}`")
+        if found[0] in keywords() and expected & {"IDENT", "QNAME", "TYPENAME"}:
+            yield _Change(Repair(at, found.end(), "_" * len(found[0])))
         if not found[0][0].isalnum():
-            yield Repair(at, found.end(), " " * len(found[0])), found[0] in ";,"
-    for word in _missing(failure):
-        symbol = f"`{word}`" in _SYMBOLS
-        yield Repair(gap, gap, f" {word} "), symbol
-    if "`{`" in failure.expected and at == end:
-        yield Repair(gap, gap, " { }"), False
+            yield _Change(Repair(at, found.end(), " " * len(found[0])), found[0] in ";,")
+    missing = _missing(failure)
+    keyword_guess = sum(word.isalpha() for word in missing) > 1
+    for word in missing:
+        sure = f"`{word}`" in _SYMBOLS and f"`{word}`" not in _OPENING
+        advice = f"write `{word}` before `{found[0]}`" if found and sure else None
+        guessed = word.isalpha() and keyword_guess
+        yield _Change(Repair(gap, gap, f" {word} "), sure, guessed, advice)
+    if "`{`" in expected and at == end:
+        yield _Change(Repair(gap, gap, " { }"))
     if found is not None:
-        for word in _missing(failure)[:4]:
-            yield Repair(at, found.end(), word), False
-        yield Repair(at, found.end(), " " * len(found[0])), False
+        for word in missing:
+            guessed = word.isalpha() and keyword_guess
+            yield _Change(Repair(at, found.end(), word), guessed=guessed)
+        yield _Change(Repair(at, found.end(), " " * len(found[0])))

@@ -37,6 +37,7 @@ _LEAD = _words(
     "environment fitness optimize state region choice history final var param connect behavior "
     "in out inout operation package import"
 )
+_HAS_TOPIC = _words("event swarm in out inout")
 _NEXT = re.compile(r"[ \t]*(\S?)")
 _DECLARES = _words(
     "struct enum const message service action swarm event function sensor actuator controller "
@@ -63,6 +64,7 @@ class _Open:
     column: int
     brace: int = -1
     brackets: int = 0
+    word: str = ""
 
 
 def statement_at(text: str, at: int) -> Statement:
@@ -116,7 +118,7 @@ def _statements(text: str) -> list[Statement]:
                 finish(last_end)
                 current = None
             if current is None:
-                current = _Open(at, column)
+                current = _Open(at, column, word=word)
             current.brackets += {"(": 1, "[": 1, ")": -1, "]": -1}.get(word, 0)
         last, last_end = word, token.end()
     finish(last_end)
@@ -139,8 +141,9 @@ def _begins(
     if word in _STARTS and last not in _NOT_AFTER.get(word, ()):
         found = _NEXT.match(text, token.end())
         follows = found[1] if found else ""
-        if not (word == "on" and follows == '"'):
+        if not (word == "on" and (follows == '"' or current.word in _HAS_TOPIC) and not first):
             return first or (follows not in ("", ":", "=", ".", ",", ")") and last not in _LEAD)
     if not first:
-        return word in _DECLARES and column == 0 and last not in _LEAD and not current.brackets
+        declares = word in _DECLARES and current.word in _DECLARES and not current.brackets
+        return declares and column == 0 and last not in _LEAD
     return current.brackets <= 0 and word not in _GOES_ON and column <= current.column

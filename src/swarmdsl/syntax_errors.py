@@ -8,6 +8,8 @@ from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.draft import Draft
+from swarmdsl.late import noticed_late
+from swarmdsl.slips import foreign
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax_advice import advice, keywords, strange_character
 
@@ -36,6 +38,7 @@ TERMINALS = {
 _GROUPS = {
     "a declaration": "struct enum type const message service action swarm event function "
     "sensor actuator controller virtual member endless statemachine environment fitness optimize",
+    "a trigger": "aborted done preempted succeeded",
     "an item of a state": "do entry exit on after monitor internal initial state parallel choice "
     "deep history final",
     "an item of a state machine": "param var initial state parallel choice deep history final",
@@ -44,16 +47,21 @@ _GROUPS = {
 }
 # Left out when these are possible: they say it all.
 _IMPLIED = {
+    "a trigger": {"a name"},
     "a declaration": {"the end of the file", "`package`", "`import`"},
     "an item of a member": {"a name"},
     "a value": {"a name", "a text in double quotes", "`true`", "`false`", "`event`", "`(`"},
 }
 # Left out of a list of what is possible when something more specific is there.
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
+# What goes on behind something that could as well be complete.
+_GOES_ON = {f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends")}
 _COLON = re.compile(r"[ \t]*:")
 _MOST_SHOWN = 8
 
-TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|\.\.|\S')
+TOKEN = re.compile(
+    r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|-*->|=+>|[-+*/:=!<>]=|\+\+|--|&&|\|\||::|<<|>>|\.\.|\S'
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,24 +84,26 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
     """
     at, text = failure.at, draft.text
     words = _words(failure.expected)
-    # What looks like what is expected, and is not: an array whose size is none.
-    expected = _grouped(words - {f"`{text[at : at + 1]}`"})
     found = TOKEN.match(text, at)
     before = _token_before(text, at)
     wants_name = "a name" in words
     new_line = before is not None and "\n" in text[before.end() : at]
+    if before and before[0] == ":" and wants_name:
+        words = words - {"a name"} | {"a type"}
+    inside = before is not None and before[0] not in "{}" and not new_line
+    complete = found is not None and inside and _may_begin_anew(words)
+    # What looks like what is expected, and is not: an array whose size is none.
+    expected = _grouped(words - {f"`{text[at : at + 1]}`"}, complete=complete)
 
     def place(token: re.Match[str]) -> Span:
         start = draft.origins[token.start()]
         return Span(source, start, max(start, draft.origins[token.end()]))
 
-    if early := _taken_from_next_line(text, before, found):
-        report.report(
-            "syntax-error",
-            place(early),
-            message=f"expected {_AFTER[early[0]]} after `{early[0]}`",
-        )
-        return early.start()
+    if before and (late := noticed_late(text, at, before.start())):
+        start, end, message, help_ = late
+        span = Span(source, draft.origins[start], draft.origins[end])
+        report.report("syntax-error", span, message=message, help=help_)
+        return start
     if found and (strange := strange_character(text[at])):
         report.report(
             "syntax-error",
@@ -127,26 +137,9 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
             "syntax-error",
             place(found) if found else Span(source, end, end),
             message=f"expected {_either(expected)}, found {what}",
-            help=advice(words, before, found) if found else None,
+            help=foreign(words, text, at) or advice(words, before, found) if found else None,
         )
     return min(at, len(text))
-
-
-def _taken_from_next_line(
-    text: str, before: re.Match[str] | None, found: re.Match[str] | None
-) -> re.Match[str] | None:
-    """The token behind which nothing stands, where the next line was taken for what is missing."""
-    if before is None or found is None or found[0] not in (":", "=", "."):
-        return None
-    line = text.rfind("\n", 0, before.start()) + 1
-    if text[line : before.start()].strip() or not _NAME.fullmatch(before[0]):
-        return None
-    early = _token_before(text, before.start())
-    return early if early and early[0] in _AFTER else None
-
-
-_NAME = re.compile(r"[A-Za-z_]\w*")
-_AFTER = {":": "a type", "->": "a name", "=": "a value", "initial": "a name", "do": "a name"}
 
 
 def _may_begin_anew(words: set[str]) -> bool:
@@ -159,8 +152,12 @@ def _words(expected: Iterable[str]) -> set[str]:
     return {TERMINALS.get(terminal, terminal) for terminal in expected}
 
 
-def _grouped(words: set[str]) -> list[str]:
-    """The same in few words, the most general ones last."""
+def _grouped(words: set[str], *, complete: bool) -> list[str]:
+    """The same in few words, the most general ones last.
+
+    Where what stands before is `complete`, and what stands here on its line, what could begin
+    behind it is called the end of the line.
+    """
     general = []
     for phrase, members in _GROUPS.items():
         group = {f"`{word}`" for word in members.split()}
@@ -170,6 +167,9 @@ def _grouped(words: set[str]) -> list[str]:
     for phrase in (*general, "a value"):
         if phrase in words or phrase in general:
             words = words - _IMPLIED.get(phrase, set())
+    if complete:
+        words = words & _GOES_ON
+        general = ["the end of the line"]
     specific = {word for word in words if word.strip("`") not in _OPERATORS}
     shown = (specific or words) if not general else specific
     return [*sorted(shown, key=lambda word: (not word.startswith("`"), word)), *general]

@@ -1,0 +1,62 @@
+"""What is said about models as people break them while they type, and what is left of them.
+
+A case is a file in `broken/`; beside it stands what is said about it, as a person reads it,
+and an outline of what is still in the tree. `pytest --bless` writes these texts anew: read
+them before you commit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.parse import parse
+from swarmdsl.render import render
+from swarmdsl.source import Source
+from swarmdsl.syntax import Node
+from swarmdsl.syntax.tree import children
+
+FOLDER = Path(__file__).parent / "broken"
+IMPORTED = "types.swarm"
+CASES = sorted(path.name for path in FOLDER.glob("*.swarm") if path.name != IMPORTED)
+# What an outline is for, not the details.
+DEPTH = 4
+
+
+def outline(node: Node, depth: int = 0) -> Iterator[str]:
+    """The names of what is in a tree, as far as they were written, indented."""
+    for child in children(node):
+        name = getattr(child, "name", None)
+        if hasattr(name, "span") and depth < DEPTH:
+            shown = name if name.span.text else "(no name)"
+            yield f"{'  ' * depth}{type(child).__name__} {shown}\n"
+            yield from outline(child, depth + 1)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_broken(case: str, bless: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(FOLDER)
+    report = compiler.check([Path(case)]).report
+    stream = StringIO()
+    render(report, "text", stream)
+    text = (FOLDER / case).read_text(encoding="utf-8")
+    tree = parse(Source(case, text), Diagnostics()).model
+    found = f"{stream.getvalue()}In the tree:\n{''.join(outline(tree))}"
+    expected = (FOLDER / case).with_suffix(".txt")
+    if bless:
+        expected.write_text(found, encoding="utf-8")
+
+    assert found == expected.read_text(encoding="utf-8")
+    assert report.has_errors
+
+
+def test_every_expected_text_has_its_case() -> None:
+    assert [path.stem for path in sorted(FOLDER.glob("*.txt"))] == [
+        Path(case).stem for case in CASES
+    ]
+    assert len(CASES) >= 100
