@@ -7,7 +7,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     01xx  syntax                 05xx  state machines
     02xx  names                  06xx  functions and interfaces
     03xx  swarm composition      07xx  expressions
-                                 09xx  generators and output
+    08xx  SCXML documents        09xx  generators and output
 """
 
 from __future__ import annotations
@@ -141,6 +141,20 @@ CODES: dict[str, Code] = {
     "no-event-data": Code("SW0705", "error", "`event` has no data here"),
     "constant-cycle": Code("SW0706", "error", "constant `{name}` is defined by itself"),
     "no-result": Code("SW0707", "error", "`{operator}` has no result: {fault}"),
+    # ---- SCXML documents
+    "not-xml": Code("SW0801", "error", "this is not XML: {reason}"),
+    "xml-document-type": Code("SW0802", "error", "the document type is not read"),
+    "not-scxml": Code("SW0803", "error", "this is no SCXML document: it begins with `{name}`"),
+    "unknown-element": Code("SW0804", "error", "there is no `<{name}>` in `<{parent}>`"),
+    "unknown-attribute": Code("SW0805", "error", "`<{element}>` has no `{name}`"),
+    "missing-attribute": Code("SW0806", "error", "`<{element}>` needs `{name}`"),
+    "bad-value": Code("SW0807", "error", "`{name}` can only be {values}"),
+    "not-understood": Code("SW0808", "error", "`{name}` is not understood: {reason}"),
+    "foreign-element": Code("SW0809", "warning", "`<{name}>` is no SCXML and is passed over"),
+    "bad-expression": Code("SW0810", "error", "this expression is not understood: {reason}"),
+    "duplicate-id": Code("SW0811", "error", "the id `{name}` is given twice"),
+    "unknown-state": Code("SW0812", "error", "no state has the id `{name}`"),
+    "illegal-structure": Code("SW0813", "error", "{fault}"),
     # ---- generators and output
     "unknown-target": Code("SW0901", "error", "no target called `{name}`"),
     "broken-generator": Code(

@@ -81,8 +81,8 @@ class Instance:
         self.running = self._busy = True
         try:
             event = Event("")
-            if self.machine.setup is not None:
-                self._do(self.machine.setup, event)
+            for effect in self.machine.setup:
+                self._do(effect, event)
             entry = self.machine.entries[0]
             assert entry is not None
             self._take(self.configuration.step((entry,)), event)

@@ -134,7 +134,8 @@ class Machine:
     """A state machine, to be run by any number of instances.
 
     States have numbers in document order, 0 is the machine itself; a set of states is a whole
-    number, with the bit of each. `data` makes the data that an instance begins with.
+    number, with the bit of each. `data` makes the data that an instance begins with, `setup` is
+    done with them when it is started.
 
     `limit` is how many steps may follow from one event before it counts as a loop.
 
@@ -148,7 +149,7 @@ class Machine:
         initial: Transition | tuple[str, ...] = (),
         *,
         data: Callable[[], Any] = dict,
-        setup: Effect | None = None,
+        setup: tuple[Effect, ...] = (),
         limit: int = 10_000,
     ) -> None:
         self.name = name

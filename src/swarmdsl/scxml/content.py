@@ -1,0 +1,236 @@
+"""Executable content of SCXML as effects, and the data that events carry."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from decimal import Decimal
+from typing import Any
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.runtime import Effect, Event, ExecutionError, Guard, Instance
+from swarmdsl.scxml.document import SCXML, Document, Element, children
+from swarmdsl.scxml.ecmascript import Unreadable, Value, location, read
+from swarmdsl.scxml.values import text, truth
+
+_DELAY = re.compile(r"\s*\+?(\d+(?:\.\d+)?|\.\d+)(ms|s|m|min|h|d)\s*")
+_UNITS = {"ms": 10**6, "s": 10**9, "m": 60 * 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
+_UNITS["d"] = 24 * _UNITS["h"]
+# What <send> may say for the machine itself, and for its internal queue.
+_HERE = ("", "#_scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor", "scxml")
+
+Data = Callable[[Instance, Event], Any]
+
+
+def get(element: Element, name: str) -> str | None:
+    """An attribute, with or without the namespace of SCXML."""
+    value = element.get(name)
+    return value if value is not None else element.get(f"{{{SCXML}}}{name}")
+
+
+def delay_of(written: str) -> int | None:
+    """A delay as in CSS (`1.5s`, `200ms`) in nanoseconds; None for anything else."""
+    found = _DELAY.fullmatch(written)
+    return round(Decimal(found[1]) * _UNITS[found[2]]) if found is not None else None
+
+
+class Content:
+    """Makes effects of the elements of a document, and reports what cannot be read."""
+
+    def __init__(self, document: Document, report: Diagnostics) -> None:
+        self.document = document
+        self.report = report
+
+    def block(self, element: Element) -> Effect | None:
+        """What the elements inside of one do, in order, until one fails."""
+        return _all_of([self._effect(name, child) for name, child in children(element)])
+
+    def guard(self, element: Element) -> Guard | None:
+        """The condition of an element."""
+        value = self.expression(element, "cond")
+        if value is None:
+            return None
+        return lambda instance, event: truth(value(instance, event, {}))
+
+    def expression(self, element: Element, attribute: str) -> Value | None:
+        """The value of an attribute that is an expression; None where there is none."""
+        written = get(element, attribute)
+        if written is None:
+            return None
+        try:
+            return read(written)
+        except Unreadable as error:
+            self.report.report(
+                "bad-expression", self.document.at(element, attribute), reason=str(error)
+            )
+            return None
+
+    def data(self, element: Element) -> Data | None:
+        """What the `<param>`s, the `<content>` or the names of an element give an event."""
+        fields: list[tuple[str, Value]] = []
+        for name in (get(element, "namelist") or "").split():
+            fields.append((name, self._read(name, element, "namelist")))
+        for tag, child in children(element):
+            if tag == "content":
+                value = self.value(child)
+                return lambda instance, event: value(instance, event, {})
+            attribute = "location" if get(child, "location") is not None else "expr"
+            found = self.expression(child, attribute)
+            fields.append((get(child, "name") or "", found or nothing))
+        if not fields:
+            return None
+        return lambda instance, event: {key: v(instance, event, {}) for key, v in fields}
+
+    def value(self, element: Element) -> Value:
+        """What `expr` says, or else the text of the element: an expression, or just a text."""
+        if get(element, "expr") is not None:
+            return self.expression(element, "expr") or nothing
+        written = (element.text or "").strip()
+        if not written:
+            return nothing
+        try:
+            return read(written)
+        except Unreadable:
+            return lambda instance, event, names: " ".join(written.split())
+
+    def _read(self, written: str, element: Element, attribute: str) -> Value:
+        try:
+            return read(written)
+        except Unreadable as error:
+            place = self.document.at(element, attribute, written)
+            self.report.report("bad-expression", place, reason=str(error))
+            return nothing
+
+    def _effect(self, name: str, element: Element) -> Effect | None:
+        match name:
+            case "raise":
+                event = Event(get(element, "event") or "")
+                return lambda instance, _: instance.raise_event(event)
+            case "assign":
+                return self._assign(element)
+            case "if":
+                return self._if(element)
+            case "log":
+                return self._log(element)
+            case "send":
+                return self._send(element)
+            case "cancel":
+                sendid = self._text(element, "sendid")
+                return lambda instance, event: instance.cancel(sendid(instance, event))
+        return None
+
+    def _assign(self, element: Element) -> Effect | None:
+        value = self.value(element)
+        try:
+            store = location(get(element, "location") or "")
+        except Unreadable as error:
+            place = self.document.at(element, "location")
+            self.report.report("bad-expression", place, reason=str(error))
+            return None
+        return lambda instance, event: store(instance, event, value(instance, event, {}))
+
+    def _if(self, element: Element) -> Effect:
+        branches: list[tuple[Guard | None, list[Effect | None]]] = [(self.guard(element), [])]
+        for name, child in children(element):
+            if name == "elseif":
+                branches.append((self.guard(child), []))
+            elif name == "else":
+                branches.append((None, []))
+            else:
+                branches[-1][1].append(self._effect(name, child))
+        made = [(guard, _all_of(effects)) for guard, effects in branches]
+
+        def choose(instance: Instance, event: Event) -> None:
+            for guard, effect in made:
+                if guard is None or instance.holds(guard, event):
+                    if effect is not None:
+                        effect(instance, event)
+                    return
+
+        return choose
+
+    def _log(self, element: Element) -> Effect:
+        label = get(element, "label")
+        value = self.expression(element, "expr")
+
+        def log(instance: Instance, event: Event) -> None:
+            words = [label] if label is not None else []
+            if value is not None:
+                words.append(text(value(instance, event, {})))
+            if instance.observer is not None:
+                instance.observer.logged(instance, ": ".join(words))
+
+        return log
+
+    def _send(self, element: Element) -> Effect:
+        name = self._text(element, "event")
+        target = self._text(element, "target")
+        kind = self._text(element, "type")
+        sendid = self._text(element, "id")
+        data = self.data(element)
+        delay = self._delay(element)
+
+        def send(instance: Instance, event: Event) -> None:
+            named = name(instance, event)
+            if not named:
+                raise ExecutionError("an event without a name cannot be sent")
+            sent = Event(named, data(instance, event) if data is not None else None)
+            length = delay(instance, event) if delay is not None else 0
+            place = target(instance, event)
+            if place == "#_internal":
+                instance.raise_event(sent)
+            elif place in _HERE and kind(instance, event) in _HERE:
+                instance.send_after(sent, length, sendid(instance, event))
+            elif length > 0:
+                raise ExecutionError(f"`{sent.name}` is for others: it cannot be delayed")
+            else:
+                instance.emit(sent)
+
+        return send
+
+    def _delay(self, element: Element) -> Callable[[Instance, Event], int] | None:
+        written = get(element, "delay")
+        if written is not None:
+            length = delay_of(written)
+            if length is None:
+                place = self.document.at(element, "delay")
+                values = "a number with `s` or `ms` behind it"
+                self.report.report("bad-value", place, name="delay", values=values)
+                return None
+            return lambda instance, event: length
+        value = self.expression(element, "delayexpr")
+        if value is None:
+            return None
+
+        def computed(instance: Instance, event: Event) -> int:
+            found = value(instance, event, {})
+            length = delay_of(text(found))
+            if length is None:
+                raise ExecutionError(f"`{text(found)}` is no delay")
+            return length
+
+        return computed
+
+    def _text(self, element: Element, attribute: str) -> Callable[[Instance, Event], str]:
+        """A text that is given by an attribute, or computed by the one with `expr` behind."""
+        written = get(element, attribute) or ""
+        value = self.expression(element, f"{attribute}expr")
+        if value is None:
+            return lambda instance, event: written
+        return lambda instance, event: text(value(instance, event, {}))
+
+
+def nothing(instance: Instance, event: Event, names: object) -> None:
+    """The value where none is given."""
+
+
+def _all_of(effects: Iterable[Effect | None]) -> Effect | None:
+    made = [effect for effect in effects if effect is not None]
+    if len(made) < 2:
+        return made[0] if made else None
+
+    def all_of_them(instance: Instance, event: Event) -> None:
+        for each in made:
+            each(instance, event)
+
+    return all_of_them

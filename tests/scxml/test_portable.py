@@ -1,0 +1,181 @@
+"""A model and the portable document made of it do the same, whatever happens to them."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl import compiler, ir
+from swarmdsl.defaults import default_value
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import scxml
+from swarmdsl.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.ir import Action, Array, Primitive, Service, System
+from swarmdsl.runtime import Event, Instance, Machine, Run
+from swarmdsl.scxml import read
+from swarmdsl.simulate.table import first_data, table
+from swarmdsl.source import Source
+
+from ..runtime.world import StillWorld
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = [
+    *(ROOT / "examples" / "search_and_rescue", ROOT / "examples" / "minimal"),
+    *sorted((ROOT / "tests" / "golden").glob("*/model.swarm")),
+]
+WALKS, STEPS = 8, 40
+
+
+class World(StillWorld):
+    """Remembers the runs that have not ended, and lets those that are cancelled stop at once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.going: list[Run] = []
+        self.sent: list[Event] = []
+
+    def send(self, instance: Instance, event: Event) -> None:
+        self.sent.append(event)
+
+    def start(self, run: Run) -> None:
+        super().start(run)
+        self.going.append(run)
+
+    def cancel(self, run: Run) -> None:
+        super().cancel(run)
+        self.going.remove(run)
+        run.end("preempted")
+
+
+class Runner:
+    """One of the two."""
+
+    def __init__(self, machine: Machine, data: dict[str, Any] | None = None) -> None:
+        self.world = World()
+        self.instance = Instance(machine, self.world, data=data)
+
+    def told(self) -> Any:
+        return (
+            self.instance.configuration.innermost,
+            self.instance.final,
+            {name: plain(value) for name, value in self.instance.data.items()},
+            [(run.activity.name, plain(run.goal)) for run in self.world.going],
+        )
+
+
+def plain(value: Any) -> Any:
+    """A value in which numbers of the two are the same; durations are in other units."""
+    if isinstance(value, dict):
+        return {key: plain(each) for key, each in value.items()}
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    return round(value, 9) if isinstance(value, float) else value
+
+
+def random_value(type_: ir.Type, system: System, dice: random.Random) -> Any:
+    """A value of a type, mostly small."""
+    match type_:
+        case Primitive(name="bool"):
+            return dice.random() < 0.5
+        case Primitive(name="string" | "wstring"):
+            return dice.choice(["", "a", "b"])
+        case Primitive(name="float32" | "float64"):
+            return dice.choice([0, 0.125, 0.25, 1, 5.5, 100])
+        case Primitive():
+            return dice.randrange(0, 8)
+        case Array():
+            return default_value(type_, system)
+    known = system.interface(type_)
+    return message(known.fields, system, dice) if isinstance(known, ir.Message) else {}
+
+
+def message(fields: Any, system: System, dice: random.Random) -> dict[str, Any]:
+    return {each.name: random_value(each.type, system, dice) for each in fields}
+
+
+def result(function: str, system: System, dice: random.Random) -> dict[str, Any]:
+    known = system.interface(system.function(function).communication.type)
+    match known:
+        case Action(result=fields) | Service(response=fields):
+            return message(fields, system, dice)
+    return {}
+
+
+def has_durations(machine: ir.StateMachine) -> bool:
+    """Whether data hold durations: they are milliseconds in a document, nanoseconds here."""
+    held = [*machine.variables, *machine.params]
+    return any(str(each.type) == "duration" for each in held)
+
+
+def pairs() -> Iterator[Any]:
+    for path in MODELS:
+        system = compiler.check([path]).system
+        assert system is not None
+        for machine in system.machines:
+            name = f"{path.relative_to(ROOT)}:{machine.name}"
+            yield pytest.param(machine, system, id=name)
+
+
+@pytest.mark.parametrize(("machine", "system"), list(pairs()))
+def test_both_do_the_same(machine: ir.StateMachine, system: System) -> None:
+    files = {f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())}
+    report = Diagnostics()
+    document = read(Source("m.scxml", files[f"{machine.name}.scxml"]), report)
+    assert document is not None, [(found.message, found.primary) for found in report]
+    assert not list(report)
+    for seed in range(WALKS):
+        walk(machine, system, document, random.Random(seed))
+
+
+def walk(machine: ir.StateMachine, system: System, document: Machine, dice: random.Random) -> None:
+    names = data_ids(machine)
+    ids = state_ids(machine, set(names.values()))
+    params = {
+        p.name: random_value(p.type, system, dice) for p in machine.params if p.default is None
+    }
+    first = Runner(table(machine, system), first_data(machine, system, params))
+    # The document has no values for these either.
+    given = {names[name]: value for name, value in params.items()}
+    other = Runner(document, {**document.data(), **given})
+    other.instance.start()
+    first.instance.start()
+    durations = has_durations(machine)
+    for _ in range(STEPS):
+        mine, its = first.told(), other.told()
+        assert [ids[state] for state in mine[0]] == its[0]
+        assert (ids[mine[1]] if mine[1] else None) == its[1]
+        if not durations:
+            assert {names[key]: value for key, value in mine[2].items()} == its[2]
+            assert mine[3] == its[3]
+            assert first.world.asked == other.world.asked
+            for one, two in zip(first.world.sent, other.world.sent, strict=True):
+                # A document leaves fields out that have their defaults.
+                assert one.name == two.name
+                assert plain(one.data).items() >= plain(two.data or {}).items()
+        happen(first, other, machine, system, dice)
+
+
+def happen(
+    first: Runner, other: Runner, machine: ir.StateMachine, system: System, dice: random.Random
+) -> None:
+    """Something that happens to both."""
+    chance = dice.random()
+    if chance < 0.4 and first.world.going:
+        number = dice.randrange(len(first.world.going))
+        outcome = dice.choice(["succeeded", "succeeded", "aborted", "preempted"])
+        function = first.world.going[number].activity.name
+        given = result(function, system, dice)
+        for each in (first, other):
+            each.world.going.pop(number).end(outcome, plain(given))
+    elif chance < 0.55:
+        for each in (first, other):
+            each.world.clock.advance(700_000_000)
+    elif system.events:
+        event = dice.choice(system.events)
+        given = random_value(event.type, system, dice)
+        for each in (first, other):
+            each.instance.receive(Event(event.name, plain(given)))
