@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from swarmdsl.syntax.nodes import Documented, Node
+from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 if TYPE_CHECKING:
     from swarmdsl.syntax.behaviour import StateMachine
@@ -24,7 +24,7 @@ class Port(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Component(Documented):
+class Component(TopLevel):
     """`sensor Name { ... }` and the other kinds."""
 
     kind: Literal["sensor", "actuator", "controller", "virtual"]
@@ -99,7 +99,7 @@ class Connector(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Member(Documented):
+class Member(TopLevel):
     """`member Name { ... }`."""
 
     name: Word

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from swarmdsl.syntax.nodes import Documented, Node
+from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 if TYPE_CHECKING:
     from swarmdsl.syntax.architecture import Component, Operation, Part
@@ -196,7 +196,7 @@ class Parallel(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class StateMachine(Documented):
+class StateMachine(TopLevel):
     """`statemachine Name { ... }`."""
 
     endless: bool

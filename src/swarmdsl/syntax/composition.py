@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
-from swarmdsl.syntax.nodes import Documented, Node
+from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 if TYPE_CHECKING:
     from swarmdsl.syntax.architecture import Member
@@ -38,7 +38,7 @@ class EnvironmentUse(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Swarm(Documented):
+class Swarm(TopLevel):
     """`swarm Name { ... }`."""
 
     name: Word
@@ -69,7 +69,7 @@ class Objective(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Fitness(Documented):
+class Fitness(TopLevel):
     """`fitness Name { ... }`."""
 
     name: Word
@@ -105,7 +105,7 @@ class ParamRange(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Optimization(Documented):
+class Optimization(TopLevel):
     """`optimize Swarm { ... }`."""
 
     swarm: Ref[Swarm]
@@ -138,7 +138,7 @@ def in_metres(length: str) -> float:
 
 
 @dataclass(slots=True, eq=False)
-class Environment(Documented):
+class Environment(TopLevel):
     """`environment Name { ... }`."""
 
     name: Word

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
 from swarmdsl.ir.types import Named
-from swarmdsl.syntax.nodes import Documented
+from swarmdsl.syntax.nodes import Documented, TopLevel
 
 if TYPE_CHECKING:
     from swarmdsl.syntax.nodes import Expression, TypeRef, Word
@@ -21,7 +21,7 @@ class Field(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class StructType(Documented):
+class StructType(TopLevel):
     """`struct Pose2D { ... }`."""
 
     name: Word
@@ -37,7 +37,7 @@ class EnumValue(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class EnumType(Documented):
+class EnumType(TopLevel):
     """`enum Mode : uint8 { ... }`; `type` is None until it is linked."""
 
     name: Word
@@ -47,7 +47,7 @@ class EnumType(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Constant(Documented):
+class Constant(TopLevel):
     """`const NAME : type = value`."""
 
     name: Word
@@ -56,7 +56,7 @@ class Constant(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class AliasType(Documented):
+class AliasType(TopLevel):
     """`type Distance = float64`."""
 
     name: Word
@@ -64,7 +64,7 @@ class AliasType(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class MessageType(Documented):
+class MessageType(TopLevel):
     """`message Name { ... }`; a name with `/` describes a message of another package."""
 
     name: Word
@@ -73,7 +73,7 @@ class MessageType(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class ServiceType(Documented):
+class ServiceType(TopLevel):
     """`service Name { request { ... } response { ... } }`."""
 
     name: Word
@@ -82,7 +82,7 @@ class ServiceType(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class ActionType(Documented):
+class ActionType(TopLevel):
     """`action Name { goal { ... } result { ... } feedback { ... } }`."""
 
     name: Word
@@ -92,7 +92,7 @@ class ActionType(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Event(Documented):
+class Event(TopLevel):
     """`event Name : Type on "topic"`; `swarm` when it travels between members."""
 
     swarm: bool
@@ -129,7 +129,7 @@ class FunctionPort(Documented):
 
 
 @dataclass(slots=True, eq=False)
-class Function(Documented):
+class Function(TopLevel):
     """`function name : abstraction { ... }`."""
 
     name: Word

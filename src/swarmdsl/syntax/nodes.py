@@ -41,6 +41,13 @@ class Documented(Node):
     doc: str = field(default="", init=False)
 
 
+@dataclass(slots=True, eq=False)
+class TopLevel(Documented):
+    """A declaration of a file; `nodes` are it and all inside it, once somebody walked it."""
+
+    nodes: tuple[Node, ...] | None = field(default=None, init=False, metadata={"elsewhere": True})
+
+
 N = TypeVar("N", bound=Node)
 
 
