@@ -102,6 +102,8 @@ def test_guards_that_may_hold(guard: str, codes: Callable[[list[str]], list[str]
         ["n < other", "other > n"],
         ["mode == Mode.AUTO", "n > 1 or n < -1", "mode == Mode.AUTO and n == 0"],
         ["n > 0", "n < 0", "n != 0"],
+        ["1 / n > 1", "1 / n > 1"],
+        ["n % 3 == 0", "n % 3 != 0", "n == 7"],
         ['name == "a" or name == "b"', 'name == "b"'],
     ],
 )
@@ -122,6 +124,8 @@ def test_guards_behind_others_that_cover_them(
         ["n < other", "n > other"],
         ["n > 3", "x > 5"],
         ["n + 1 > 3", "n > 5"],
+        ["1 / n > 1 or n > 3", "n > 5"],  # a guard without a result does not hold
+        ["1 / n > 1", "not (1 / n > 1)", "n > 5"],
     ],
 )
 def test_guards_behind_others_that_leave_something(

@@ -25,9 +25,11 @@ from swarmdsl.syntax import (
     FieldUse,
     MonitorTrigger,
     NameUse,
+    Node,
     OperatorUse,
     Transition,
     Value,
+    walk,
 )
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.values import Numbers, Texts, Values, all_numbers, compared, these
@@ -91,7 +93,22 @@ def condition_of(item: Transition | Branch, context: Context) -> Condition:
     triggers = item.triggers if isinstance(item, Transition) else []
     events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
     typing = context.with_event(events) if events else context.typing
-    return condition(item.guard.tree, replace(typing, report=Diagnostics()))
+    tree = item.guard.tree
+    holds = condition(tree, replace(typing, report=Diagnostics()))
+    if not any(_may_fail(part) for part in walk(tree)):
+        return holds
+    # A guard that has no result does not hold.
+    return Combined(every=True, parts=(_truth(("has a result", _term(tree))), holds))
+
+
+def _may_fail(part: Node) -> bool:
+    """Whether an operation may have no result: a division by zero, the root of less."""
+    match part:
+        case OperatorUse(operator="/" | "%", operands=(_, divisor)):
+            return not fold(divisor)
+        case Call(function="sqrt"):
+            return fold(part) is None
+    return False
 
 
 def always(some: Condition) -> bool:
