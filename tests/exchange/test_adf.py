@@ -227,3 +227,23 @@ def test_constants_of_messages(compiled: Compile) -> None:
 
 def test_no_functions_no_file() -> None:
     assert list(adf.emit(System("empty"), NoOptions(), Diagnostics())) == []
+
+
+def test_each_component_and_part_has_servers_of_its_own(compiled: Compile) -> None:
+    system = compiled(
+        """
+        sensor Camera { operation snap() }
+        sensor ThermalCamera extends Camera {}
+        member Uav { left : ThermalCamera  camera : Camera }
+        """
+    )
+    _, content = emitted(system)
+    assert [
+        (each["name"], each["api"]["comm_model"]["definition"]["name"])
+        for each in content["functions"]
+        if each["name"].endswith("_snap")
+    ] == [
+        ("camera_snap", "camera/snap"),
+        ("thermal_camera_snap", "thermal_camera/snap"),
+        ("left_snap", "left/snap"),
+    ]

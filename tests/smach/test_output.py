@@ -381,3 +381,40 @@ def test_what_is_said_of_lines_in_a_state_stands_where_they_are_done(generate: G
     doing = [lines[lines.index(f"# {each}") + 1] for each in ("Counted.", "At first.", "At last.")]
     counted = "userdata.seen = userdata.seen + 1"
     assert doing == [counted, "userdata.seen = 0", counted]
+
+
+def test_the_server_of_an_operation_is_in_the_namespace_of_what_is_asked(
+    generate: Generate,
+) -> None:
+    files = generate(
+        """
+        package lab
+        sensor Camera { operation snap() }
+        sensor ThermalCamera extends Camera {}
+        member Uav {
+          behavior Watch
+          left  : Camera
+          right : ThermalCamera
+        }
+        statemachine Watch {
+          initial A
+          state A { do Camera.snap        on succeeded, aborted -> B }
+          state B { do ThermalCamera.snap on succeeded, aborted -> C }
+          state C { do left.snap          on succeeded, aborted -> D }
+          state D { do right.snap         on succeeded, aborted -> E }
+          final E
+        }
+        """
+    )
+    calls = [
+        [ast.unparse(argument) for argument in node.args[:2]]
+        for node in ast.walk(ast.parse(files["src/lab_behavior/watch.py"].text))
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "smach_ros.ServiceState"
+    ]
+    assert calls == [
+        ["'camera/snap'", "CameraSnap"],
+        ["'thermal_camera/snap'", "CameraSnap"],
+        ["'left/snap'", "CameraSnap"],
+        ["'right/snap'", "CameraSnap"],
+    ]
+    assert [path for path in files if path.endswith(".srv")] == ["lab/srv/CameraSnap.srv"]
