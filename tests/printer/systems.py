@@ -356,7 +356,7 @@ def _members(
                 ports,
                 params,
                 tuple(parts),
-                (base.connectors if base else ()) + _connectors(draw, ports, parts, components),
+                _connectors(draw, base.connectors if base else (), ports, parts, components),
                 communication,
                 base.name if base else None,
                 draw(docs),
@@ -368,6 +368,7 @@ def _members(
 
 def _connectors(
     draw: st.DrawFn,
+    inherited: tuple[Connector, ...],
     ports: Sequence[Port],
     parts: Sequence[Part],
     components: Sequence[Component],
@@ -380,12 +381,11 @@ def _connectors(
     targets = [each for each in inner if each[1].direction != "out"]
     targets += [each for each in outer if each[1].direction != "in"]
     pairs = [(a, b) for a in sources for b in targets if a[1].type == b[1].type and a is not b]
-    if not pairs:
-        return ()
-    return tuple(
-        Connector(PortRef(a[0], a[1].name), PortRef(b[0], b[1].name), draw(docs))
-        for a, b in draw(st.lists(st.sampled_from(pairs), max_size=2))
-    )
+    ends = [(PortRef(a[0], a[1].name), PortRef(b[0], b[1].name)) for a, b in pairs]
+    known_ends = [(each.source, each.target) for each in inherited]
+    ends = [each for each in ends if each not in known_ends]
+    chosen = draw(st.lists(st.sampled_from(ends), max_size=2, unique=True)) if ends else []
+    return (*inherited, *(Connector(source, target, draw(docs)) for source, target in chosen))
 
 
 def _fitness(draw: st.DrawFn, name: str) -> Fitness:
