@@ -9,6 +9,7 @@ from typing import Any
 
 from swarmdsl.enums import numbers
 from swarmdsl.expressions import nanoseconds
+from swarmdsl.graph import leaves_first
 from swarmdsl.syntax import (
     Call,
     Constant,
@@ -18,9 +19,11 @@ from swarmdsl.syntax import (
     NameUse,
     OperatorUse,
     Value,
+    walk,
 )
 
 Folded = bool | int | float | str
+Constants = dict[Constant, Folded | None]
 
 _OPERATIONS: Mapping[str, Callable[..., Folded]] = {
     "==": operator.eq,
@@ -48,26 +51,33 @@ class _UndefinedError(Exception):
     """An operation on known operands has no result that any target can hold."""
 
 
-def fold(tree: ExpressionTree) -> Folded | None:
+def fold(tree: ExpressionTree, known: Constants | None = None) -> Folded | None:
     """The value of an expression, durations in nanoseconds; None when it is not known.
 
     `and` and `or` are known where one side decides. An expression that has no value (a
-    division by zero) is None too: `undefined` says why.
+    division by zero) is None too: `undefined` says why. What constants are found to be is kept
+    in `known`.
     """
-    try:
-        return _Folding().fold(tree)
-    except (_UndefinedError, TypeError):
-        return None
+    known = {} if known is None else known
+
+    def needed(tree: ExpressionTree | None) -> list[Constant]:
+        return [constant for constant in _constants(tree) if constant not in known]
+
+    for constant in leaves_first(needed(tree), lambda each: needed(each.value.tree)):
+        known[constant] = _folded(constant.value.tree, known)
+    return _folded(tree, known)
 
 
-def undefined(tree: Call | OperatorUse, *, duration: bool = False) -> str | None:
+def undefined(
+    tree: Call | OperatorUse, known: Constants | None = None, *, duration: bool = False
+) -> str | None:
     """Why an operation has no result, whatever its unknown operands are; None where it has one.
 
     It is the operation itself that is looked at: of operands without a value nothing is said.
     `duration` says that the result is one.
     """
     operands = tree.arguments if isinstance(tree, Call) else tree.operands
-    values = [fold(operand) for operand in operands]
+    values = [fold(operand, known) for operand in operands]
     word = str(tree.function if isinstance(tree, Call) else tree.operator)
     if word in ("/", "%") and _is_zero(values[-1]):
         return "the divisor is 0"
@@ -84,11 +94,28 @@ def undefined(tree: Call | OperatorUse, *, duration: bool = False) -> str | None
     return None
 
 
-class _Folding:
-    """One walk over an expression and the constants in it, each of which is looked at once."""
+def _constants(tree: ExpressionTree | None) -> list[Constant]:
+    """The constants that an expression names."""
+    nodes = walk(tree) if tree is not None else ()
+    return [
+        node.target
+        for node in nodes
+        if isinstance(node, NameUse) and isinstance(node.target, Constant)
+    ]
 
-    def __init__(self) -> None:
-        self._constants: dict[Constant, Folded | None] = {}
+
+def _folded(tree: ExpressionTree | None, known: Mapping[Constant, Folded | None]) -> Folded | None:
+    try:
+        return _Folding(known).fold(tree) if tree is not None else None
+    except (_UndefinedError, TypeError):
+        return None
+
+
+class _Folding:
+    """A walk over an expression; of the constants in it the values are known before."""
+
+    def __init__(self, known: Mapping[Constant, Folded | None]) -> None:
+        self._known = known
 
     def fold(self, tree: ExpressionTree) -> Folded | None:
         match tree:
@@ -97,7 +124,7 @@ class _Folding:
             case Value(unit=unit, value=value):
                 return nanoseconds(tree.span.text, unit) if unit else value
             case NameUse(target=Constant() as constant):
-                return self._constant(constant)
+                return self._known[constant]
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
                 return numbers(enum).get(str(name))
             case Call(function=function, arguments=arguments) if function in _OPERATIONS:
@@ -112,12 +139,6 @@ class _Folding:
             case OperatorUse(operator=word, operands=operands):
                 return self._applied(str(word), operands)
         return None
-
-    def _constant(self, constant: Constant) -> Folded | None:
-        if constant not in self._constants:
-            tree = constant.value.tree
-            self._constants[constant] = self.fold(tree) if tree is not None else None
-        return self._constants[constant]
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self.fold(operand) for operand in operands]

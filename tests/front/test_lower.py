@@ -300,3 +300,41 @@ def test_what_is_heard_on_one_topic_is_one_event(compiled: Callable[[str], ir.Sy
     assert [transition.triggers for transition in transitions] == [
         (ir.EventTrigger(name),) for name in ("Low", "Found", "Found_", "Found_")
     ]
+
+
+def test_a_constant_is_one_value_however_it_is_made(compiled: Compiled) -> None:
+    # Written out, each would be twice as long as the one before.
+    doubled = "".join(f"const D{n} : float64 = D{n - 1} + D{n - 1}\n" for n in range(1, 60))
+    chain = "".join(f"const C{n} : int32 = C{n - 1} + 1\n" for n in range(1, 400))
+    system = compiled(f"""{EVENT}
+      enum Mode {{ OFF = 3 ON }}
+      const D0 : float64 = 1.0
+      {doubled}
+      const C0 : int32 = 0
+      {chain}
+      const PAUSE : duration = 2 * 1.5 s
+      const QUIET : bool = not (C1 > 0)
+      const NAME : string = "a" + "b"
+      const NEGATIVE : int32 = C1 - 3
+      statemachine M {{
+        param d : float64 = D59
+        param c : int32 = C399
+        param p : duration = PAUSE
+        param q : bool = QUIET
+        param s : string = NAME
+        param n : int32 = -NEGATIVE
+        initial A
+        state A {{ on Go -> F }}
+        final F
+      }}
+    """)
+
+    values = {param.name: param.default for param in system.machines[0].params}
+    assert values == {
+        "d": ir.Literal(2.0**59, ir.Primitive("float64")),
+        "c": ir.Literal(399, ir.Primitive("int64")),
+        "p": ir.Literal(3_000_000_000, ir.Primitive("duration")),
+        "q": ir.Literal(False, ir.Primitive("bool")),
+        "s": ir.Literal("ab", ir.Primitive("string")),
+        "n": ir.Literal(2, ir.Primitive("int64")),
+    }

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from math import inf
 
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.folding import Folded, fold, undefined
+from swarmdsl.folding import Constants, Folded, fold, undefined
 from swarmdsl.inference.fitting import fits, is_number, range_of
 from swarmdsl.inference.operators import Operation
 from swarmdsl.interfaces import Interfaces
@@ -45,13 +45,14 @@ class Typing:
     """Infers types; `interfaces` say which fields messages have.
 
     `event` is the type of the triggering event's message: absent where no event is at
-    hand (`has_event` False), None where it is not known.
+    hand (`has_event` False), None where it is not known. `known` keeps values of constants.
     """
 
     interfaces: Interfaces
     report: Diagnostics = field(default_factory=Diagnostics)
     has_event: bool = False
     event: Type | None = None
+    known: Constants = field(default_factory=dict)
 
     def infer(self, tree: ExpressionTree) -> Type | None:
         """The type of an expression; what is wrong in it is reported."""
@@ -96,7 +97,7 @@ class Typing:
         if tree is None:
             return
         found = self.infer(tree)
-        value = fold(tree)
+        value = fold(tree, self.known)
         if fits(found, wanted) and value is not None:
             self._check_size(tree, value, wanted)
         elif not fits(found, wanted):
@@ -112,7 +113,7 @@ class Typing:
         mistakes = Diagnostics()
         type_ = replace(self, report=mistakes).result(tree, types)
         self.report.include(mistakes)
-        fault = undefined(tree, duration=type_ == DURATION) if not mistakes else None
+        fault = undefined(tree, self.known, duration=type_ == DURATION) if not mistakes else None
         if fault is not None:
             operator = tree.function if isinstance(tree, Call) else tree.operator
             self.report.report("no-result", tree.span, operator=operator, fault=fault)

@@ -7,6 +7,7 @@ from dataclasses import replace
 from swarmdsl import ir
 from swarmdsl.enums import numbers
 from swarmdsl.expressions import nanoseconds
+from swarmdsl.folding import fold
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
 from swarmdsl.source import Span
@@ -24,6 +25,8 @@ from swarmdsl.syntax import (
     Value,
     Variable,
 )
+
+_TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
 
 def lower_optional(expression: Expression | None, context: Context) -> ir.Expression | None:
@@ -57,7 +60,7 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case NameUse(target=Param() as param) if param in context.values:
             return context.values[param]
         case NameUse(target=Constant() as constant):
-            return lower_expression(constant.value, context)
+            return _constant(constant, tree.span)
         case NameUse():
             return _name(tree, context)
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
@@ -77,6 +80,17 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
                 return _unary(str(operator), values[0], type_, tree.span)
             return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
     raise AssertionError(tree)
+
+
+def _constant(constant: Constant, at: Span) -> ir.Literal:
+    """The value of a constant: its expression could be that of others, again and again."""
+    assert constant.value.tree is not None
+    value = fold(constant.value.tree)
+    assert value is not None
+    if constant.type.type == DURATION:
+        assert not isinstance(value, str)
+        return ir.Literal(round(value), DURATION, at)
+    return ir.Literal(value, _TYPES[type(value)], at)
 
 
 def _name(use: NameUse, context: Context) -> ir.Expression:
