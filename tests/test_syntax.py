@@ -13,7 +13,8 @@ from swarmdsl.syntax import NODES, Documented
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
-OTHERS = {"Node", "Documented", "Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
+ABSTRACT = {"Node", "Documented", "TopLevel"}
+OTHERS = ABSTRACT | {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Assignment"),
