@@ -12,8 +12,9 @@ from time import perf_counter
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.emit import Request
-from swarmdsl.parse import metamodel, parse
+from swarmdsl.parse import parse
 from swarmdsl.source import Source
+from swarmdsl.textx_entry import metamodel
 
 SIZES = (10, 30, 100)
 """Numbers of state machines, each with 10 states."""

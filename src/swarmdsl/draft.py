@@ -8,8 +8,6 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from swarmdsl.brackets import Repair
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.expressions import parse_expression
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Expression, Node, Ref, Word
 
@@ -71,7 +69,6 @@ class Draft:
             span = self._place(value.span, source)
             if isinstance(value, Expression) and span.text != value.span.text:
                 repaired.add(value)
-                value.tree = parse_expression(value.span, Diagnostics())
             for attribute in fields(value):
                 inside = getattr(value, attribute.name)
                 if isinstance(inside, (list, tuple, Word, Ref, Node)) and inside != value.span:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.expressions import is_too_large, quantity_value, unquoted
 from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
@@ -348,6 +349,14 @@ class ExpressionParser:
 
     def _span(self, start: int, end: int) -> Span:
         return new_span(Span, (self._source, start, end))
+
+
+def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
+    """Report what is wrong with the expression at a span."""
+    parser = ExpressionParser(language, span.source, NESTING_LIMIT)
+    parser.expression(language.token(span.source.text, span.start))
+    for fault in parser.faults:
+        report.report(fault.name, fault.span, **fault.fields)
 
 
 def _depth(tree: ExpressionTree) -> int:

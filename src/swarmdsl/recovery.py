@@ -28,8 +28,8 @@ from swarmdsl.statements import statement_at
 from swarmdsl.syntax import Declaration, Expression, Model, Ref, Vertex, Word, walk
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
-Parser = Callable[[Source, str, int], Model | Failure]
-"""Parses a text that stands at an offset of a source; of the failures, that furthest on."""
+Parser = Callable[[Source], Model | Failure]
+"""Parses a whole source; of the failures, that furthest on."""
 
 _ERRORS_PER_DECLARATION = 50
 # Where a top-level declaration starts: a keyword in the first column, or what looks like
@@ -141,7 +141,7 @@ class _Recovery:
         failed: set[int] = set()
         doubtful: list[tuple[int, int]] = []
         for _ in range(_ERRORS_PER_DECLARATION):
-            result = self._parser(Source(source.name, draft.text), draft.text, 0)
+            result = self._parser(Source(source.name, draft.text))
             if isinstance(result, Model):
                 parsed.repaired |= draft.restore(result, source)
                 if damaged:
@@ -181,7 +181,7 @@ class _Recovery:
         return None
 
     def _failure(self, text: str) -> Failure | None:
-        result = self._parser(Source(self._source.name, text), text, 0)
+        result = self._parser(Source(self._source.name, text))
         return result if isinstance(result, Failure) else None
 
     def _lose(self, draft: Draft, known: set[int]) -> None:

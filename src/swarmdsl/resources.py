@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from zlib import crc32
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -21,3 +22,11 @@ def library() -> Path:
 def grammar() -> Path:
     """The folder of the grammar files."""
     return (checkout_root() or _PACKAGE) / "grammar"
+
+
+def grammar_checksum() -> int:
+    """A number that is another one when a grammar file has changed."""
+    checksum = 0
+    for path in sorted(grammar().glob("*.tx")):
+        checksum = crc32(path.read_bytes(), checksum)
+    return checksum

@@ -12,6 +12,7 @@ import re
 from dataclasses import dataclass
 
 from swarmdsl.brackets import CLOSER, Repair, find_faults, report_fault
+from swarmdsl.comments import Comments, DocComment
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.slips import likeness
 from swarmdsl.source import Source, Span
@@ -31,17 +32,6 @@ _TOKEN = re.compile(
     r"|(?P<mark>^(?:<{7}|={7}|>{7}|[|]{7})(?![<=>|])[^\n]*)",
     re.MULTILINE,
 )
-_ESCAPE = re.compile(r"\\[^\n]")
-_ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
-
-
-@dataclass(frozen=True, slots=True)
-class DocComment:
-    """Lines of `///` that stand together; `next` is the offset of what follows them."""
-
-    span: Span
-    text: str
-    next: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +59,7 @@ class _Scanner:
     def __init__(self, source: Source, report: Diagnostics) -> None:
         self._source = source
         self._report = report
-        self._doc_lines: list[tuple[int, int]] = []
+        self._comments = Comments(source, report)
         self._found: list[tuple[int, Repair]] = []
         self._code: list[str] = []
         self._done = 0
@@ -82,9 +72,9 @@ class _Scanner:
             start, end = token.span()
             match token.lastgroup:
                 case "line":
-                    self._comment(start, end)
+                    self._comments.comment(start, end)
                 case "text":
-                    self._escapes(start, end)
+                    self._comments.quoted(start, end)
                 case "open_text":
                     end = self._open_text(start, end)
                 case "open_block":
@@ -112,7 +102,7 @@ class _Scanner:
                 self._found.append((fault.at, fault.repair))
         faults = {at for at, _ in self._found} | ({hopeless} if hopeless is not None else set())
         return Scan(
-            _join(self._source, self._doc_lines),
+            self._comments.documentation(),
             tuple(sorted(faults)),
             tuple(sorted(repair for _, repair in self._found)),
             hopeless,
@@ -127,28 +117,6 @@ class _Scanner:
         text = self._source.text
         self._code += (text[self._done : start], re.sub(r"[^\n]", " ", text[start:end]))
         self._done = end
-
-    def _comment(self, start: int, end: int) -> None:
-        if not _DOC_LINE.match(self._source.text, start):
-            return
-        if _starts_line(self._source.text, start):
-            self._doc_lines.append((start, end))
-        else:
-            self._report.report(
-                "unattached-doc-comment",
-                Span(self._source, start, end),
-                help="it documents what follows on the next line: move it before",
-            )
-
-    def _escapes(self, start: int, end: int) -> None:
-        for escape in _ESCAPE.finditer(self._source.text, start + 1, end - 1):
-            if escape[0] not in _ESCAPES:
-                self._report.report(
-                    "syntax-error",
-                    Span(self._source, *escape.span()),
-                    message=f"`{escape[0]}` means nothing in a text",
-                    help="write `\\\\` for `\\`",
-                )
 
     def _open_text(self, start: int, end: int) -> int:
         """A text without an end: its first word is likely in it. Return where it ends."""
@@ -250,36 +218,3 @@ def _too_deep(code: str) -> int | None:
         if depth > NESTING_LIMIT:
             return found.start()
     return None
-
-
-def _starts_line(text: str, offset: int) -> bool:
-    return not text[text.rfind("\n", 0, offset) + 1 : offset].strip()
-
-
-def _join(source: Source, lines: list[tuple[int, int]]) -> tuple[DocComment, ...]:
-    """Make one comment of lines that follow each other."""
-    text = source.text
-    groups: list[list[tuple[int, int]]] = []
-    for start, end in lines:
-        gap = text[groups[-1][-1][1] : start] if groups else "x"
-        if groups and not gap.strip() and gap.count("\n") == 1:
-            groups[-1].append((start, end))
-        else:
-            groups.append([(start, end)])
-    return tuple(
-        DocComment(
-            Span(source, group[0][0], group[-1][1]),
-            "\n".join(text[start:end].rstrip()[3:].removeprefix(" ") for start, end in group),
-            _next_token(text, group[-1][1]),
-        )
-        for group in groups
-    )
-
-
-_DOC_LINE = re.compile(r"///(?!/)")
-_BLANK = re.compile(r"(?:\s|//(?!/(?!/))[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)*")
-
-
-def _next_token(text: str, offset: int) -> int:
-    found = _BLANK.match(text, offset)
-    return found.end() if found else offset

@@ -1,13 +1,16 @@
 """Parses .swarm files: made from grammar/*.tx by `make parser`, not to be edited."""
 
 # mypy: ignore-errors
+from __future__ import annotations
+
 import re
 
 from swarmdsl.expression_parser import ExpressionParser, Language, TooDeepError
 from swarmdsl.expressions import unquoted
-from swarmdsl.source import Span
+from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
 
+GRAMMAR = 2103831784
 new_span = tuple.__new__
 new_word = str.__new__
 
@@ -1201,7 +1204,7 @@ PROGRAM = (
 )
 
 
-def parse(source, docs, limit):
+def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int] | None:
     """Parse a file to a model; None where it does not follow the grammar.
 
     With the model comes how many expressions are wrong: they have no trees. Documentation

@@ -6,21 +6,35 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from textx import GeneratorDesc, LanguageDesc, TextXError, TextXSemanticError
+from textx import (
+    GeneratorDesc,
+    LanguageDesc,
+    TextXError,
+    TextXSemanticError,
+    metamodel_from_file,
+)
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+from swarmdsl.resources import grammar
 
 if TYPE_CHECKING:
     from swarmdsl.project.settings import Settings
 
 
-def _metamodel(**_params: Any) -> Any:
-    from swarmdsl.parse import RECURSION_LIMIT, metamodel
+# Room for models as deep as scan.NESTING_LIMIT: textX recurses some thirty frames a level.
+_RECURSION_LIMIT = 20_000
 
-    # The parse is textX's here, out of reach: a deep model needs the room all the same.
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
-    # One of textX's own: with the check in it, ours could not parse without checking.
-    made = metamodel.__wrapped__()
+
+def metamodel() -> Any:
+    """The textX metamodel of the language; references stay unresolved."""
+    made = metamodel_from_file(str(grammar() / "swarm.tx"), autokwd=True)
+    made.register_scope_providers({"*.*": lambda _object, _attribute, reference: reference})
+    return made
+
+
+def _checking_metamodel(**_params: Any) -> Any:
+    sys.setrecursionlimit(max(sys.getrecursionlimit(), _RECURSION_LIMIT))
+    made = metamodel()
     made.register_model_processor(_check)
     return made
 
@@ -88,7 +102,9 @@ def _generator(target: str, description: str) -> GeneratorDesc:
     return GeneratorDesc("swarm", target, description, generate)
 
 
-swarm = LanguageDesc("swarm", "*.swarm", "Swarms of robots: members, behaviour", _metamodel)
+swarm = LanguageDesc(
+    "swarm", "*.swarm", "Swarms of robots: members, behaviour", _checking_metamodel
+)
 
 scxml = _generator("scxml", "SCXML documents of the state machines")
 adf = _generator("adf", "Abstraction description file of the functions")

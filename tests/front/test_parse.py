@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.source import Source
@@ -126,7 +128,7 @@ def test_what_surrounds_a_wrong_statement_is_kept() -> None:
 
     assert names == ["syntax-error", "syntax-error"]
     assert isinstance(machine, StateMachine)
-    assert [getattr(item, "name", "-") for item in machine.items] == ["-", "B", "C"]
+    assert [getattr(item, "name", "-") for item in machine.items] == ["-", "A", "B", "C"]
     assert result.damaged == {machine}
     assert "A" in result.lost_names
 
@@ -169,3 +171,11 @@ def test_the_package_and_imports_are_kept_too() -> None:
     assert result.model.package is not None
     assert result.model.package.name == "a.b"
     assert [str(statement.path) for statement in result.model.imports] == ["c.swarm", "d.swarm"]
+
+
+def test_whoever_changes_the_grammar_is_told_what_to_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("swarmdsl.swarm_parser.GRAMMAR", 0)
+
+    assert parsed("event A : B\n")[1] == []
+    with pytest.warns(UserWarning, match="make parser"):
+        parsed("event A B\n")

@@ -13,7 +13,6 @@ from lark.exceptions import UnexpectedInput
 from textx import TextXSyntaxError
 
 from swarmdsl.expressions import is_too_large, quantity_value, unquoted
-from swarmdsl.parse import metamodel
 from swarmdsl.peg.swarm import TARGET
 from swarmdsl.resources import grammar
 from swarmdsl.scan import NESTING_LIMIT
@@ -32,6 +31,7 @@ from swarmdsl.syntax import (
     Value,
     Word,
 )
+from swarmdsl.textx_entry import metamodel
 
 
 @dataclass
@@ -55,7 +55,7 @@ def parse(text: str) -> Expected | Refused:
     source = Source("model.swarm", text)
     sys.setrecursionlimit(20_000)  # textX takes some thirty frames a level
     try:
-        made = metamodel().model_from_str(text)
+        made = _metamodel().model_from_str(text)
     except TextXSyntaxError as error:
         rules = [rule for rule in error.expected_rules if rule.rule_name != "Comment"]
         expected = {
@@ -114,6 +114,11 @@ def expression_tree(span: Span) -> ExpressionTree | None:
     if _depth(tree) > NESTING_LIMIT or any(tree.scan_values(_is_too_large)):
         return None
     return _build(tree, span.source, span.start)
+
+
+@cache
+def _metamodel() -> Any:
+    return metamodel()
 
 
 @cache

@@ -64,7 +64,7 @@ def made(text: str) -> Any:
         name: make_dataclass(name, ["span", *attributes]) for name, attributes in nodes.items()
     }
     names |= {"re": re, "Span": Span, "Word": Word, "Ref": Ref, "TooDeepError": TooDeepError}
-    exec(source, names)
+    exec(f"from __future__ import annotations\n{source}", names)
     return names
 
 

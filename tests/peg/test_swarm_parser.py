@@ -196,8 +196,8 @@ def test_documentation_is_given_to_what_begins_there() -> None:
 
 def test_it_needs_neither_textx_nor_lark() -> None:
     code = (
-        "import sys; import swarmdsl.swarm_parser; "
-        "assert not {'textx', 'arpeggio'} & set(sys.modules)"
+        "import sys; import swarmdsl.parse; "
+        "assert not {'textx', 'arpeggio', 'lark'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 

@@ -48,7 +48,7 @@ class Target:
     words: Mapping[str, str]
     written: Mapping[str, str]
     begin: str = ""
-    result: str = "None"
+    result: str = "0"
 
 
 @dataclass

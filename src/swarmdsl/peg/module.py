@@ -21,7 +21,7 @@ PROGRAM = (
 )
 
 
-def parse(source, docs, limit):
+def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, int] | None:
     """Parse a file to a model; None where it does not follow the grammar.
 
     With the model comes how many expressions are wrong: they have no trees. Documentation

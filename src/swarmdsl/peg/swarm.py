@@ -10,6 +10,7 @@ import swarmdsl
 from swarmdsl.peg.emission import Target
 from swarmdsl.peg.grammar import read
 from swarmdsl.peg.module import definitions
+from swarmdsl.resources import grammar_checksum
 from swarmdsl.syntax import NODES, Documented
 
 PATH = Path(swarmdsl.__file__).with_name("swarm_parser.py")
@@ -36,13 +37,16 @@ _HEAD = '''\
 """Parses .swarm files: made from grammar/*.tx by `make parser`, not to be edited."""
 
 # mypy: ignore-errors
+from __future__ import annotations
+
 import re
 
 from swarmdsl.expression_parser import ExpressionParser, Language, TooDeepError
 from swarmdsl.expressions import unquoted
-from swarmdsl.source import Span
+from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, {classes}
 
+GRAMMAR = {checksum}
 {definitions}
 LANGUAGE = Language(TOKEN, BLANK, RESERVED)
 '''
@@ -51,4 +55,4 @@ LANGUAGE = Language(TOKEN, BLANK, RESERVED)
 def parser(metamodel: Any) -> str:
     """The source of the parser for a textX metamodel; raises UnsupportedError."""
     text, nodes = definitions(read(metamodel), TARGET)
-    return _HEAD.format(definitions=text, classes=", ".join(nodes))
+    return _HEAD.format(checksum=grammar_checksum(), definitions=text, classes=", ".join(nodes))
