@@ -51,6 +51,9 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Print what the tests with random mistakes have seen."""
     reports = terminalreporter.getreports("passed")
     figures = [dict(report.user_properties) for report in reports if report.when == "call"]
+    for each in figures:
+        if "figure" in each:
+            terminalreporter.write_line(str(each["figure"]))
     figures = [each for each in figures if "mutants" in each]
     if figures:
         checked = sum(each["mutants"] for each in figures)

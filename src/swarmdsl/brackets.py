@@ -199,7 +199,9 @@ class _Match:
         if before is None and self._code[at] != "{":  # it does not go on on the next line
             line = self._code.find("\n", at)
             end = min(end, len(self._code[: line if line >= 0 else end].rstrip()))
-        repair = Repair(end, end, CLOSER[self._code[at]])
+        # A brace gets a line of its own, or a parser would find it where something is missing.
+        closer = "\n}" if self._code[at] == "{" else CLOSER[self._code[at]]
+        repair = Repair(end, end, closer)
         self.faults.append(Fault("unclosed", at, repair, before=before))
 
     def _extra(self, at: int) -> int:

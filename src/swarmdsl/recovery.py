@@ -157,7 +157,7 @@ class _Recovery:
                 return result
             silent = Diagnostics()
             at = report_syntax_error(result, source, draft, silent)
-            statement = statement_at(draft.text, at)
+            statement = statement_at(draft.text, _in_statement(draft.text, at))
             span = draft.origins[statement.start], draft.origins[statement.header]
             mended = None
             if span[0] not in failed:
@@ -193,6 +193,16 @@ class _Recovery:
 
     def _lose_names(self, text: str) -> None:
         self._parsed.lost_names.update(_IDENTIFIER.findall(text))
+
+
+def _in_statement(text: str, at: int) -> int:
+    """An offset in the statement that a complaint at `at` is about.
+
+    A closing brace is of the block around it: what is wrong is what it ends.
+    """
+    before = text[:at].rstrip()
+    ended = text[at : at + 1] == "}" and before and before[-1] not in "{}"
+    return len(before) - 1 if ended else at
 
 
 def _unnamed(model: Model) -> Iterator[str]:

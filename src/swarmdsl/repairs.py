@@ -45,8 +45,8 @@ _MOST_PLACEHOLDERS = 6
 class Mended:
     """A text in which a statement can be read again.
 
-    `whole` if nothing of its meaning was left open, `guessed` if one keyword was chosen of
-    several; `help` is how to write what was written otherwise.
+    `whole` if nothing of its meaning was left open, `guessed` if the keyword it begins with
+    was chosen of several; `help` is how to write what was written otherwise.
     """
 
     draft: Draft
@@ -137,7 +137,7 @@ def _cut(header: Draft, failure: Failure, attempt: _Attempt) -> Mended | None:
         for word in missing:
             changed = header.repaired(Repair(at, at, f" {word}"))
             after = attempt(changed)
-            guess = guessed or (word.isalpha() and len(missing) > 1)
+            guess = guessed or (at == 0 and word.isalpha() and len(missing) > 1)
             if after is None:
                 return Mended(changed, whole=False, guessed=guess)
             tried.append((after.at - len(changed.text), changed, guess))
@@ -173,7 +173,8 @@ def _changes(text: str, failure: Failure) -> Iterator[_Change]:
         if not found[0][0].isalnum():
             yield _Change(Repair(at, found.end(), " " * len(found[0])), found[0] in ";,")
     missing = _missing(failure)
-    keyword_guess = sum(word.isalpha() for word in missing) > 1
+    # The keyword that a statement begins with says what it is.
+    keyword_guess = at == 0 and sum(word.isalpha() for word in missing) > 1
     for word in missing:
         sure = f"`{word}`" in _SYMBOLS and f"`{word}`" not in _OPENING
         advice = f"write `{word}` before `{found[0]}`" if found and sure else None
