@@ -77,6 +77,8 @@ def foreign(expected: set[str], text: str, at: int) -> str | None:
         return "arguments stand in parentheses"
     if text[at] == "=" and "`:`" in expected:
         return "a type stands before the value: `name : type = value`"
+    if text[:at].rstrip().endswith(","):
+        return "delete the `,` before it"
     if re.compile(r"0[xXbB]").match(text, at):
         return "numbers are decimal"
     if begins and "`state`" in expected and re.compile(r"[A-Za-z_]\w*\s*\{").match(text, at):

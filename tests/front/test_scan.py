@@ -121,7 +121,7 @@ def test_what_documentation_stands_before() -> None:
 @pytest.mark.parametrize(
     ("text", "repaired"),
     [
-        ("m {\n  a {\n    x\n  b {\n    y\n  }\n}\n", "m {\n  a {\n    x\n}\n  b {\n    y\n  }\n}\n"),
+        ("m {\n  a {\n    x\n  b {\n  }\n}\n", "m {\n  a {\n    x\n}\n  b {\n  }\n}\n"),
         ("m {\n  a\n    x\n  }\n}\n", "m {\n  a {\n    x\n  }\n}\n"),
         ("a {\n  b } }\n} c", "a {\n  b }  \n  c"),
         ("a [ b -> c", "a [ b] -> c"),
