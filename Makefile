@@ -33,8 +33,9 @@ fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
 
-bench: $(READY) ## Measure the phases on large models.
+bench: $(READY) ## Measure the phases on large models, and the engine.
 	$(BIN)/python benchmarks/bench.py
+	$(BIN)/python benchmarks/engine.py
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
 	$(BIN)/pytest -q tests/front/test_mutations.py tests/peg --mutants $(MUTANTS)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 if TYPE_CHECKING:
     from .activity import Run, Timer
@@ -45,8 +45,7 @@ class Kind(Enum):
     DEEP_HISTORY = "deep history"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Transition:
+class Transition(NamedTuple):
     """From the state that holds it to `targets`, ids; it leads nowhere without them.
 
     `events` are names of events, any of which triggers it: `a.b` itself, `a.b.*` also all that
@@ -78,8 +77,7 @@ class Activity:
     finalize: Effect | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class State:
+class State(NamedTuple):
     """A state and what is inside it.
 
     `initial` leads to what is entered with a state that has children: ids, or a transition with
@@ -118,10 +116,7 @@ class Edge:
         self.table = table
         self.guard = table.guard
         self.exact = table.events
-        self.prefixes: tuple[str, ...] = ()
-        for name in table.events:
-            if name.endswith("*"):
-                self.prefixes += (name[:-1],)
+        self.prefixes = [name[:-1] for name in table.events if name[-1] == "*"]
 
     def matches(self, name: str) -> bool:
         """Whether an event of that name triggers it; the empty name stands for no event."""
@@ -203,12 +198,12 @@ class Machine:
             self.entries[number] = self._edge(self.parents[number], state.transitions[0], state)
             return
         if state.transitions:
-            self.edges[number] = tuple(self._edge(number, t, state) for t in state.transitions)
-            if any(not each.events for each in state.transitions):
+            self.edges[number] = tuple([self._edge(number, t, state) for t in state.transitions])
+            if not all(each.events for each in state.transitions):
                 self.eventless |= 1 << number
         if self.children[number] and state.kind is not Kind.PARALLEL:
             initial = state.initial or (self.states[self.children[number][0]].id,)
-            if isinstance(initial, tuple):
+            if not isinstance(initial, Transition):
                 initial = Transition(targets=initial)
             edge = self._edge(number, initial, state)
             for target in edge.targets:

@@ -18,8 +18,10 @@ def read(source: Source, report: Diagnostics) -> Machine | None:
     """The machine of a document; None when something is wrong with it, which has been reported."""
     found = Diagnostics()
     document = parse(source, found)
+    made = None
     if document is not None:
         check(document, found)
-    made = machine(document, found) if document is not None and not found.has_errors else None
+        if not found.has_errors:
+            made = machine(document, found)
     report.include(found)
     return made if not found.has_errors else None

@@ -9,7 +9,7 @@ from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.runtime import Effect, Event, ExecutionError, Guard, Instance
-from swarmdsl.scxml.document import SCXML, Document, Element, children
+from swarmdsl.scxml.document import Document, Node
 from swarmdsl.scxml.ecmascript import Unreadable, Value, location, read
 from swarmdsl.scxml.values import text, truth
 
@@ -20,12 +20,6 @@ _UNITS["d"] = 24 * _UNITS["h"]
 _HERE = ("", "#_scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor", "scxml")
 
 Data = Callable[[Instance, Event], Any]
-
-
-def get(element: Element, name: str) -> str | None:
-    """An attribute, with or without the namespace of SCXML."""
-    value = element.get(name)
-    return value if value is not None else element.get(f"{{{SCXML}}}{name}")
 
 
 def delay_of(written: str) -> int | None:
@@ -41,51 +35,53 @@ class Content:
         self.document = document
         self.report = report
 
-    def block(self, element: Element) -> Effect | None:
+    def block(self, node: Node) -> Effect | None:
         """What the elements inside of one do, in order, until one fails."""
-        return _all_of([self._effect(name, child) for name, child in children(element)])
+        if not node.children:
+            return None
+        return _all_of([self._effect(child) for child in node.children])
 
-    def guard(self, element: Element) -> Guard | None:
+    def guard(self, node: Node) -> Guard | None:
         """The condition of an element."""
-        value = self.expression(element, "cond")
+        value = self.expression(node, "cond")
         if value is None:
             return None
         return lambda instance, event: truth(value(instance, event, {}))
 
-    def expression(self, element: Element, attribute: str) -> Value | None:
+    def expression(self, node: Node, attribute: str) -> Value | None:
         """The value of an attribute that is an expression; None where there is none."""
-        written = get(element, attribute)
+        written = node.get(attribute)
         if written is None:
             return None
         try:
             return read(written)
         except Unreadable as error:
             self.report.report(
-                "bad-expression", self.document.at(element, attribute), reason=str(error)
+                "bad-expression", self.document.at(node, attribute), reason=str(error)
             )
             return None
 
-    def data(self, element: Element) -> Data | None:
+    def data(self, node: Node) -> Data | None:
         """What the `<param>`s, the `<content>` or the names of an element give an event."""
         fields: list[tuple[str, Value]] = []
-        for name in (get(element, "namelist") or "").split():
-            fields.append((name, self._read(name, element, "namelist")))
-        for tag, child in children(element):
-            if tag == "content":
+        for name in (node.get("namelist") or "").split():
+            fields.append((name, self._read(name, node, "namelist")))
+        for child in node.children:
+            if child.name == "content":
                 value = self.value(child)
                 return lambda instance, event: value(instance, event, {})
-            attribute = "location" if get(child, "location") is not None else "expr"
+            attribute = "location" if child.get("location") is not None else "expr"
             found = self.expression(child, attribute)
-            fields.append((get(child, "name") or "", found or nothing))
+            fields.append((child.get("name") or "", found or nothing))
         if not fields:
             return None
         return lambda instance, event: {key: v(instance, event, {}) for key, v in fields}
 
-    def value(self, element: Element) -> Value:
+    def value(self, node: Node) -> Value:
         """What `expr` says, or else the text of the element: an expression, or just a text."""
-        if get(element, "expr") is not None:
-            return self.expression(element, "expr") or nothing
-        written = (element.text or "").strip()
+        if node.get("expr") is not None:
+            return self.expression(node, "expr") or nothing
+        written = node.text.strip()
         if not written:
             return nothing
         try:
@@ -93,51 +89,51 @@ class Content:
         except Unreadable:
             return lambda instance, event, names: " ".join(written.split())
 
-    def _read(self, written: str, element: Element, attribute: str) -> Value:
+    def _read(self, written: str, node: Node, attribute: str) -> Value:
         try:
             return read(written)
         except Unreadable as error:
-            place = self.document.at(element, attribute, written)
+            place = self.document.at(node, attribute, written)
             self.report.report("bad-expression", place, reason=str(error))
             return nothing
 
-    def _effect(self, name: str, element: Element) -> Effect | None:
-        match name:
+    def _effect(self, node: Node) -> Effect | None:
+        match node.name:
             case "raise":
-                event = Event(get(element, "event") or "")
+                event = Event(node.get("event") or "")
                 return lambda instance, _: instance.raise_event(event)
             case "assign":
-                return self._assign(element)
+                return self._assign(node)
             case "if":
-                return self._if(element)
+                return self._if(node)
             case "log":
-                return self._log(element)
+                return self._log(node)
             case "send":
-                return self._send(element)
+                return self._send(node)
             case "cancel":
-                sendid = self._text(element, "sendid")
+                sendid = self._text(node, "sendid")
                 return lambda instance, event: instance.cancel(sendid(instance, event))
         return None
 
-    def _assign(self, element: Element) -> Effect | None:
-        value = self.value(element)
+    def _assign(self, node: Node) -> Effect | None:
+        value = self.value(node)
         try:
-            store = location(get(element, "location") or "")
+            store = location(node.get("location") or "")
         except Unreadable as error:
-            place = self.document.at(element, "location")
+            place = self.document.at(node, "location")
             self.report.report("bad-expression", place, reason=str(error))
             return None
         return lambda instance, event: store(instance, event, value(instance, event, {}))
 
-    def _if(self, element: Element) -> Effect:
-        branches: list[tuple[Guard | None, list[Effect | None]]] = [(self.guard(element), [])]
-        for name, child in children(element):
-            if name == "elseif":
+    def _if(self, node: Node) -> Effect:
+        branches: list[tuple[Guard | None, list[Effect | None]]] = [(self.guard(node), [])]
+        for child in node.children:
+            if child.name == "elseif":
                 branches.append((self.guard(child), []))
-            elif name == "else":
+            elif child.name == "else":
                 branches.append((None, []))
             else:
-                branches[-1][1].append(self._effect(name, child))
+                branches[-1][1].append(self._effect(child))
         made = [(guard, _all_of(effects)) for guard, effects in branches]
 
         def choose(instance: Instance, event: Event) -> None:
@@ -149,9 +145,9 @@ class Content:
 
         return choose
 
-    def _log(self, element: Element) -> Effect:
-        label = get(element, "label")
-        value = self.expression(element, "expr")
+    def _log(self, node: Node) -> Effect:
+        label = node.get("label")
+        value = self.expression(node, "expr")
 
         def log(instance: Instance, event: Event) -> None:
             words = [label] if label is not None else []
@@ -162,13 +158,13 @@ class Content:
 
         return log
 
-    def _send(self, element: Element) -> Effect:
-        name = self._text(element, "event")
-        target = self._text(element, "target")
-        kind = self._text(element, "type")
-        sendid = self._text(element, "id")
-        data = self.data(element)
-        delay = self._delay(element)
+    def _send(self, node: Node) -> Effect:
+        name = self._text(node, "event")
+        target = self._text(node, "target")
+        kind = self._text(node, "type")
+        sendid = self._text(node, "id")
+        data = self.data(node)
+        delay = self._delay(node)
 
         def send(instance: Instance, event: Event) -> None:
             named = name(instance, event)
@@ -188,17 +184,17 @@ class Content:
 
         return send
 
-    def _delay(self, element: Element) -> Callable[[Instance, Event], int] | None:
-        written = get(element, "delay")
+    def _delay(self, node: Node) -> Callable[[Instance, Event], int] | None:
+        written = node.get("delay")
         if written is not None:
             length = delay_of(written)
             if length is None:
-                place = self.document.at(element, "delay")
+                place = self.document.at(node, "delay")
                 values = "a number with `s` or `ms` behind it"
                 self.report.report("bad-value", place, name="delay", values=values)
                 return None
             return lambda instance, event: length
-        value = self.expression(element, "delayexpr")
+        value = self.expression(node, "delayexpr")
         if value is None:
             return None
 
@@ -211,10 +207,10 @@ class Content:
 
         return computed
 
-    def _text(self, element: Element, attribute: str) -> Callable[[Instance, Event], str]:
+    def _text(self, node: Node, attribute: str) -> Callable[[Instance, Event], str]:
         """A text that is given by an attribute, or computed by the one with `expr` behind."""
-        written = get(element, attribute) or ""
-        value = self.expression(element, f"{attribute}expr")
+        written = node.get(attribute) or ""
+        value = self.expression(node, f"{attribute}expr")
         if value is None:
             return lambda instance, event: written
         return lambda instance, event: text(value(instance, event, {}))

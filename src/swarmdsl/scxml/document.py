@@ -3,33 +3,66 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from functools import cached_property
+from collections.abc import Iterator, Sequence
 from xml.parsers import expat
-
-from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
 SCXML = "http://www.w3.org/2005/07/scxml"
-Element = etree._Element
 
 _ATTRIBUTE = re.compile(r"""\s+([^\s=/>]+)\s*=\s*("[^"]*"|'[^']*')""")
+_NAME = re.compile(r"[^\s/>]+")
+_DOCTYPE = "<!DOCTYPE"
+_DEEPEST = 250
+
+
+class Node:
+    """An element: its name and attributes without the namespace of SCXML, and what is in it.
+
+    `children` are those of SCXML and `ours` those of swarmdsl, once the vocabulary has been
+    checked. Attributes in other namespaces are left out.
+    """
+
+    __slots__ = (
+        *("attributes", "children", "get", "line", "name", "namespace", "ours", "parent"),
+        *("start", "text"),
+    )
+
+    def __init__(
+        self, qualified: str, attributes: dict[str, str], parent: Node | None, start: int, line: int
+    ) -> None:
+        self.namespace, _, self.name = qualified.rpartition("}")
+        self.attributes = attributes
+        self.get = attributes.get
+        self.parent = parent
+        self.start = start
+        self.line = line
+        self.text = ""
+        self.children: list[Node] = []
+        self.ours: Sequence[Node] = ()
+
+    def walk(self) -> Iterator[Node]:
+        """Yield the node and all inside it, in document order."""
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting += reversed(node.children)
 
 
 class Document:
-    """The elements of a file, without comments and processing instructions."""
+    """A file and its outermost element."""
 
-    def __init__(self, source: Source, root: Element) -> None:
+    def __init__(self, source: Source, root: Node) -> None:
         self.source = source
         self.root = root
 
-    def at(self, element: Element, attribute: str = "", word: str = "") -> Span:
+    def at(self, node: Node, attribute: str = "", word: str = "") -> Span:
         """The name of an element, or the value of its attribute, or a word of that."""
         text = self.source.text
-        start = self._starts[element] + 1
-        named = re.compile(r"[^\s/>]+").match(text, start)
+        start = _characters(text, node.start) + 1
+        named = _NAME.match(text, start)
         assert named is not None
         end = named.end()
         given = _ATTRIBUTE.match(text, end) if attribute else None
@@ -41,22 +74,6 @@ class Document:
             given = _ATTRIBUTE.match(text, given.end())
         return Span(self.source, named.start(), end)
 
-    @cached_property
-    def _starts(self) -> dict[Element, int]:
-        """Where each element begins: lxml knows lines only."""
-        data = self.source.text.encode("utf-8")
-        found: list[int] = []
-        parser = expat.ParserCreate("utf-8")
-        parser.StartElementHandler = lambda *_: found.append(parser.CurrentByteIndex)
-        parser.Parse(data, True)
-        starts: dict[Element, int] = {}
-        offset = characters = 0
-        for element, start in zip(self.root.iter(), found, strict=True):
-            characters += len(data[offset:start].decode("utf-8"))
-            offset = start
-            starts[element] = characters
-        return starts
-
 
 def parse(source: Source, report: Diagnostics) -> Document | None:
     """Parse a file; None when it is no SCXML, which has been reported then.
@@ -64,69 +81,93 @@ def parse(source: Source, report: Diagnostics) -> Document | None:
     A document type could define entities, which grow beyond all bounds or stand for other
     files: there must be none.
     """
-    prolog = _prolog_end(source.text)
-    if source.text.startswith("<!DOCTYPE", prolog):
-        place = Span(source, prolog, prolog + len("<!DOCTYPE"))
+    builder = _Builder()
+    parser = builder.parser
+    try:
+        parser.Parse(source.text.encode("utf-8"), True)
+    except _DocumentType:
+        # Comments before it may speak of document types, but nothing comes between.
+        end = _characters(source.text, builder.reached) + len(_DOCTYPE)
+        start = source.text.rfind(_DOCTYPE, 0, end)
+        place = Span(source, start, start + len(_DOCTYPE))
         report.report("xml-document-type", place, help="remove it: SCXML needs none")
         return None
-    parser = etree.XMLParser(
-        encoding="utf-8",
-        resolve_entities=False,
-        no_network=True,
-        load_dtd=False,
-        remove_comments=True,
-        remove_pis=True,
-    )
-    try:
-        root = etree.fromstring(source.text.encode("utf-8"), parser)
-    except etree.XMLSyntaxError as error:
-        report.report("not-xml", _place(source, error), reason=_reason(error))
+    except _TooDeep:
+        start = _characters(source.text, builder.reached)
+        reason = f"more than {_DEEPEST} elements stand in each other"
+        report.report("not-xml", Span(source, start, start + 1), reason=reason)
         return None
-    document = Document(source, root)
-    if root.tag != f"{{{SCXML}}}scxml":
+    except expat.ExpatError as error:
+        start = min(_characters(source.text, parser.ErrorByteIndex), len(source.text))
+        place = Span(source, start, min(start + 1, len(source.text)))
+        report.report("not-xml", place, reason=expat.ErrorString(error.code))
+        return None
+    assert builder.root is not None
+    document = Document(source, builder.root)
+    if (builder.root.namespace, builder.root.name) != (SCXML, "scxml"):
         report.report(
             "not-scxml",
-            document.at(root),
-            name=etree.QName(root).localname,
+            document.at(builder.root),
+            name=builder.root.name,
             help=f'it begins with `<scxml xmlns="{SCXML}" version="1.0">`',
         )
         return None
     return document
 
 
-def children(element: Element) -> Iterator[tuple[str, Element]]:
-    """The SCXML elements directly inside one, with their names."""
-    for child in element:
-        namespace, _, name = child.tag.rpartition("}")
-        if namespace[1:] == SCXML:
-            yield name, child
+class _DocumentType(Exception):  # noqa: N818 - it only ends the parser
+    """There is a document type."""
 
 
-def _prolog_end(text: str) -> int:
-    """Where the declaration, comments and instructions at the beginning of a file end."""
-    at = 0
-    while True:
-        at += len(text[at:]) - len(text[at:].lstrip("\ufeff \t\r\n"))
-        for opening, closing in (("<?", "?>"), ("<!--", "-->")):
-            if text.startswith(opening, at):
-                end = text.find(closing, at)
-                if end < 0:
-                    return at
-                at = end + len(closing)
-                break
+class _TooDeep(Exception):  # noqa: N818 - it only ends the parser
+    """Elements stand in each other without end."""
+
+
+class _Builder:
+    """Builds the nodes of one file."""
+
+    def __init__(self) -> None:
+        self.root: Node | None = None
+        self.inside: list[Node] = []
+        self.reached = 0
+        self.parser = parser = expat.ParserCreate("utf-8", "}")
+        parser.buffer_text = True
+        parser.StartElementHandler = self.start
+        parser.EndElementHandler = self.end
+        parser.CharacterDataHandler = self.add_text
+        parser.StartDoctypeDeclHandler = self.refuse
+
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        parent = self.inside[-1] if self.inside else None
+        if "}" in "".join(attributes):
+            attributes = {
+                each.rpartition("}")[2]: value
+                for each, value in attributes.items()
+                if "}" not in each or each.startswith(f"{SCXML}}}")
+            }
+        parser = self.parser
+        node = Node(name, attributes, parent, parser.CurrentByteIndex, parser.CurrentLineNumber)
+        if parent is None:
+            self.root = node
         else:
-            return at
+            parent.children.append(node)
+        self.inside.append(node)
+        if len(self.inside) > _DEEPEST:
+            self.reached = parser.CurrentByteIndex
+            raise _TooDeep
+
+    def end(self, name: str) -> None:
+        self.inside.pop()
+
+    def add_text(self, text: str) -> None:
+        if not text.isspace():
+            self.inside[-1].text += text
+
+    def refuse(self, *declared: object) -> None:
+        self.reached = self.parser.CurrentByteIndex
+        raise _DocumentType
 
 
-def _place(source: Source, error: etree.XMLSyntaxError) -> Span:
-    line, column = error.position
-    starts = source.line_starts
-    start = starts[min(max(line, 1), len(starts)) - 1] + max(column - 1, 0)
-    start = min(start, max(len(source.text) - 1, 0))
-    return Span(source, start, min(start + 1, len(source.text)))
-
-
-def _reason(error: etree.XMLSyntaxError) -> str:
-    """What lxml says, without the place at its end."""
-    text = re.sub(r",? line \d+, column \d+.*", "", str(error.msg or "it is empty"))
-    return text[:1].lower() + text[1:]
+def _characters(text: str, offset: int) -> int:
+    """An offset in the bytes of a text as one in its characters."""
+    return offset if text.isascii() else len(text.encode("utf-8")[:offset].decode("utf-8"))

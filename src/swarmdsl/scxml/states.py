@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics, Label
@@ -16,10 +17,9 @@ from swarmdsl.runtime import (
     TableError,
     Transition,
 )
-from swarmdsl.scxml.content import Content, get, nothing
-from swarmdsl.scxml.document import SCXML, Document, Element, children
+from swarmdsl.scxml.content import Content, nothing
+from swarmdsl.scxml.document import Document, Node
 from swarmdsl.scxml.ecmascript import Value
-from swarmdsl.scxml.vocabulary import OURS
 from swarmdsl.suggest import suggest
 
 _KINDS = {"parallel": Kind.PARALLEL, "final": Kind.FINAL}
@@ -28,20 +28,21 @@ _OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
 def machine(document: Document, report: Diagnostics) -> Machine | None:
-    """The machine of a document of known elements; None when something is wrong with it."""
-    reader = _Reader(document, report)
+    """The machine of a document; None when something is wrong with it."""
     root = document.root
+    reader = _Reader(document, report)
     if not reader.ids:
-        report.report("illegal-structure", document.at(root), fault="the document has no state")
+        fault = "the document has no state"
+        report.report("illegal-structure", document.at(root), fault=fault)
         return None
     variables = reader.variables()
-    states = [reader.state(n, e) for n, e in children(root) if n in _VERTICES]
+    states = [reader.state(each) for each in root.children if each.name in _VERTICES]
     initial = reader.initial(root)
     if report.has_errors:
         return None
     try:
         return Machine(
-            get(root, "name") or "scxml",
+            root.get("name") or "scxml",
             states,
             initial,
             data=lambda: dict.fromkeys(variables),
@@ -58,68 +59,74 @@ class _Reader:
 
     def __init__(self, document: Document, report: Diagnostics) -> None:
         self.document = document
+        self.nodes = list(document.root.walk())
         self.report = report
         self.content = Content(document, report)
-        self.ids: dict[str, Element] = {}
-        self.names: dict[Element, str] = {}
-        unnamed: list[Element] = []
-        for element in document.root.iter(*(f"{{{SCXML}}}{tag}" for tag in _VERTICES)):
-            id_ = get(element, "id")
-            if id_ is None:
-                unnamed.append(element)
+        self.ids: dict[str, Node] = {}
+        self.names: dict[Node, str] = {}
+        unnamed: list[Node] = []
+        for node in self.nodes:
+            if node.name not in _VERTICES:
                 continue
-            self.names[element] = id_
+            id_ = node.get("id")
+            if id_ is None:
+                unnamed.append(node)
+                continue
+            self.names[node] = id_
             if id_ in self.ids:
                 report.report(
                     "duplicate-id",
-                    document.at(element, "id"),
+                    document.at(node, "id"),
                     name=id_,
                     related=(Label(document.at(self.ids[id_], "id"), "the first one"),),
                 )
             else:
-                self.ids[id_] = element
-        for number, element in enumerate(unnamed, 1):
+                self.ids[id_] = node
+        for number, node in enumerate(unnamed, 1):
             # No id has a space in it.
-            self.names[element] = f"state {number}"
-            self.ids[self.names[element]] = element
+            self.names[node] = f"state {number}"
+            self.ids[self.names[node]] = node
         self.servers = {
-            element.get("name"): element.get("server", "")
-            for element in document.root.iterchildren(f"{{{OURS}}}function")
+            each.get("name"): each.get("server", "")
+            for each in document.root.ours
+            if each.name == "function"
         }
 
     def variables(self) -> dict[str, Value]:
         """The ids of all data, and how each gets its first value."""
-        found: dict[str, Element] = {}
+        found: dict[str, Node] = {}
         values: dict[str, Value] = {}
-        if get(self.document.root, "binding") == "late":
+        if self.document.root.get("binding") == "late":
             place = self.document.at(self.document.root, "binding")
             self.report.report("bad-value", place, name="binding", values="`early`")
-        for element in self.document.root.iter(f"{{{SCXML}}}data"):
-            name = get(element, "id") or ""
+        for node in self.nodes:
+            if node.name != "data":
+                continue
+            name = node.get("id") or ""
             if name in found:
                 self.report.report(
                     "duplicate-id",
-                    self.document.at(element, "id"),
+                    self.document.at(node, "id"),
                     name=name,
                     related=(Label(self.document.at(found[name], "id"), "the first one"),),
                 )
-            elif get(element, "src") is not None:
-                place = self.document.at(element, "src")
+            elif node.get("src") is not None:
+                place = self.document.at(node, "src")
                 reason = "other files are not read"
                 self.report.report("not-understood", place, name="src", reason=reason)
-            found.setdefault(name, element)
-            values[name] = self.content.value(element)
+            found.setdefault(name, node)
+            values[name] = self.content.value(node)
         return values
 
-    def state(self, name: str, element: Element) -> State:
+    def state(self, node: Node) -> State:
         """A state and what is in it."""
-        id_ = self.names[element]
+        id_, name = self.names[node], node.name
         if name == "history":
-            depth = get(element, "type") or "shallow"
+            depth = node.get("type") or "shallow"
             if depth not in ("shallow", "deep"):
-                place = self.document.at(element, "type")
+                place = self.document.at(node, "type")
                 self.report.report("bad-value", place, name="type", values="`shallow` or `deep`")
-            default = self._only_transition(element)
+            default = self._only_transition(node)
             kind = Kind.DEEP_HISTORY if depth == "deep" else Kind.HISTORY
             return State(id_, kind, transitions=(default,) if default is not None else ())
         states: list[State] = []
@@ -127,9 +134,10 @@ class _Reader:
         entry: list[Effect] = []
         leave: list[Effect] = []
         donedata = None
-        for tag, child in children(element):
+        for child in node.children:
+            tag = child.name
             if tag in _VERTICES:
-                states.append(self.state(tag, child))
+                states.append(self.state(child))
             elif tag == "transition":
                 transitions.append(self.transition(child))
             elif tag in ("onentry", "onexit"):
@@ -142,76 +150,75 @@ class _Reader:
             id_,
             _KINDS.get(name, Kind.STATE),
             tuple(states),
-            self.initial(element) if name == "state" else (),
+            self.initial(node) if name == "state" else (),
             tuple(transitions),
             tuple(entry),
             tuple(leave),
-            self._activity(id_, element),
+            self._activity(id_, node.ours) if node.ours else None,
             donedata,
-            element.sourceline,
+            node.line,
         )
 
-    def initial(self, element: Element) -> Transition | tuple[str, ...]:
+    def initial(self, node: Node) -> Transition | tuple[str, ...]:
         """What is entered with a state: what it says, or nothing for its first child."""
-        inner = element.find(f"{{{SCXML}}}initial")
+        inner = next((each for each in node.children if each.name == "initial"), None)
         if inner is None:
-            targets = self._targets(element, "initial")
-            self._check_inside(element, element, "initial", targets)
+            targets = self._targets(node, "initial")
+            self._check_inside(node, node, "initial", targets)
             return targets
-        if get(element, "initial") is not None:
-            place = self.document.at(element, "initial")
+        if node.get("initial") is not None:
+            place = self.document.at(node, "initial")
             fault = "what is entered first is said twice"
             self.report.report("illegal-structure", place, fault=fault)
         found = self._only_transition(inner)
         if found is None:
             return ()
-        self._check_inside(element, inner[0], "target", found.targets)
+        self._check_inside(node, inner.children[0], "target", found.targets)
         return found
 
-    def transition(self, element: Element) -> Transition:
+    def transition(self, node: Node) -> Transition:
         """A transition of a state."""
-        event = get(element, "event")
-        if event is None and get(element, "cond") is None and get(element, "target") is None:
+        event = node.get("event")
+        if event is None and node.get("cond") is None and node.get("target") is None:
             fault = "a transition without event, condition and target is always taken again"
-            self.report.report("illegal-structure", self.document.at(element), fault=fault)
-        kind = get(element, "type") or "external"
+            self.report.report("illegal-structure", self.document.at(node), fault=fault)
+        kind = node.get("type") or "external"
         if kind not in ("external", "internal"):
-            place = self.document.at(element, "type")
+            place = self.document.at(node, "type")
             self.report.report("bad-value", place, name="type", values="`external` or `internal`")
         return Transition(
             tuple([_pattern(word) for word in event.split()]) if event is not None else (),
-            self._targets(element, "target"),
-            self.content.guard(element),
-            self.content.block(element),
+            self._targets(node, "target"),
+            self.content.guard(node),
+            self.content.block(node),
             kind == "internal",
-            element.sourceline,
+            node.line,
         )
 
-    def _only_transition(self, element: Element) -> Transition | None:
+    def _only_transition(self, node: Node) -> Transition | None:
         """The transition of a history or an initial element: it has a target, and no more."""
-        found = [child for name, child in children(element) if name == "transition"]
+        found = [child for child in node.children if child.name == "transition"]
         if len(found) != 1:
-            place = self.document.at(found[1] if found else element)
-            fault = f"`<{_tag(element)}>` has one transition"
+            place = self.document.at(found[1] if found else node)
+            fault = f"`<{node.name}>` has one transition"
             self.report.report("illegal-structure", place, fault=fault)
             return None
         for attribute in ("event", "cond"):
-            if get(found[0], attribute) is not None:
+            if found[0].get(attribute) is not None:
                 place = self.document.at(found[0], attribute)
-                fault = f"the transition of `<{_tag(element)}>` is always taken"
+                fault = f"the transition of `<{node.name}>` is always taken"
                 self.report.report("illegal-structure", place, fault=fault)
         targets = self._targets(found[0], "target")
-        if get(found[0], "target") is None:
+        if found[0].get("target") is None:
             place = self.document.at(found[0])
             self.report.report("missing-attribute", place, element="transition", name="target")
-        if _tag(element) == "history":
-            around = element.getparent()
-            assert around is not None
-            self._check_inside(around, found[0], "target", targets)
+        if node.name == "history":
+            assert node.parent is not None
+            self._check_inside(node.parent, found[0], "target", targets)
         return Transition(targets=targets, effect=self.content.block(found[0]))
 
-    def _targets(self, element: Element, attribute: str) -> tuple[str, ...]:
-        written = get(element, attribute)
+    def _targets(self, node: Node, attribute: str) -> tuple[str, ...]:
+        written = node.get(attribute)
         if written is None:
             return ()
         targets = tuple(written.split())
@@ -219,32 +226,37 @@ class _Reader:
             if target not in self.ids:
                 self.report.report(
                     "unknown-state",
-                    self.document.at(element, attribute, target),
+                    self.document.at(node, attribute, target),
                     name=target,
                     help=suggest(target, self.ids, "states"),
                 )
         return targets
 
     def _check_inside(
-        self, around: Element, element: Element, attribute: str, targets: tuple[str, ...]
+        self, around: Node, node: Node, attribute: str, targets: tuple[str, ...]
     ) -> None:
         for target in targets:
-            found = self.ids.get(target)
-            if found is not None and all(above is not around for above in found.iterancestors()):
-                place = self.document.at(element, attribute, target)
-                name = self.names.get(around, _tag(around))
+            if target not in self.ids:
+                continue
+            above = self.ids[target].parent
+            while above is not None and above is not around:
+                above = above.parent
+            if above is None:
+                place = self.document.at(node, attribute, target)
+                name = self.names.get(around, around.name)
                 self.report.report(
                     "illegal-structure", place, fault=f"`{target}` is not in `{name}`"
                 )
 
-    def _activity(self, id_: str, element: Element) -> Activity | None:
-        """What swarmdsl wrote about the activity of a state."""
-        found = element.find(f"{{{OURS}}}activity")
+    def _activity(self, id_: str, about: Sequence[Node]) -> Activity | None:
+        """What swarmdsl wrote about the activity of a state, if it has one."""
+        found = next((each for each in about if each.name == "activity"), None)
         if found is None:
             return None
         fields = [
             (each.get("field", ""), self.content.expression(each, "expr"))
-            for each in found.iterfind(f"{{{OURS}}}goal/{{{OURS}}}argument")
+            for each in found.walk()
+            if each.name == "argument"
         ]
 
         def goal(instance: Instance) -> dict[str, Any]:
@@ -271,7 +283,3 @@ def _first_value(name: str, value: Value) -> Effect:
         instance.data[name] = value(instance, event, {})
 
     return store
-
-
-def _tag(element: Element) -> str:
-    return str(element.tag).rpartition("}")[2]

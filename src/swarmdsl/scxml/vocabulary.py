@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from lxml import etree
-
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.scxml.document import SCXML, Document, Element
+from swarmdsl.scxml.document import SCXML, Document, Node
 from swarmdsl.suggest import did_you_mean
 
 OURS = "urn:swarmdsl:scxml"
@@ -68,70 +66,80 @@ _NOT_RUN = {
 
 
 def check(document: Document, report: Diagnostics) -> None:
-    """Report what is no SCXML, and what is but is not understood."""
-    foreign: set[str] = set()
+    """Report what is no SCXML, and what is but is not understood; leave it out."""
+    foreign = {OURS}
     waiting = [document.root]
     while waiting:
-        element = waiting.pop()
-        name = element.tag.rpartition("}")[2]
-        attributes, inside = _ELEMENTS[name]
-        _check_attributes(document, element, name, attributes, report)
-        _check_text(document, element, name, report)
-        for child in element:
-            namespace, _, tag = child.tag.rpartition("}")
-            if namespace[1:] != SCXML:
-                if namespace[1:] not in {OURS, *foreign}:
-                    foreign.add(namespace[1:])
-                    report.report("foreign-element", document.at(child), name=tag)
-            elif tag not in inside:
-                _report_unknown(document, child, tag, name, inside, report)
-            elif tag in _NOT_RUN:
-                report.report("not-understood", document.at(child), name=tag, reason=_NOT_RUN[tag])
-            else:
-                waiting.append(child)
-
-
-def _check_attributes(
-    document: Document, element: Element, name: str, known: set[str], report: Diagnostics
-) -> None:
-    given = set()
-    for qualified in element.attrib:
-        attribute = etree.QName(qualified)
-        if attribute.namespace not in (None, SCXML):
-            continue
-        given.add(attribute.localname)
-        if attribute.localname == "event" and not element.attrib[qualified].strip():
-            place = document.at(element, "event")
+        node = waiting.pop()
+        attributes, inside = _ELEMENTS[node.name]
+        if not attributes.issuperset(node.attributes):
+            _report_attributes(document, node, attributes, report)
+        for needed in _NEEDED.get(node.name, ()):
+            either = needed.split("|")
+            if not any(name in node.attributes for name in either):
+                place = document.at(node)
+                report.report("missing-attribute", place, element=node.name, name=either[0])
+        if not node.get("event", "-").strip():
+            place = document.at(node, "event")
             report.report("bad-value", place, name="event", values="the name of an event")
-        elif attribute.localname not in known:
-            report.report(
-                "unknown-attribute",
-                document.at(element, attribute.localname),
-                element=name,
-                name=attribute.localname,
-                help=did_you_mean(attribute.localname, sorted(known))
-                or (f"it has {listed(sorted(known), 'and')}" if known else "it has none"),
-            )
-    for needed in _NEEDED.get(name, ()):
-        either = needed.split("|")
-        if given.isdisjoint(either):
-            report.report("missing-attribute", document.at(element), element=name, name=either[0])
+        if node.text and node.name not in _WITH_TEXT:
+            fault = f"there is no text in `<{node.name}>`"
+            report.report("illegal-structure", document.at(node), fault=fault)
+        if node.children:
+            node.ours = [each for each in node.children if each.namespace == OURS]
+            node.children = [
+                each
+                for each in node.children
+                if _is_known(document, each, node.name, inside, foreign, report)
+            ]
+            waiting += node.children
+
+
+def _is_known(
+    document: Document,
+    node: Node,
+    parent: str,
+    inside: set[str],
+    foreign: set[str],
+    report: Diagnostics,
+) -> bool:
+    """Whether an element is looked at; of each foreign namespace, the first one is told."""
+    name = node.name
+    if node.namespace != SCXML:
+        if node.namespace not in foreign:
+            foreign.add(node.namespace)
+            report.report("foreign-element", document.at(node), name=name)
+        return False
+    if name not in inside:
+        _report_unknown(document, node, parent, inside, report)
+        return False
+    if name in _NOT_RUN:
+        report.report("not-understood", document.at(node), name=name, reason=_NOT_RUN[name])
+        return False
+    return True
+
+
+def _report_attributes(
+    document: Document, node: Node, known: set[str], report: Diagnostics
+) -> None:
+    for name in sorted(set(node.attributes) - known):
+        report.report(
+            "unknown-attribute",
+            document.at(node, name),
+            element=node.name,
+            name=name,
+            help=did_you_mean(name, sorted(known))
+            or (f"it has {listed(sorted(known), 'and')}" if known else "it has none"),
+        )
 
 
 def _report_unknown(
-    document: Document, child: Element, tag: str, parent: str, inside: set[str], report: Diagnostics
+    document: Document, node: Node, parent: str, inside: set[str], report: Diagnostics
 ) -> None:
-    around = sorted(name for name, (_, allowed) in _ELEMENTS.items() if tag in allowed)
-    question = did_you_mean(tag, sorted(inside))
+    around = sorted(name for name, (_, allowed) in _ELEMENTS.items() if node.name in allowed)
+    question = did_you_mean(node.name, sorted(inside))
     if around:
         question = f"it stands in {listed([f'<{name}>' for name in around])}"
-    report.report("unknown-element", document.at(child), name=tag, parent=parent, help=question)
-
-
-def _check_text(document: Document, element: Element, name: str, report: Diagnostics) -> None:
-    """Text between elements would be lost."""
-    if name in _WITH_TEXT:
-        return
-    if any(text and text.strip() for text in (element.text, *(child.tail for child in element))):
-        fault = f"there is no text in `<{name}>`"
-        report.report("illegal-structure", document.at(element), fault=fault)
+    report.report(
+        "unknown-element", document.at(node), name=node.name, parent=parent, help=question
+    )
