@@ -8,7 +8,7 @@ tests hold the three against each other.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,8 +51,10 @@ Match = re.Match[str]
 # A tree, where it begins and ends with the parentheses around it, the last match of it
 # and the match of what follows.
 _Found = tuple[ExpressionTree, int, int, Match, Match]
-# An operator with its place; those before an operand are prefixes.
+# How an operator binds, its word, where it begins if it is a prefix, and whether it is one.
 _Operator = tuple[int, Word, int, bool]
+# An operator, and the prefixes of the operand behind it.
+_Operation = tuple[_Operator, Sequence[_Operator], _Found]
 Read = Callable[[Match], tuple[Expression, Match, Match] | None]
 
 
@@ -90,6 +92,11 @@ class ExpressionParser:
     `faults`. Raises TooDeepError for more parentheses in each other than `limit`.
     """
 
+    __slots__ = (
+        *("faults", "_language", "_token", "_not_a_name", "_source", "_text", "_limit"),
+        *("_level", "_size", "_fault", "_large"),
+    )
+
     def __init__(self, language: Language, source: Source, limit: int) -> None:
         self.faults: list[Fault] = []
         self._language = language
@@ -120,15 +127,9 @@ class ExpressionParser:
             self._fault = self._large = None
             return None
         tree, _, _, behind, ahead = found
-        made = Expression(self._span(start, behind.end(1)))
-        too_deep = self._size >= NESTING_LIMIT and _depth(tree) > NESTING_LIMIT
-        if self._fault is None and too_deep:
-            self._blame(
-                made.span,
-                "nested-too-deeply",
-                limit=NESTING_LIMIT,
-                help="each operator is a level: store a part of the value in a variable first",
-            )
+        made = Expression(new_span(Span, (self._source, start, behind.end(1))))
+        if self._size >= NESTING_LIMIT:
+            self._check_depth(tree, made.span)
         if self._fault is None and self._large is not None:
             self._blame(self._large, "syntax-error", message="this number is too large")
         if self._fault is None:
@@ -139,50 +140,71 @@ class ExpressionParser:
         self._size = 0
         return made, behind, ahead
 
+    def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
+        if self._fault is None and _depth(tree) > NESTING_LIMIT:
+            self._blame(
+                span,
+                "nested-too-deeply",
+                limit=NESTING_LIMIT,
+                help="each operator is a level: store a part of the value in a variable first",
+            )
+
     def _binary(self, ahead: Match, operators: frozenset[str]) -> _Found | None:
         """Operands with operators between them, or one operand."""
-        token = ahead[1]
-        if token == "not" or token == "-":
-            found = self._operand(ahead)
-            if found is None:
-                return None
-            prefixes, first = found
-        else:
-            single = self._primary(ahead)
-            if single is None or single[4][1] not in operators:
-                return single
-            prefixes, first = [], single
+        found = self._operand(ahead)
+        if found is None:
+            return None
+        prefixes, first = found
+        operation = self._operation(first[4], operators)
+        if prefixes:
+            return self._climb(prefixes, first, operation, operators)
+        if operation is None:
+            return first
+        (_, word, _, _), prefixes, second = operation
+        if prefixes or second[4][1] in operators:
+            return self._climb((), first, operation, operators)
+        tree, start, _, _, _ = first
+        right, _, end, behind, ahead = second
+        self._size += 1
+        span = new_span(Span, (self._source, start, end))
+        return OperatorUse(span, word, (tree, right)), start, end, behind, ahead
+
+    def _climb(
+        self,
+        prefixes: Sequence[_Operator],
+        operand: _Found,
+        operation: _Operation | None,
+        operators: frozenset[str],
+    ) -> _Found:
+        """Join operands by what binds them: prefixes, the first operand, and what follows it."""
         waiting: list[_Operator] = []
         values: list[tuple[ExpressionTree, int, int]] = []
         while True:
             self._place(prefixes, waiting)
-            tree, begin, end, behind, ahead = first
+            tree, begin, end, behind, ahead = operand
             values.append((tree, begin, end))
-            operator = self._operator(ahead, operators)
-            before = self._fault, self._large
-            found = self._operand(operator[1]) if operator is not None else None
-            if found is None:
-                self._fault, self._large = before
-                break  # an operator that no operand follows is not part of it
-            assert operator is not None
-            prefixes, first = found
-            self._reduce(waiting, values, operator[0][0])
-            if waiting and waiting[-1][0] == operator[0][0] == _COMPARISON:
+            if operation is None:
+                break
+            operator, prefixes, operand = operation
+            self._reduce(waiting, values, operator[0])
+            if waiting and waiting[-1][0] == operator[0] == _COMPARISON:
                 self._blame(
-                    operator[0][1].span,
+                    operator[1].span,
                     "syntax-error",
                     message="comparisons cannot be chained",
                     help="join them: `a < b and b < c`",
                 )
-            waiting.append(operator[0])
+            waiting.append(operator)
+            operation = self._operation(operand[4], operators)
         self._reduce(waiting, values, 0)
         return *values[0], behind, ahead
 
-    def _operator(self, ahead: Match, operators: frozenset[str]) -> tuple[_Operator, Match] | None:
-        """An operator and what follows it."""
+    def _operation(self, ahead: Match, operators: frozenset[str]) -> _Operation | None:
+        """An operator with its operand; an operator that none follows is not part of it."""
         token = ahead[1]
         if token not in operators:
             return None
+        match = ahead
         if token in _PARTS_OF_COMPARISONS:
             comparison = self._language.comparison(self._text, ahead.start())
             if comparison is None:
@@ -190,27 +212,29 @@ class ExpressionParser:
             token, match = comparison[1], comparison
         elif token == "-" and self._is_arrow(ahead):
             return None
-        else:
-            match = ahead
-        word = self._word(match)
-        return (_BINDING[token], word, ahead.start(), False), self._token(self._text, match.end())
+        before = self._fault, self._large
+        found = self._operand(self._token(self._text, match.end()))
+        if found is None:
+            self._fault, self._large = before
+            return None
+        return (_BINDING[token], self._word(match), 0, False), *found
 
-    def _operand(self, ahead: Match) -> tuple[list[_Operator], _Found] | None:
+    def _operand(self, ahead: Match) -> tuple[Sequence[_Operator], _Found] | None:
         """Prefixes and what they stand before."""
+        token = ahead[1]
+        if token != "not" and token != "-":
+            found = self._primary(ahead)
+            return ((), found) if found is not None else None
         prefixes: list[_Operator] = []
-        while True:
-            token = ahead[1]
-            if token == "not":
-                prefixes.append((_NOT, self._word(ahead), ahead.start(), True))
-            elif token == "-" and not self._is_arrow(ahead):
-                prefixes.append((_SIGN, self._word(ahead), ahead.start(), True))
-            else:
-                break
+        while token == "not" or (token == "-" and not self._is_arrow(ahead)):
+            binding = _NOT if token == "not" else _SIGN
+            prefixes.append((binding, self._word(ahead), ahead.start(), True))
             ahead = self._token(self._text, ahead.end())
+            token = ahead[1]
         found = self._primary(ahead)
         return (prefixes, found) if found is not None else None
 
-    def _place(self, prefixes: list[_Operator], waiting: list[_Operator]) -> None:
+    def _place(self, prefixes: Sequence[_Operator], waiting: list[_Operator]) -> None:
         """Let prefixes wait for their operand."""
         for prefix in prefixes:
             if prefix[0] == _NOT and waiting and waiting[-1][0] > _NOT:
@@ -250,11 +274,15 @@ class ExpressionParser:
                 call = self._call(ahead, following)
                 if call is not None:
                     return call
-            return self._path(ahead, following)
+            if following[1] == ".":
+                return self._path(ahead, following)
+            start, end = ahead.span(1)
+            span = new_span(Span, (self._source, start, end))
+            return NameUse(span, token), start, end, ahead, following
         start = ahead.start()
         if token == "":
             quantity = self._language.quantity(self._text, start)
-            return self._value(quantity, *self._quantity(quantity)) if quantity else None
+            return self._quantity(quantity) if quantity is not None else None
         match token:
             case "event":
                 return self._path(ahead, self._token(self._text, ahead.end()))
@@ -304,30 +332,32 @@ class ExpressionParser:
 
     def _path(self, behind: Match, ahead: Match) -> _Found:
         """A name, and fields of what it means."""
-        start = behind.start()
-        tree: ExpressionTree = NameUse(self._span(start, behind.end(1)), behind[1])
+        start, end = behind.span(1)
+        tree: ExpressionTree = NameUse(new_span(Span, (self._source, start, end)), behind[1])
         while ahead[1] == ".":
             field = self._token(self._text, ahead.end())
             if not field[1] or field[1] in _MARKS:
                 break
             behind, ahead = field, self._token(self._text, field.end())
-            tree = FieldUse(self._span(start, behind.end(1)), tree, self._word(behind))
+            end = behind.end(1)
+            tree = FieldUse(self._span(start, end), tree, self._word(behind))
             self._size += 1
-        return tree, start, behind.end(1), behind, ahead
+        return tree, start, end, behind, ahead
 
     def _value(self, match: Match, value: bool | float | str, unit: str = "") -> _Found:
         start, end = match.span(1)
-        ahead = self._token(self._text, match.end())
-        return Value(self._span(start, end), value, unit), start, end, match, ahead
+        span = new_span(Span, (self._source, start, end))
+        return Value(span, value, unit), start, end, match, self._token(self._text, match.end())
 
-    def _quantity(self, match: Match) -> tuple[int | float, str]:
+    def _quantity(self, match: Match) -> _Found:
         digits, unit = match[2], match[3] or ""
-        is_simple = len(digits) < _SIMPLE_NUMBER and not unit and digits.isdigit()
-        if not is_simple and is_too_large(match[1], digits, unit):
-            if self._large is None:
-                self._large = self._span(*match.span(1))
-            return 0, unit
-        return quantity_value(digits), unit
+        if len(digits) < _SIMPLE_NUMBER and not unit and digits.isdigit():
+            return self._value(match, int(digits))
+        if not is_too_large(match[1], digits, unit):
+            return self._value(match, quantity_value(digits), unit)
+        if self._large is None:
+            self._large = self._span(*match.span(1))
+        return self._value(match, 0, unit)
 
     def _is_arrow(self, ahead: Match) -> bool:
         return self._text.startswith("->", ahead.start())
@@ -344,7 +374,8 @@ class ExpressionParser:
 
     def _word(self, match: Match) -> Word:
         word = new_word(Word, match[1])
-        word.span = self._span(*match.span(1))
+        start, end = match.span(1)
+        word.span = new_span(Span, (self._source, start, end))
         return word
 
     def _span(self, start: int, end: int) -> Span:

@@ -108,7 +108,7 @@ class _Conversion:
 def expression_tree(span: Span) -> ExpressionTree | None:
     """What Lark makes of the text of an expression; None where it is wrong."""
     try:
-        tree = _expressions().parse(span.text)
+        tree = expressions().parse(span.text)
     except UnexpectedInput:
         return None
     if _depth(tree) > NESTING_LIMIT or any(tree.scan_values(_is_too_large)):
@@ -122,7 +122,8 @@ def _metamodel() -> Any:
 
 
 @cache
-def _expressions() -> Lark:
+def expressions() -> Lark:
+    """The parser of expressions that the grammar for Lark gives."""
     text = (grammar() / "expression.lark").read_text(encoding="utf-8")
     return Lark(text, parser="lalr", propagate_positions=True, maybe_placeholders=False)
 
