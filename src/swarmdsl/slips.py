@@ -79,6 +79,8 @@ def foreign(expected: set[str], text: str, at: int) -> str | None:
         return "a type stands before the value: `name : type = value`"
     if text[:at].rstrip().endswith(","):
         return "delete the `,` before it"
+    if number := re.compile(r"\d+(?:_\d+)+\b").match(text, at):
+        return f"write `{number[0].replace('_', '')}`"
     if re.compile(r"0[xXbB]").match(text, at):
         return "numbers are decimal"
     if begins and "`state`" in expected and re.compile(r"[A-Za-z_]\w*\s*\{").match(text, at):
