@@ -13,8 +13,7 @@ from swarmdsl.textx_entry import metamodel
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}
 EXPRESSIONS = {"Expression", "Operand", "Delay"}
 # Nodes that come from expression.lark, and the bases.
-ABSTRACT = {"Node", "Documented", "TopLevel"}
-OTHERS = ABSTRACT | {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
+OTHERS = {"Expression", "Value", "NameUse", "FieldUse", "Call", "OperatorUse"}
 # What stands inside a line. All else begins one, and has documentation.
 INLINE = {
     *("TypeRef", "Multiplicity", "PortRef", "Argument", "ResultMapping", "Send", "Assignment"),

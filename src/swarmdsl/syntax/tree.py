@@ -9,15 +9,16 @@ from types import UnionType
 from typing import get_args
 
 from swarmdsl.syntax import architecture, behaviour, composition, file, interfaces, nodes
-from swarmdsl.syntax.nodes import Node, TopLevel
+from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 _MODULES = (nodes, interfaces, architecture, behaviour, composition, file)
 
+_ABSTRACT = (Node, Documented, TopLevel)
 NODES: dict[str, type[Node]] = {
     cls.__name__: cls
     for module in _MODULES
     for cls in vars(module).values()
-    if isinstance(cls, type) and issubclass(cls, Node)
+    if isinstance(cls, type) and issubclass(cls, Node) and cls not in _ABSTRACT
 }
 # What holds a part says so in its annotation: by a class of node, or a union of them.
 _HOLDERS = NODES.keys() | {
