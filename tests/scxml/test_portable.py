@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange import scxml
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.ir import Action, Array, Primitive, Service, System
-from swarmdsl.runtime import Event, Instance, Machine, Run
+from swarmdsl.runtime import Event, Instance, Machine, Observer, Run, Transition
 from swarmdsl.scxml import read
 from swarmdsl.simulate.table import first_data, table
 from swarmdsl.source import Source
@@ -28,6 +28,86 @@ MODELS = [
     *sorted((ROOT / "tests" / "golden").glob("*/model.swarm")),
 ]
 WALKS, STEPS = 8, 40
+
+# What the models above have little of: results, and what happens while they are stored.
+LIVELY = """
+package lively
+action Go { goal { speed : float64 } result { count : int32  name : string } }
+message Report { id : string  level : int32 }
+message Nothing { }
+function go : abstraction { action "cmd/go" : Go }
+function look : abstraction { action "cmd/look" : Go }
+event Start : Nothing
+event Stop : Nothing
+event Found : Report
+endless statemachine Lively {
+  param speed : float64 = 0.5
+  var n : int32 = 0
+  var sum : int32 = 0
+  var last : Report
+  var word : string
+  initial Work
+  state Work {
+    entry / sum = sum + 1
+    exit / sum = sum + n, last.level = n
+    initial Go
+    state Go {
+      do go(speed = speed * n) gives (count => n, name => last.id)
+      exit / word = last.id + "!"
+      on succeeded [n % 3 == 0] -> Look
+      on succeeded -> Go
+      on aborted / n = n - 1 -> Fork
+      after 1 s [n > 4] -> Look
+      after 2 s -> Fork
+    }
+    state Look {
+      do look(speed = 1.0) gives (count => last.level)
+      exit / sum = sum + last.level
+      on succeeded / n = last.level -> Fork
+      on aborted -> Over
+      on preempted -> Go
+      on Stop / n = n * 2
+    }
+    choice Fork { [n > 5] / n = 0 -> Both [n < 0] / n = 1 -> Go else -> Over }
+    parallel state Both {
+      region L {
+        initial A
+        state A {
+          do go(speed = 2.0) gives (count => n)
+          on succeeded, Stop -> B
+          on aborted -> B
+        }
+        state B { on Found [event.level > 3] / last = event -> E on Start -> A }
+        final E
+      }
+      region R {
+        initial C
+        state C { do look(speed = sum) on succeeded -> D on aborted -> C }
+        state D { on Start -> C on Stop -> F after 1500 ms -> G }
+        final F
+        final G
+      }
+      internal on Start [n > 2] / n = n - 1 -> A
+      internal on Found / sum = sum - 1 -> C
+      on R.done.G -> Look
+      on done -> Over
+    }
+    final Over
+    deep history Back -> Look
+    history Near -> Go
+    on done -> Rest
+    on Stop [sum > 30] / sum = 0 -> Rest
+    internal on Found [event.level == 1] -> Look
+  }
+  state Rest {
+    on Start -> Work.Back
+    on Stop -> Work.Near
+    on Found / send Found(level = n + event.level, id = word) -> Work
+    after 3 s -> Work.Both.B
+    [n > 12] / n = 0 -> Work
+  }
+}
+"""
 
 
 class World(StillWorld):
@@ -120,18 +200,51 @@ def pairs() -> Iterator[Any]:
             yield pytest.param(machine, system, id=name)
 
 
+def test_what_the_models_have_little_of(compiled: Callable[[str], System]) -> None:
+    system = compiled(LIVELY)
+    (machine,) = system.machines
+    document = portable(machine, system)
+    taken: set[object] = set()
+    for seed in range(60):
+        taken |= walk(machine, system, document, random.Random(seed))
+
+    held = [t for state in machine.walk() for t in state.transitions]
+    not_taken = [t.origin.text for t in held if t.origin and t.origin.start not in taken]
+    # The defaults of histories are no transitions of their own.
+    assert not_taken == ["deep history Back -> Look", "history Near -> Go"]
+
+
 @pytest.mark.parametrize(("machine", "system"), list(pairs()))
 def test_both_do_the_same(machine: ir.StateMachine, system: System) -> None:
+    document = portable(machine, system)
+    for seed in range(WALKS):
+        walk(machine, system, document, random.Random(seed))
+
+
+def portable(machine: ir.StateMachine, system: System) -> Machine:
+    """The portable document of a machine, read again."""
     files = {f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())}
     report = Diagnostics()
     document = read(Source("m.scxml", files[f"{machine.name}.scxml"]), report)
     assert document is not None, [(found.message, found.primary) for found in report]
     assert not list(report)
-    for seed in range(WALKS):
-        walk(machine, system, document, random.Random(seed))
+    return document
 
 
-def walk(machine: ir.StateMachine, system: System, document: Machine, dice: random.Random) -> None:
+class Taken(Observer):
+    """Where the transitions stand in the model that were taken."""
+
+    def __init__(self) -> None:
+        self.places: set[object] = set()
+
+    def taken(self, instance: Instance, transition: Transition) -> None:
+        self.places.add(transition.origin.origin.start)  # type: ignore[attr-defined]
+
+
+def walk(
+    machine: ir.StateMachine, system: System, document: Machine, dice: random.Random
+) -> set[object]:
+    """Let the same happen to both; return where the transitions stand that were taken."""
     names = data_ids(machine)
     ids = state_ids(machine, set(names.values()))
     params = {
@@ -142,6 +255,7 @@ def walk(machine: ir.StateMachine, system: System, document: Machine, dice: rand
     given = {names[name]: value for name, value in params.items()}
     other = Runner(document, {**document.data(), **given})
     other.instance.start()
+    first.instance.observer = trace = Taken()
     first.instance.start()
     durations = has_durations(machine)
     for _ in range(STEPS):
@@ -156,12 +270,11 @@ def walk(machine: ir.StateMachine, system: System, document: Machine, dice: rand
                 # A document leaves fields out that have their defaults.
                 assert one.name == two.name
                 assert plain(one.data).items() >= plain(two.data or {}).items()
-        happen(first, other, machine, system, dice)
+        happen(first, other, system, dice)
+    return trace.places
 
 
-def happen(
-    first: Runner, other: Runner, machine: ir.StateMachine, system: System, dice: random.Random
-) -> None:
+def happen(first: Runner, other: Runner, system: System, dice: random.Random) -> None:
     """Something that happens to both."""
     chance = dice.random()
     if chance < 0.4 and first.world.going:

@@ -139,8 +139,9 @@ class _StateWriter:
         end = OutcomeTrigger(state.id, "succeeded")
         results = state.activity is not None and state.activity.results
         taken = [each for each in state.transitions if end in each.triggers]
-        # A guard must see the result already; other triggers of a transition bring none.
+        # Guards and effects on exit must see the result; other triggers of a transition bring none.
         first = any(each.guard is not None or len(each.triggers) > 1 for each in taken)
+        first = first or self._is_left_with_effects(state)
         done = self.events.stored(state)
         if results and (first or not taken):
             storing = add(element, "transition", event=self.events.outcome(state, "succeeded"))
@@ -164,6 +165,10 @@ class _StateWriter:
             if results and not first and end in transition.triggers:
                 self._add_results(added, state)
             self._add_effects(added, transition.effects)
+
+    def _is_left_with_effects(self, state: State) -> bool:
+        around = (each for each in self.machine.walk() if f"{state.id}.".startswith(f"{each.id}."))
+        return any(each.exit for each in around)
 
     def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
         for event, guard, transition in inward(region, around, self.events):
