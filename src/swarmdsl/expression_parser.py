@@ -1,19 +1,23 @@
 """Expressions to trees, in one go with the file they stand in.
 
 `grammar/expression.lark` says what binds how, and EXPRESSION in `grammar/lexical.tx` where
-an expression ends. Both are followed here at once by operator precedence (shunting-yard);
-tests hold the three against each other.
+an expression ends. Both are followed here at once tests hold the three against each other.
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.expressions import is_too_large, quantity_value, unquoted
+from swarmdsl.expressions import (
+    MARKS,
+    Language,
+    Match,
+    is_too_large,
+    quantity_value,
+    unquoted,
+)
+from swarmdsl.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
 from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
@@ -22,66 +26,29 @@ from swarmdsl.syntax import (
     ExpressionTree,
     FieldUse,
     NameUse,
-    OperatorUse,
+    Node,
     Value,
     Word,
+    children,
 )
 
-_OR, _AND, _NOT, _COMPARISON, _SUM, _PRODUCT, _SIGN = range(1, 8)
-_BINDING = {
-    "or": _OR,
-    "and": _AND,
-    **dict.fromkeys(("+", "-"), _SUM),
-    **dict.fromkeys(("*", "/", "%"), _PRODUCT),
-    **dict.fromkeys(("==", "!=", "<=", ">=", "<", ">"), _COMPARISON),
-}
 # The tokens that can begin an operator, as a whole or in part.
-_OPERATORS = frozenset({*_BINDING, "=", "!"})
+_OPERATORS = frozenset({*BINDING, "=", "!"})
 # Without `/`, which begins the effects of a transition.
 _DELAY_OPERATORS = frozenset({"+", "-", "*"})
 _PARTS_OF_COMPARISONS = frozenset("=!<>")
-_MARKS = frozenset("!\"#$%&'()*+,-./:;<=>?@[\\]^`{|}~")
 _SIMPLE_NUMBER = 9  # characters: no such number is too large
 
 new_span = tuple.__new__
 new_word = str.__new__
 
-# A match of a token with the blanks behind it; group 1 is the token.
-Match = re.Match[str]
 # A tree, where it begins and ends with the parentheses around it, the last match of it
 # and the match of what follows.
 _Found = tuple[ExpressionTree, int, int, Match, Match]
-# How an operator binds, its word, where it begins if it is a prefix, and whether it is one.
-_Operator = tuple[int, Word, int, bool]
-# An operator, and the prefixes of the operand behind it.
-_Operation = tuple[_Operator, Sequence[_Operator], _Found]
-Read = Callable[[Match], tuple[Expression, Match, Match] | None]
 
 
 class TooDeepError(Exception):
     """Something is nested deeper than a parser goes."""
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """What is wrong with an expression: a diagnostic and its place."""
-
-    span: Span
-    name: str
-    fields: dict[str, Any]
-
-
-class Language:
-    """The words and blanks of the language, which the grammar of files says."""
-
-    def __init__(self, token: Any, blank: str, reserved: Iterable[str]) -> None:
-        self.token: Callable[[str, int], Match] = token
-        self.not_a_name = frozenset(reserved) | _MARKS | {""}
-        self.quantity = re.compile(
-            r"((\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]*(us|ms|s|min|h))?)\b(?!\.\d)" + blank
-        ).match
-        self.quoted = re.compile(r'("(?:[^"\\\n]|\\[^\n])*")' + blank).match
-        self.comparison = re.compile("([=!<>]=|<|>)" + blank).match
 
 
 class ExpressionParser:
@@ -131,7 +98,9 @@ class ExpressionParser:
         if self._size >= NESTING_LIMIT:
             self._check_depth(tree, made.span)
         if self._fault is None and self._large is not None:
-            self._blame(self._large, "syntax-error", message="this number is too large")
+            self._fault = Fault(
+                self._large, "syntax-error", {"message": "this number is too large"}
+            )
         if self._fault is None:
             made.tree = tree
         else:
@@ -142,12 +111,9 @@ class ExpressionParser:
 
     def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
         if self._fault is None and _depth(tree) > NESTING_LIMIT:
-            self._blame(
-                span,
-                "nested-too-deeply",
-                limit=NESTING_LIMIT,
-                help="each operator is a level: store a part of the value in a variable first",
-            )
+            help_ = "each operator is a level: store a part of the value in a variable first"
+            fields = {"limit": NESTING_LIMIT, "help": help_}
+            self._fault = Fault(span, "nested-too-deeply", fields)
 
     def _binary(self, ahead: Match, operators: frozenset[str]) -> _Found | None:
         """Operands with operators between them, or one operand."""
@@ -155,51 +121,20 @@ class ExpressionParser:
         if found is None:
             return None
         prefixes, first = found
-        operation = self._operation(first[4], operators)
-        if prefixes:
-            return self._climb(prefixes, first, operation, operators)
-        if operation is None:
+        operations: list[Operation[_Found]] = []
+        last = first
+        while (operation := self._operation(last[4], operators)) is not None:
+            operations.append(operation)
+            last = operation[2]
+        if not operations and not prefixes:
             return first
-        (_, word, _, _), prefixes, second = operation
-        if prefixes or second[4][1] in operators:
-            return self._climb((), first, operation, operators)
-        tree, start, _, _, _ = first
-        right, _, end, behind, ahead = second
-        self._size += 1
-        span = new_span(Span, (self._source, start, end))
-        return OperatorUse(span, word, (tree, right)), start, end, behind, ahead
+        self._size += len(operations) + len(prefixes)
+        tree, start, end, fault = join(prefixes, first, operations)
+        if fault is not None:
+            self._blame(fault)
+        return tree, start, end, last[3], last[4]
 
-    def _climb(
-        self,
-        prefixes: Sequence[_Operator],
-        operand: _Found,
-        operation: _Operation | None,
-        operators: frozenset[str],
-    ) -> _Found:
-        """Join operands by what binds them: prefixes, the first operand, and what follows it."""
-        waiting: list[_Operator] = []
-        values: list[tuple[ExpressionTree, int, int]] = []
-        while True:
-            self._place(prefixes, waiting)
-            tree, begin, end, behind, ahead = operand
-            values.append((tree, begin, end))
-            if operation is None:
-                break
-            operator, prefixes, operand = operation
-            self._reduce(waiting, values, operator[0])
-            if waiting and waiting[-1][0] == operator[0] == _COMPARISON:
-                self._blame(
-                    operator[1].span,
-                    "syntax-error",
-                    message="comparisons cannot be chained",
-                    help="join them: `a < b and b < c`",
-                )
-            waiting.append(operator)
-            operation = self._operation(operand[4], operators)
-        self._reduce(waiting, values, 0)
-        return *values[0], behind, ahead
-
-    def _operation(self, ahead: Match, operators: frozenset[str]) -> _Operation | None:
+    def _operation(self, ahead: Match, operators: frozenset[str]) -> Operation[_Found] | None:
         """An operator with its operand; an operator that none follows is not part of it."""
         token = ahead[1]
         if token not in operators:
@@ -217,53 +152,21 @@ class ExpressionParser:
         if found is None:
             self._fault, self._large = before
             return None
-        return (_BINDING[token], self._word(match), 0, False), *found
+        return (BINDING[token], self._word(match), False), *found
 
-    def _operand(self, ahead: Match) -> tuple[Sequence[_Operator], _Found] | None:
+    def _operand(self, ahead: Match) -> tuple[Sequence[Operator], _Found] | None:
         """Prefixes and what they stand before."""
         token = ahead[1]
         if token != "not" and token != "-":
             found = self._primary(ahead)
             return ((), found) if found is not None else None
-        prefixes: list[_Operator] = []
+        prefixes: list[Operator] = []
         while token == "not" or (token == "-" and not self._is_arrow(ahead)):
-            binding = _NOT if token == "not" else _SIGN
-            prefixes.append((binding, self._word(ahead), ahead.start(), True))
+            prefixes.append((NOT if token == "not" else SIGN, self._word(ahead), True))
             ahead = self._token(self._text, ahead.end())
             token = ahead[1]
         found = self._primary(ahead)
         return (prefixes, found) if found is not None else None
-
-    def _place(self, prefixes: Sequence[_Operator], waiting: list[_Operator]) -> None:
-        """Let prefixes wait for their operand."""
-        for prefix in prefixes:
-            if prefix[0] == _NOT and waiting and waiting[-1][0] > _NOT:
-                self._blame(
-                    prefix[1].span,
-                    "syntax-error",
-                    message="`not` cannot stand here",
-                    help="put parentheses around it and what it negates",
-                )
-            waiting.append(prefix)
-
-    def _reduce(
-        self,
-        waiting: list[_Operator],
-        values: list[tuple[ExpressionTree, int, int]],
-        binding: int,
-    ) -> None:
-        """Join what binds more than what comes next, or as much unless it does not chain."""
-        while waiting and waiting[-1][0] >= binding:
-            if waiting[-1][0] == binding == _COMPARISON:
-                return
-            _, word, start, is_prefix = waiting.pop()
-            right, _, end = values.pop()
-            operands: tuple[ExpressionTree, ...] = (right,)
-            if not is_prefix:
-                left, start, _ = values.pop()
-                operands = (left, right)
-            values.append((OperatorUse(self._span(start, end), word, operands), start, end))
-            self._size += 1
 
     def _primary(self, ahead: Match) -> _Found | None:
         """A value, a name, a call, or an expression in parentheses."""
@@ -336,7 +239,7 @@ class ExpressionParser:
         tree: ExpressionTree = NameUse(new_span(Span, (self._source, start, end)), behind[1])
         while ahead[1] == ".":
             field = self._token(self._text, ahead.end())
-            if not field[1] or field[1] in _MARKS:
+            if not field[1] or field[1] in MARKS:
                 break
             behind, ahead = field, self._token(self._text, field.end())
             end = behind.end(1)
@@ -367,10 +270,10 @@ class ExpressionParser:
         if self._level > self._limit:
             raise TooDeepError
 
-    def _blame(self, span: Span, name: str, **fields: Any) -> None:
+    def _blame(self, fault: Fault) -> None:
         """Keep what is wrong, if nothing before it is."""
-        if self._fault is None or span.start < self._fault.span.start:
-            self._fault = Fault(span, name, fields)
+        if self._fault is None or fault.span.start < self._fault.span.start:
+            self._fault = fault
 
     def _word(self, match: Match) -> Word:
         word = new_word(Word, match[1])
@@ -392,19 +295,8 @@ def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
 
 def _depth(tree: ExpressionTree) -> int:
     """How many operations and fields stand in each other, at most."""
-    depth, level = 0, [tree]
+    depth, level = 0, list[Node]([tree])
     while level:
         depth += 1
-        level = [inner for outer in level for inner in _inside(outer)]
+        level = [inner for outer in level for inner in children(outer)]
     return depth
-
-
-def _inside(tree: ExpressionTree) -> tuple[ExpressionTree, ...]:
-    match tree:
-        case OperatorUse(operands=operands):
-            return operands
-        case Call(arguments=arguments):
-            return arguments
-        case FieldUse(base=base):
-            return (base,)
-    return ()

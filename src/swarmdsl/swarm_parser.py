@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.expression_parser import ExpressionParser, Language, TooDeepError
-from swarmdsl.expressions import unquoted
+from swarmdsl.expression_parser import ExpressionParser, TooDeepError
+from swarmdsl.expressions import Language, unquoted
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
 

@@ -13,7 +13,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
-from swarmdsl.peg.analysis import MARKS, Analysis, First
 from swarmdsl.peg.grammar import (
     Assign,
     Choice,
@@ -27,9 +26,8 @@ from swarmdsl.peg.grammar import (
     Use,
     inside,
 )
+from swarmdsl.peg.lookahead import Lookahead
 
-# ASCII words and marks; the empty text stands for all else, and for the end.
-_TOKEN = r"[A-Za-z_][A-Za-z0-9_]*\b|[!-/:-@\[-^`{-~]|"
 _ADVANCE = "ahead = TOKEN(text, ahead.end()); token = ahead[1]"
 
 
@@ -53,36 +51,19 @@ class Target:
 
 @dataclass
 class Emission:
-    """A parser in the making: the lines of its functions, and the constants they use."""
+    """A parser in the making: the lines of its functions."""
 
-    analysis: Analysis
+    look: Lookahead
     target: Target
     lines: list[str] = field(default_factory=list)
-    regexes: dict[str, str] = field(default_factory=dict)
-    sets: dict[frozenset[str], str] = field(default_factory=dict)
-    tables: dict[str, str] = field(default_factory=dict)
-    attempts: dict[tuple[str, ...], str] = field(default_factory=dict)
     _depth: int = 1
     _names: int = 0
     _rule: Rule | None = None
 
-    def constants(self) -> list[str]:
-        """The lines that define the regular expressions and sets."""
-        blank = self.analysis.grammar.blank
-        return [
-            f"BLANK = {blank!r}",
-            f"TOKEN = re.compile({f'({_TOKEN})'!r} + BLANK).match",
-            *(
-                f"{name} = re.compile({f'({regex})'!r} + BLANK, re.MULTILINE).match"
-                for regex, name in self.regexes.items()
-            ),
-            *(f"{name} = frozenset({sorted(members)!r})" for members, name in self.sets.items()),
-        ]
-
     def rule(self, rule: Rule) -> None:
         """Write the function of a rule of nodes."""
         self._rule, self._names = rule, 0
-        recursive = rule.name in self.analysis.recursive
+        recursive = rule.name in self.look.analysis.recursive
         self._line(f"def r_{rule.name}():")
         with self._block():
             self._line(f"nonlocal ahead, token, behind{', depth' if recursive else ''}")
@@ -107,6 +88,20 @@ class Emission:
             self._line(f"return {made}")
         self._line("")
 
+    def ordered_attempts(self) -> None:
+        """Write the functions that try several rules."""
+        for rules, name in self.look.attempts.items():
+            self._line(f"def {name}():")
+            with self._block():
+                self._line("nonlocal ahead, token, behind")
+                self._line("ahead1, behind1 = ahead, behind")
+                for rule in rules[:-1]:
+                    self._line(f"made = r_{rule}()")
+                    self._line("if made is not None: return made")
+                    self._line("ahead = ahead1; token = ahead[1]; behind = behind1")
+                self._line(f"return r_{rules[-1]}()")
+            self._line("")
+
     # ---- expressions: each method writes code that goes on behind what has matched, and
     # runs `fail` otherwise. `known` says that the next token has been looked at.
 
@@ -129,7 +124,7 @@ class Emission:
                 raise self._unsupported(f"what {rule} makes is not used")
 
     def _choice(self, parts: tuple[Expression, ...], fail: str) -> None:
-        firsts = [self.analysis.first(part) for part in parts]
+        firsts = [self.look.analysis.first(part) for part in parts]
         distinct = not any(
             first.overlaps(other)
             for number, first in enumerate(firsts)
@@ -139,12 +134,12 @@ class Emission:
             self._ordered_choice(parts, fail)
             return
         for number, part in enumerate(parts):
-            if self.analysis.nullable(part):
+            if self.look.analysis.nullable(part):
                 self._line("else:")
                 with self._block():
                     self._expression(part, fail)
                 return
-            self._line(f"{'elif' if number else 'if'} {self._test(firsts[number])}:")
+            self._line(f"{'elif' if number else 'if'} {self.look.test(firsts[number])}:")
             with self._block():
                 self._expression(part, fail, known=True)
         self._line(f"else: {fail}")
@@ -153,7 +148,7 @@ class Emission:
         chosen = self._new("chosen")
         self._line(f"{chosen} = False")
         for part in parts:
-            test = "True" if self.analysis.nullable(part) else self._test(self.analysis.first(part))
+            test = "True" if self.look.analysis.nullable(part) else self._can_begin(part)
             self._line(f"if not {chosen} and {test}:")
             with self._block():
                 undo = self._save(part)
@@ -165,9 +160,9 @@ class Emission:
         self._line(f"if not {chosen}: {fail}")
 
     def _optional(self, part: Expression) -> None:
-        self._line(f"if {self._test(self.analysis.first(part))}:")
+        self._line(f"if {self._can_begin(part)}:")
         with self._block():
-            if self._is_sure(part):
+            if self.look.is_sure(part):
                 self._expression(part, "", known=True)
                 return
             undo = self._save(part)
@@ -189,10 +184,10 @@ class Emission:
     def _more(self, part: Expression, separator: Terminal | None) -> None:
         """Any number of parts, each with a separator before it."""
         begin = separator or part
-        if isinstance(begin, Assign) and self._is_choice(begin.part):
+        if isinstance(begin, Assign) and self.look.is_choice(begin.part):
             self._line("while True:")  # which of them it may be is seen at one look
         else:
-            self._line(f"while {self._test(self.analysis.first(begin))}:")
+            self._line(f"while {self._can_begin(begin)}:")
         with self._block():
             undo = self._save(part)
             if separator is not None:
@@ -212,7 +207,7 @@ class Emission:
     def _value(self, assign: Assign, fail: str, *, known: bool) -> str:
         """Code for a value; the result is the expression that has it."""
         part = assign.part
-        rule = self.analysis.grammar.rules[part.rule] if isinstance(part, Use) else None
+        rule = self.look.analysis.grammar.rules[part.rule] if isinstance(part, Use) else None
         if rule is not None and rule.name in self.target.written:
             self._line(f"found = {self.target.written[rule.name]}(ahead)")
             self._line(f"if found is None: {fail}")
@@ -233,7 +228,7 @@ class Emission:
             span = f"new_span(Span, (source, at, at + len({text})))"
             return f"Ref({text}, {assign.refers!r}, {span})"
         if rule.kind == "choice":
-            self._line(f"rule = {self._table(rule)}")
+            self._line(f"rule = {self.look.table(rule)}")
             self._line(f"if rule is None: {fail}")
             self._line("value = rule()")
         else:
@@ -245,25 +240,25 @@ class Emission:
         """Code that takes a text; the result is the expression that has it."""
         match part:
             case Use(rule):
-                return self._text(self.analysis.grammar.rules[rule].body, fail, known=known)
+                return self._text(self.look.analysis.grammar.rules[rule].body, fail, known=known)
             case Sequence(parts):
                 return self._joined(parts, fail, known=known)
-            case Choice(parts) if not self._is_token(part):
+            case Choice(parts) if not self.look.is_token(part):
                 regexes = [inner.regex for inner in parts if isinstance(inner, Terminal)]
                 if len(regexes) < len(parts):
                     raise self._unsupported("a text is too complicated")
                 return self._text(Terminal("|".join(regexes)), fail)
-            case Terminal(regex) if not self._is_token(part):
+            case Terminal(regex) if not self.look.is_token(part):
                 match = self._new("match")
-                self._line(f"{match} = {self._regex(regex)}(text, ahead.start())")
+                self._line(f"{match} = {self.look.regex(regex)}(text, ahead.start())")
                 self._line(f"if {match} is None: {fail}")
                 self._line(f"behind = {match}")
                 self._line(f"ahead = TOKEN(text, {match}.end()); token = ahead[1]")
                 return f"{match}[1]"
-        if not self._is_token(part):
+        if not self.look.is_token(part):
             raise self._unsupported("a text is too complicated")
         if not known:
-            self._line(f"if not ({self._test(self.analysis.first(part))}): {fail}")
+            self._line(f"if not ({self._can_begin(part)}): {fail}")
         text = repr(part.literal) if isinstance(part, Terminal) and part.literal else "behind[1]"
         self._line(f"behind = ahead; {_ADVANCE}")
         return text
@@ -273,109 +268,20 @@ class Emission:
         text = self._new("text")
         self._line(f"{text} = {self._text(parts[0], fail, known=known)}")
         for part in parts[1:]:
-            if not self.analysis.nullable(part):
+            if not self.look.analysis.nullable(part):
                 self._line(f"{text} += {self._text(part, fail)}")
                 continue
             if not isinstance(part, Terminal):
                 raise self._unsupported("a text is too complicated")
             match = self._new("match")
-            self._line(f"if {self._test(self.analysis.first(part))}:")
+            self._line(f"if {self._can_begin(part)}:")
             with self._block():
-                self._line(f"{match} = {self._regex(part.regex)}(text, ahead.start())")
+                self._line(f"{match} = {self.look.regex(part.regex)}(text, ahead.start())")
                 self._line(f"if {match}[1]:")
                 with self._block():
                     self._line(f"{text} += {match}[1]; behind = {match}")
                     self._line(f"ahead = TOKEN(text, {match}.end()); token = ahead[1]")
         return text
-
-    # ---- choices between rules
-
-    def _is_choice(self, part: Expression) -> bool:
-        return isinstance(part, Use) and self.analysis.grammar.rules[part.rule].kind == "choice"
-
-    def _table(self, rule: Rule) -> str:
-        """The look-up of the function for the next token."""
-        table = f"{rule.name}_RULES"
-        leaves = list(self._leaves(rule))
-        firsts = {leaf: self.analysis.first(Use(leaf)) for leaf in leaves}
-        named = tuple(leaf for leaf in leaves if firsts[leaf].but is not None)
-        if table not in self.tables:
-            tokens = sorted(set().union(*(first.tokens for first in firsts.values())))
-            entries = {
-                token: self._attempt(tuple(leaf for leaf in leaves if firsts[leaf].has(token)))
-                for token in tokens
-            }
-            content = ", ".join(f"{token!r}: {function}" for token, function in entries.items())
-            self.tables[table] = f"{{{content}}}"
-        return f"{table}.get(token{f', {self._attempt(named)}' if named else ''})"
-
-    def _leaves(self, rule: Rule) -> Iterator[str]:
-        """The rules that a rule chooses from in the end."""
-        assert isinstance(rule.body, Choice)
-        for part in rule.body.parts:
-            assert isinstance(part, Use)
-            inner = self.analysis.grammar.rules[part.rule]
-            if inner.kind == "choice":
-                yield from self._leaves(inner)
-            elif inner.name in self.target.nodes:
-                yield inner.name
-            else:
-                raise UnsupportedError(rule.name, f"{inner.name} does not make a node")
-
-    def _attempt(self, rules: tuple[str, ...]) -> str:
-        """The function that tries rules in order."""
-        if len(rules) == 1:
-            return f"r_{rules[0]}"
-        return self.attempts.setdefault(rules, "try_" + "_".join(rules))
-
-    def ordered_attempts(self) -> None:
-        """Write the functions that try several rules."""
-        for rules, name in self.attempts.items():
-            self._line(f"def {name}():")
-            with self._block():
-                self._line("nonlocal ahead, token, behind")
-                self._line("ahead1, behind1 = ahead, behind")
-                for rule in rules[:-1]:
-                    self._line(f"made = r_{rule}()")
-                    self._line("if made is not None: return made")
-                    self._line("ahead = ahead1; token = ahead[1]; behind = behind1")
-                self._line(f"return r_{rules[-1]}()")
-            self._line("")
-
-    # ---- tokens
-
-    def _is_token(self, part: Expression) -> bool:
-        """Whether the next token alone decides that it matches, and is the match."""
-        match part:
-            case Terminal():
-                return part.is_word or part.is_mark or part.reserved is not None
-            case Use(rule):
-                found = self.analysis.grammar.rules[rule]
-                return found.kind == "text" and self._is_token(found.body)
-            case Choice(parts):
-                return all(map(self._is_token, parts))
-        return False
-
-    def _is_sure(self, part: Expression) -> bool:
-        """Whether it cannot fail when it can begin."""
-        if isinstance(part, Assign):
-            return part.refers is None and self._is_token(part.part)
-        return self._is_token(part)
-
-    def _test(self, first: First) -> str:
-        """Whether something can begin with the next token."""
-        if first.but is not None:
-            others = (MARKS | {""} | first.but) - first.tokens
-            return f"token not in {self._set(others)}"
-        if len(first.tokens) == 1:
-            return f"token == {min(first.tokens)!r}"
-        return f"token in {self._set(first.tokens)}"
-
-    def _set(self, members: frozenset[str]) -> str:
-        return self.sets.setdefault(members, f"SET{len(self.sets)}")
-
-    def _regex(self, regex: str) -> str:
-        return self.regexes.setdefault(regex, f"REGEX{len(self.regexes)}")
 
     # ---- lines
 
@@ -398,6 +304,9 @@ class Emission:
                 self._line(f"{before} = {attribute}_")
                 undo += f"; {attribute}_ = {before}"
         return undo
+
+    def _can_begin(self, part: Expression) -> str:
+        return self.look.test(self.look.analysis.first(part))
 
     def _span(self, start: str) -> str:
         return f"new_span(Span, (source, {start}, behind.end(1)))"

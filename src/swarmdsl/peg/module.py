@@ -5,6 +5,7 @@ from __future__ import annotations
 from swarmdsl.peg.analysis import Analysis
 from swarmdsl.peg.emission import Emission, Target
 from swarmdsl.peg.grammar import Grammar, Terminal, inside
+from swarmdsl.peg.lookahead import Lookahead
 from swarmdsl.peg.program import Program
 
 _DEFINITIONS = '''\
@@ -48,7 +49,8 @@ def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
 
     It also needs `re`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
     """
-    emission = Emission(Analysis(grammar), target)
+    look = Lookahead(Analysis(grammar), target.nodes)
+    emission = Emission(look, target)
     used = Program(grammar)
     rules = [grammar.rules[name] for name in used.rules]
     nodes = [rule for rule in rules if rule.name in target.nodes.keys() - target.written.keys()]
@@ -58,13 +60,13 @@ def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
     terminals = [part for rule in rules for part in inside(rule.body) if isinstance(part, Terminal)]
     reserved = {word for terminal in terminals for word in terminal.reserved or ()}
     text = _DEFINITIONS.format(
-        constants="\n".join(emission.constants()),
+        constants="\n".join(look.constants()),
         reserved=sorted(reserved),
         terminals="\n".join(f"    {terminal!r}," for terminal in used.terminals),
         program="\n".join(f"    {pair!r}," for pair in used.instructions),
         begin=target.begin,
         functions="\n".join(emission.lines),
-        tables="\n".join(f"    {name} = {table}" for name, table in emission.tables.items()),
+        tables="\n".join(f"    {name} = {table}" for name, table in look.tables.items()),
         start=grammar.start,
         result=target.result,
     )

@@ -41,8 +41,8 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.expression_parser import ExpressionParser, Language, TooDeepError
-from swarmdsl.expressions import unquoted
+from swarmdsl.expression_parser import ExpressionParser, TooDeepError
+from swarmdsl.expressions import Language, unquoted
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, {classes}
 

@@ -1,0 +1,113 @@
+"""What a generated parser asks of the next token, and the constants it needs for that."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+
+from swarmdsl.peg.analysis import MARKS, Analysis, First
+from swarmdsl.peg.grammar import Assign, Choice, Expression, Rule, Terminal, UnsupportedError, Use
+
+# ASCII words and marks; the empty text stands for all else, and for the end.
+_TOKEN = r"[A-Za-z_][A-Za-z0-9_]*\b|[!-/:-@\[-^`{-~]|"
+
+
+@dataclass
+class Lookahead:
+    """The constants: regular expressions, sets of tokens, and tables from tokens to functions.
+
+    `nodes` are the rules that have functions; `attempts` are functions for several of them.
+    """
+
+    analysis: Analysis
+    nodes: Collection[str]
+    tables: dict[str, str] = field(default_factory=dict)
+    attempts: dict[tuple[str, ...], str] = field(default_factory=dict)
+    _regexes: dict[str, str] = field(default_factory=dict)
+    _sets: dict[frozenset[str], str] = field(default_factory=dict)
+
+    def constants(self) -> list[str]:
+        """The lines that define the regular expressions and sets."""
+        blank = self.analysis.grammar.blank
+        return [
+            f"BLANK = {blank!r}",
+            f"TOKEN = re.compile({f'({_TOKEN})'!r} + BLANK).match",
+            *(
+                f"{name} = re.compile({f'({regex})'!r} + BLANK, re.MULTILINE).match"
+                for regex, name in self._regexes.items()
+            ),
+            *(f"{name} = frozenset({sorted(members)!r})" for members, name in self._sets.items()),
+        ]
+
+    def is_token(self, part: Expression) -> bool:
+        """Whether the next token alone decides that it matches, and is the match."""
+        match part:
+            case Terminal():
+                return part.is_word or part.is_mark or part.reserved is not None
+            case Use(rule):
+                found = self.analysis.grammar.rules[rule]
+                return found.kind == "text" and self.is_token(found.body)
+            case Choice(parts):
+                return all(map(self.is_token, parts))
+        return False
+
+    def is_sure(self, part: Expression) -> bool:
+        """Whether it cannot fail when it can begin."""
+        if isinstance(part, Assign):
+            return part.refers is None and self.is_token(part.part)
+        return self.is_token(part)
+
+    def test(self, first: First) -> str:
+        """Whether something can begin with the next token."""
+        if first.but is not None:
+            others = (MARKS | {""} | first.but) - first.tokens
+            return f"token not in {self._set(others)}"
+        if len(first.tokens) == 1:
+            return f"token == {min(first.tokens)!r}"
+        return f"token in {self._set(first.tokens)}"
+
+    def _set(self, members: frozenset[str]) -> str:
+        return self._sets.setdefault(members, f"SET{len(self._sets)}")
+
+    def regex(self, regex: str) -> str:
+        """The function that matches a regular expression and the blanks behind it."""
+        return self._regexes.setdefault(regex, f"REGEX{len(self._regexes)}")
+
+    def is_choice(self, part: Expression) -> bool:
+        """Whether it is a choice between rules, which a table decides."""
+        return isinstance(part, Use) and self.analysis.grammar.rules[part.rule].kind == "choice"
+
+    def table(self, rule: Rule) -> str:
+        """The look-up of the function for the next token."""
+        table = f"{rule.name}_RULES"
+        leaves = list(self._leaves(rule))
+        firsts = {leaf: self.analysis.first(Use(leaf)) for leaf in leaves}
+        named = tuple(leaf for leaf in leaves if firsts[leaf].but is not None)
+        if table not in self.tables:
+            tokens = sorted(set().union(*(first.tokens for first in firsts.values())))
+            entries = {
+                token: self._attempt(tuple(leaf for leaf in leaves if firsts[leaf].has(token)))
+                for token in tokens
+            }
+            content = ", ".join(f"{token!r}: {function}" for token, function in entries.items())
+            self.tables[table] = f"{{{content}}}"
+        return f"{table}.get(token{f', {self._attempt(named)}' if named else ''})"
+
+    def _leaves(self, rule: Rule) -> Iterator[str]:
+        """The rules that a rule chooses from in the end."""
+        assert isinstance(rule.body, Choice)
+        for part in rule.body.parts:
+            assert isinstance(part, Use)
+            inner = self.analysis.grammar.rules[part.rule]
+            if inner.kind == "choice":
+                yield from self._leaves(inner)
+            elif inner.name in self.nodes:
+                yield inner.name
+            else:
+                raise UnsupportedError(rule.name, f"{inner.name} does not make a node")
+
+    def _attempt(self, rules: tuple[str, ...]) -> str:
+        """The function that tries rules in order."""
+        if len(rules) == 1:
+            return f"r_{rules[0]}"
+        return self.attempts.setdefault(rules, "try_" + "_".join(rules))
