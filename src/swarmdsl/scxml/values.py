@@ -7,7 +7,9 @@ Numbers without a fraction are `int`, so that they are written and used as index
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from typing import Any
 
 from swarmdsl.runtime import ExecutionError
@@ -51,11 +53,22 @@ def text(value: Any) -> str:
         return "true" if value else "false"
     if value is None:
         return "undefined"
-    if isinstance(value, float) and not math.isfinite(value):
-        return {math.inf: "Infinity", -math.inf: "-Infinity"}.get(value, "NaN")
+    if isinstance(value, float):
+        return _written(value)
     if isinstance(value, list):
         return ",".join(map(text, value))
     return str(value) if not isinstance(value, dict) else "[object Object]"
+
+
+def _written(value: float) -> str:
+    """A number as Number.prototype.toString has it."""
+    if not math.isfinite(value):
+        return {math.inf: "Infinity", -math.inf: "-Infinity"}.get(value, "NaN")
+    if value.is_integer() and abs(value) < 1e21:
+        return str(int(value))
+    if 1e-6 <= abs(value) < 1e-4:
+        return format(Decimal(repr(value)), "f")
+    return re.sub("e([+-])0+", r"e\1", repr(value))
 
 
 def _add(left: Any, right: Any) -> Any:
@@ -122,6 +135,14 @@ def _numeric(function: Callable[..., Any]) -> Callable[..., Any]:
     return call
 
 
+def _extreme(choose: Callable[[list[float]], float]) -> Callable[..., float]:
+    def call(*given: Any) -> float:
+        values = [number(each) for each in given]
+        return math.nan if any(map(math.isnan, values)) else choose(values)
+
+    return call
+
+
 OPERATIONS: Mapping[str, Callable[[Any, Any], Any]] = {
     "+": _add,
     "-": lambda left, right: whole(number(left) - number(right)),
@@ -151,6 +172,6 @@ FUNCTIONS: Mapping[str, Callable[..., Any]] = {
     "Math.trunc": _numeric(math.trunc),
     "Math.sqrt": _numeric(math.sqrt),
     "Math.pow": _numeric(pow),
-    "Math.min": _numeric(lambda *values: min(values, default=math.inf)),
-    "Math.max": _numeric(lambda *values: max(values, default=-math.inf)),
+    "Math.min": _extreme(lambda values: min(values, default=math.inf)),
+    "Math.max": _extreme(lambda values: max(values, default=-math.inf)),
 }

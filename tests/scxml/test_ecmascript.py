@@ -1,0 +1,148 @@
+"""Expressions of documents have the values that they have in ECMAScript."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+import subprocess
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+
+from swarmdsl.runtime import Event, ExecutionError, Instance, Machine, State
+from swarmdsl.scxml.ecmascript import Unreadable, read
+from swarmdsl.scxml.values import text as text_of
+from swarmdsl.translate import translate
+
+from ..exchange.test_expressions import ECMASCRIPT, EXPRESSIONS, defined_value
+from ..runtime.world import StillWorld
+
+QUICK = settings(max_examples=200, deadline=None, database=None, derandomize=True)
+DATA: dict[str, Any] = {
+    "n": 3,
+    "x": -2.5,
+    "s": "ab",
+    "t": True,
+    "l": [1, "two", [3]],
+    "o": {"a": {"b": 4}, "list": [5, 6]},
+    "nothing": None,
+}
+WRITTEN = """
+1 + 2 * 3 - 4 / 8  (1 + 2) * 3  7 % 3  -7 % 3  7 % -3  5.5 % 2  1 / 0  -1 / 0  0 / 0  1 / 3
+0x1F  .5 + 1.  1e3  1e21  2 - -1  - - 1  +"12"  +"x"  "a" + 1  1 + "a"  1 + 1 + "a"  "a" + 1 + 1
+"a" + 1.0  "a" + 0.5  "a" + true  "a" + l  1 + true  true + true  "3" * "4"  "3" - 1  1 < 2
+"a" < "b"  "10" < "9"  10 < "9"  "b" > 1  2 >= 2  1 == "1"  1 === "1"  1 == true  "" == 0
+null == 0  null == undefined  null === null  NaN == NaN  NaN != NaN  "a" == "a"  "a" !== "b"
+l == l  !0  !""  !"a"  !l  !NaN  !o  0 || "a"  1 || "a"  0 && "a"  1 && "a"  "" || 0
+1 && 2 && 3  0 || 1 && 0  !1 == 2  1 < 2 == true  n > 2 ? "y" : "n"  t ? x : n  n ? t ? 1 : 2 : 3
+l[1]  l[2][0]  l.length  s.length  s[1]  o.a.b  o["a"]["b"]  o.list[1]  o.nothing  l[9]  s[9]
+{a: 1, "b": [2]}.b[0]  [1, 2, 3].length  [].length  typeof n  typeof "a"  typeof t  typeof o
+typeof undefined  nothing  Math.max(1, n)  Math.min()  Math.max(n, "7")  Math.abs(x)
+Math.ceil(x)  Math.floor(x)  Math.round(x)  Math.round(2.5)  Math.trunc(x)  Math.sqrt(16)
+Math.sqrt(-1)  Math.pow(2, 10)  Math.pow(2, 0.5)  Math.max(n, NaN)
+JSON.parse(JSON.stringify(o)).a.b  (function (a, b) { return a - b; })(n, 1)
+(function (a) { return (function (b) { return a + b; })(2); })(1)  "\\u0041\\x42\\n\\t\\\\'"
+'it\\'s "so"'  "a" + [1, [2, 3]]  9007199254740993  9007199254740992 + 1  1e308 * 10
+100000 * 1000000000000000000  2 * 2 * 2.5  1 / 3e6  0.000001  1 / 3e7  1.5e300  "" + -0  1 - 1 + ""
+"""
+TEXTS = [
+    text.strip()
+    for line in WRITTEN.strip().splitlines()
+    for text in line.split("  ")
+    if text.strip()
+]
+
+
+def value(text: str, data: dict[str, Any] | None = None) -> Any:
+    instance = Instance(
+        Machine("m", [State("a")]), StillWorld(), data=DATA if data is None else data
+    )
+    return read(text)(instance, Event("e", {"level": 3}), {})
+
+
+def told(found: Any) -> str:
+    """A value as JSON, as JavaScript writes it; numbers that JSON does not have by name."""
+    if isinstance(found, float):
+        return text_of(found)
+    return json.dumps(found, separators=(",", ":"))
+
+
+def test_values_are_those_of_node() -> None:
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no JavaScript engine (install node)")
+    script = """
+        const [data, texts] = JSON.parse(require("fs").readFileSync(0, "utf8"));
+        Object.assign(globalThis, data);
+        const told = (v) => typeof v === "number" && !isFinite(v) ? String(v)
+                          : JSON.stringify(v === undefined ? null : v);
+        console.log(JSON.stringify(texts.map((text) => told((0, eval)("(" + text + ")")))));
+    """
+    run = subprocess.run(
+        [node, "-e", script],
+        input=json.dumps([DATA, TEXTS]),
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    expected = dict(zip(TEXTS, json.loads(run.stdout), strict=True))
+
+    assert {text: told(value(text)) for text in TEXTS} == expected
+
+
+@QUICK
+@given(EXPRESSIONS)
+def test_what_is_written_for_a_model_has_the_value_of_the_language(expression: Any) -> None:
+    expected = defined_value(expression)
+    assume(not isinstance(expected, float) or math.isfinite(expected))
+    assume(abs(expected) < 2**53)
+
+    assert value(translate(expression, ECMASCRIPT), {}) == expected
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        *("", "1 +", "a b", "a = 1", "f(1)", "new Date()", "Math.random()", "JSON.stringify(1)"),
+        *("_event.origin", "function (a) { return a; }", "(function (a) { return a; })()"),
+        *("1 ? 2", "a.constructor()", "`a`", "a++", "-" * 200 + "1", "'a", "import('x')"),
+        "o.__proto__.x()",
+    ],
+)
+def test_what_is_not_understood(text: str) -> None:
+    with pytest.raises(Unreadable):
+        read(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("unknown", "`unknown` is not defined"),
+        ("nothing.x", "undefined has no `x`"),
+        ("o.x.y", "undefined has no `y`"),
+    ],
+)
+def test_what_throws(text: str, message: str) -> None:
+    with pytest.raises(ExecutionError, match=message):
+        value(text)
+
+
+def test_members_are_those_of_the_data_alone() -> None:
+    """Nothing of Python shines through."""
+    assert value("s.__class__") is None
+    assert value("o.keys") is None
+    assert value("l.append") is None
+    assert value("_event.data.level") == 3
+    assert value("_event.name") == "e"
+
+
+def test_texts_do_not_grow_beyond_all_bounds() -> None:
+    with pytest.raises(ExecutionError, match="too long"):
+        value("s + s", {"s": "x" * 600_000})
+
+
+def test_a_copy_is_a_copy() -> None:
+    assert value("JSON.parse(JSON.stringify(o))") is not DATA["o"]
+    assert value("o") is DATA["o"]
