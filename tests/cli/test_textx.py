@@ -4,8 +4,12 @@ import subprocess
 import sys
 from pathlib import Path
 
-from swarmdsl import plugins, textx_entry
+import pytest
+from textx import TextXError
 
+from swarmdsl import compiler, plugins, textx_entry
+
+DIAGNOSTICS = Path(__file__).resolve().parents[1] / "diagnostics"
 TEXTX = "from textx.cli import textx; textx()"
 
 
@@ -37,6 +41,23 @@ def test_check_says_where_the_first_mistake_is(bad):
     assert f"{bad}:8:21: no state called `Of`" in ran.stderr
     assert "and 1 more; run `swarmc check`" in ran.stderr
     assert "Traceback" not in ran.stderr
+
+
+def test_check_agrees_with_swarmc(examples):
+    """In the process: as a command it would take a second each."""
+    models = [*examples.rglob("*.swarm"), *DIAGNOSTICS.glob("*.swarm")]
+    # Of nothing textX makes no model, and so nothing is checked.
+    nothing = {"SW0005_comments_only.swarm", "SW0005_empty.swarm"}
+    metamodel = textx_entry.swarm.metamodel()
+    wrong = 0
+    for model in sorted(model for model in models if model.name not in nothing):
+        if compiler.check([model]).report.has_errors:
+            wrong += 1
+            with pytest.raises((TextXError, UnicodeDecodeError)):
+                metamodel.model_from_file(str(model))
+        else:
+            metamodel.model_from_file(str(model))
+    assert 20 < wrong < len(models) - 20
 
 
 def test_check_of_a_file_with_a_syntax_error(tmp_path):

@@ -8,9 +8,7 @@ from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.load import read_source
-from swarmdsl.project.schema import FILE_NAME, read_settings
-from swarmdsl.project.settings import Settings
-from swarmdsl.project.toml import parse_toml
+from swarmdsl.project.settings import FILE_NAME, Settings
 
 
 def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
@@ -21,6 +19,10 @@ def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
     path = find_file(paths[0] if paths else Path())
     if path is None:
         return Settings()
+    # What reads TOML takes a while to import.
+    from swarmdsl.project.schema import read_settings
+    from swarmdsl.project.toml import parse_toml
+
     source = read_source(path, None, report)
     document = parse_toml(source, report) if source is not None else None
     return read_settings(document, path.parent, report) if document is not None else Settings()

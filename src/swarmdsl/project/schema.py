@@ -14,12 +14,10 @@ from swarmdsl.diagnostics import Diagnostics, Label, Level
 from swarmdsl.generator import Generator
 from swarmdsl.options import Option, options_of, parse_options
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
-from swarmdsl.project.settings import Settings
+from swarmdsl.project.settings import FILE_NAME, Settings
 from swarmdsl.project.toml import Document, Keys
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
-
-FILE_NAME = "swarm.toml"
 
 _KEYS: dict[str, tuple[str, ...]] = {
     "project": ("name", "sources", "libraries"),

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from swarmdsl.diagnostics import Level
 
+FILE_NAME = "swarm.toml"
+
 
 @dataclass(frozen=True)
 class Settings:
