@@ -464,6 +464,34 @@ def test_the_end_leaves_all_states() -> None:
     assert (instance.running, instance.final) == (False, None)
 
 
+def stopping(instance: Instance, event: Event) -> bool:
+    instance.stop()
+    return False
+
+
+@pytest.mark.parametrize(
+    "transitions",
+    [
+        (on("e", "b", guard=stopping),),
+        (on("e", "b", effect=stopping),),
+        (on("e", "b"), on("", "b", guard=lambda i, e: e.name == "e" and stopping(i, e))),
+        (on("e", effect=raising("x")), on("x", "b", guard=stopping)),
+    ],
+)
+def test_a_machine_may_be_stopped_in_the_middle_of_a_step(
+    transitions: tuple[Transition, ...],
+) -> None:
+    a = noisy("a", transitions=transitions)
+    instance = started(Machine("m", (a, noisy("b", transitions=a.transitions[1:2]))))
+    after(instance, "e", "e")
+
+    assert not instance.running
+    assert instance.configuration.ids == []
+    notes = instance.data["notes"]
+    entered = [each[1:] for each in notes if each[0] == "+"]
+    assert entered == [each[1:] for each in notes if each[0] == "-"]
+
+
 # ---- histories
 
 

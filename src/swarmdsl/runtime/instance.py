@@ -90,6 +90,7 @@ class Instance:
             self._receive_waiting()
         finally:
             self._busy = False
+            self._during = None
 
     def receive(self, event: Event) -> None:
         """Run an event from outside to its end; in the middle of another one, after that.
@@ -109,6 +110,7 @@ class Instance:
                     self._receive_waiting()
             finally:
                 self._busy = False
+                self._during = None
 
     def stop(self) -> None:
         """End the machine: leave all states, cancel what they have going on."""
@@ -176,7 +178,7 @@ class Instance:
             self._take(step, event)
             if step.quiet and self.running and not self._internal:
                 return
-        elif not self._internal:
+        elif self.running and not self._internal:
             return
         self._settle(event)
 
@@ -197,7 +199,7 @@ class Instance:
                     step = self._select(event.name, event)
                 elif self._pending:
                     self._start_activities()
-                else:
+                elif self.running:
                     return
             if step is not None:
                 self._take(step, event)
