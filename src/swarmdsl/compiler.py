@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.emit import Request, emit
 from swarmdsl.ir import System
 from swarmdsl.link import link
-from swarmdsl.load import load
+from swarmdsl.load import Project, load
 from swarmdsl.lower import lower
 from swarmdsl.output import Written, write
 from swarmdsl.project.settings import Settings
@@ -21,12 +22,21 @@ _DEFAULTS = Settings()
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a run; `system` is None when the model has errors."""
+    """What came of a run; `valid` is the project where its model has no errors.
+
+    `name` is that of the system, if one is given.
+    """
 
     report: Diagnostics
     files: int
-    system: System | None = None
+    valid: Project | None = None
+    name: str | None = None
     written: Written | None = None
+
+    @cached_property
+    def system(self) -> System | None:
+        """The model as a generator sees it, made when it is asked for; None if it has errors."""
+        return lower(self.valid, self.name) if self.valid is not None else None
 
 
 def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
@@ -39,7 +49,7 @@ def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
     validate(project, report)
     if report.has_errors:
         return Result(report, len(project.files))
-    return Result(report, len(project.files), lower(project, settings.name))
+    return Result(report, len(project.files), project, settings.name)
 
 
 def build(
@@ -58,4 +68,4 @@ def build(
     files = emit(checked.system, requests, report)
     if report.has_errors:
         return checked
-    return Result(report, checked.files, checked.system, write(files, out, report, force=force))
+    return replace(checked, written=write(files, out, report, force=force))

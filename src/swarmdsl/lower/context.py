@@ -46,7 +46,8 @@ class Context:
     by the namespace of their server, `services` the types of these servers. `heard` gives the
     events by the topics they are heard on; `monitored` are those among them that are not
     declared, because a transition monitors their topic.
-    `behaving` are the members and components by machine.
+    `behaving` are the members and components by machine, `parts` those of members by what
+    they are.
     In a machine that another one reuses, `variables` and `values` say what its variables
     are called there and which values its params have. `enums` are the types of the numbers
     behind enums.
@@ -59,6 +60,7 @@ class Context:
     monitored: tuple[ir.Event, ...]
     typing: Typing
     behaving: Mapping[StateMachine, list[Member | Component]]
+    parts: Mapping[Component, list[Part]]
     variables: Mapping[Variable, str] = field(default_factory=dict)
     values: Mapping[Param, ir.Expression] = field(default_factory=dict)
     enums: Mapping[ir.Named, ir.Primitive] = field(default_factory=dict)
@@ -111,6 +113,7 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
     count = Counter(str(declaration.name) for _, declaration in pairs)
     names: dict[Declaration, str] = {}
     behaving: dict[StateMachine, list[Member | Component]] = {}
+    parts: dict[Component, list[Part]] = {}
     enums: dict[ir.Named, ir.Primitive] = {}
     taken = set(count)
     for file, declaration in pairs:
@@ -127,11 +130,14 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
             for use in all_items(declaration, BehaviorUse):
                 if use.machine.target is not None:
                     behaving.setdefault(use.machine.target, []).append(declaration)
+        for part in all_items(declaration, Part) if isinstance(declaration, Member) else ():
+            if part.component.target is not None:
+                parts.setdefault(part.component.target, []).append(part)
     taken = set(names.values())
     operations: dict[tuple[str, Operation], str] = {}
     services: dict[Operation, ir.Named] = {}
     typing = Typing(Interfaces(project.declarations()), Diagnostics())
-    context = Context(names, operations, services, {}, (), typing, behaving, enums=enums)
+    context = Context(names, operations, services, {}, (), typing, behaving, parts, enums=enums)
     for file, declaration in pairs:
         for item in declaration.items if isinstance(declaration, Component) else ():
             if isinstance(item, Operation):

@@ -33,7 +33,6 @@ from swarmdsl.syntax import (
     NameUse,
     Parallel,
     Param,
-    Part,
     Region,
     State,
     StateMachine,
@@ -243,13 +242,7 @@ def _values(
     defaults = {
         param.name: param.default for param in lower_params(all_items(owner, Param), context)
     }
-    parts = [
-        part
-        for member in context.names
-        if isinstance(member, Member)
-        for part in all_items(member, Part)
-        if part.component.target is owner
-    ]
+    parts = context.parts.get(owner, []) if isinstance(owner, Component) else []
     for part in parts:
         given = {str(v.name): lower_expression(v.value, context) for v in part.values}
         yield {**defaults, **given}
