@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from xml.parsers import expat
 
 from swarmdsl.diagnostics import Diagnostics
@@ -40,7 +40,7 @@ class Node:
         self.line = line
         self.text = ""
         self.children: list[Node] = []
-        self.ours: Sequence[Node] = ()
+        self.ours: list[Node] = []
 
     def walk(self) -> Iterator[Node]:
         """Yield the node and all inside it, in document order."""

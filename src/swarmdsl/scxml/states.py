@@ -150,7 +150,7 @@ class _Reader:
             id_,
             _KINDS.get(name, Kind.STATE),
             tuple(states),
-            self.initial(node) if name == "state" else (),
+            self.initial(node) if node.children or "initial" in node.attributes else (),
             tuple(transitions),
             tuple(entry),
             tuple(leave),

@@ -67,7 +67,7 @@ _NOT_RUN = {
 
 def check(document: Document, report: Diagnostics) -> None:
     """Report what is no SCXML, and what is but is not understood; leave it out."""
-    foreign = {OURS}
+    foreign: set[str] = set()
     waiting = [document.root]
     while waiting:
         node = waiting.pop()
@@ -85,38 +85,36 @@ def check(document: Document, report: Diagnostics) -> None:
         if node.text and node.name not in _WITH_TEXT:
             fault = f"there is no text in `<{node.name}>`"
             report.report("illegal-structure", document.at(node), fault=fault)
-        if node.children:
-            node.ours = [each for each in node.children if each.namespace == OURS]
-            node.children = [
-                each
-                for each in node.children
-                if _is_known(document, each, node.name, inside, foreign, report)
-            ]
-            waiting += node.children
+        kept = []
+        for child in node.children:
+            if child.namespace != SCXML or child.name not in inside or child.name in _NOT_RUN:
+                _leave_out(document, child, node, inside, foreign, report)
+            else:
+                kept.append(child)
+        node.children = kept
+        waiting += reversed(kept)
 
 
-def _is_known(
+def _leave_out(
     document: Document,
+    child: Node,
     node: Node,
-    parent: str,
     inside: set[str],
     foreign: set[str],
     report: Diagnostics,
-) -> bool:
-    """Whether an element is looked at; of each foreign namespace, the first one is told."""
-    name = node.name
-    if node.namespace != SCXML:
-        if node.namespace not in foreign:
-            foreign.add(node.namespace)
-            report.report("foreign-element", document.at(node), name=name)
-        return False
-    if name not in inside:
-        _report_unknown(document, node, parent, inside, report)
-        return False
-    if name in _NOT_RUN:
-        report.report("not-understood", document.at(node), name=name, reason=_NOT_RUN[name])
-        return False
-    return True
+) -> None:
+    """Say why an element is not looked at; one is told of each foreign namespace."""
+    name = child.name
+    if child.namespace == OURS:
+        node.ours.append(child)
+    elif child.namespace != SCXML:
+        if child.namespace not in foreign:
+            foreign.add(child.namespace)
+            report.report("foreign-element", document.at(child), name=name)
+    elif name not in inside:
+        _report_unknown(document, child, node.name, inside, report)
+    else:
+        report.report("not-understood", document.at(child), name=name, reason=_NOT_RUN[name])
 
 
 def _report_attributes(
