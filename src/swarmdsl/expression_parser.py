@@ -254,8 +254,11 @@ class ExpressionParser:
 
     def _quantity(self, match: Match) -> _Found:
         digits, unit = match[2], match[3] or ""
-        if len(digits) < _SIMPLE_NUMBER and not unit and digits.isdigit():
-            return self._value(match, int(digits))
+        if len(digits) < _SIMPLE_NUMBER and not unit:
+            if digits.isdigit():
+                return self._value(match, int(digits))
+            if "e" not in digits and "E" not in digits:
+                return self._value(match, float(digits))
         if not is_too_large(match[1], digits, unit):
             return self._value(match, quantity_value(digits), unit)
         if self._large is None:

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from functools import cache
 
 from swarmdsl.ir.types import PRIMITIVES
-from swarmdsl.resources import grammar
 from swarmdsl.suggest import closest
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
@@ -75,13 +73,11 @@ def _literals(expected: set[str]) -> list[str]:
     return [word.strip("`") for word in expected if re.fullmatch(r"`[a-z]+`", word)]
 
 
-@cache
 def keywords() -> frozenset[str]:
-    """The reserved words, as `grammar/lexical.tx` lists them."""
-    text = (grammar() / "lexical.tx").read_text(encoding="utf-8")
-    found = re.search(r"^IDENT: /\(\?!\(\?:([a-z|]+)\)", text, re.MULTILINE)
-    assert found is not None
-    return frozenset(found[1].split("|"))
+    """The reserved words."""
+    from swarmdsl.swarm_parser import RESERVED  # which needs modules that need this one
+
+    return RESERVED
 
 
 def strange_character(character: str) -> str | None:
