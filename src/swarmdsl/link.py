@@ -31,7 +31,6 @@ from swarmdsl.syntax import (
     FitnessInput,
     Function,
     Member,
-    Node,
     Operation,
     Optimization,
     Param,
@@ -44,9 +43,11 @@ from swarmdsl.syntax import (
     State,
     StateMachine,
     Swarm,
+    TopLevel,
     TypeRef,
     Variable,
-    walk,
+    nodes_of,
+    references,
 )
 
 _TOP_LEVEL: dict[str, type[Any]] = {
@@ -68,11 +69,9 @@ def link(project: Project, report: Diagnostics) -> None:
     }
     owners = [*project.declarations(), *project.optimizations()]
     for file, owner in owners:
-        for node in walk(owner):
-            if isinstance(node, TypeRef):
-                types.link(node, file)
-            elif not isinstance(node, Activity):
-                _link_top_level(node, scopes[file], report)
+        for type_ in nodes_of(owner, TypeRef):
+            types.link(type_, file)
+        _link_top_level(owner, scopes[file], report)
     params = _params_of_members(project)
     parts = _parts_of_members(project)
     for file, owner in owners:
@@ -98,19 +97,12 @@ def link(project: Project, report: Diagnostics) -> None:
     open_cycles(project, report)
 
 
-def _link_top_level(node: Node, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the references of a node to top-level declarations."""
-    for ref in _refs(node):
+def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the references in a declaration to others; what is done needs a closer look."""
+    for node, ref in references(owner):
         kind = _TOP_LEVEL.get(ref.kind)
-        if kind is not None:
+        if kind is not None and not isinstance(node, Activity):
             ref.target = scope.resolve(ref.name, ref.span, kind, report)
-
-
-def _refs(node: Node) -> Iterable[Ref[Any]]:
-    for attribute in node.__dataclass_fields__:
-        value = getattr(node, attribute)
-        if isinstance(value, Ref):
-            yield value
 
 
 def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Param]]:
@@ -144,11 +136,8 @@ def _parts_of_members(project: Project) -> Mapping[StateMachine, dict[str, list[
             if machine is None or machine in seen:
                 continue
             seen.add(machine)
-            work += [
-                node.machine.target
-                for node in walk(machine)
-                if isinstance(node, State) and node.machine is not None
-            ]
+            states = nodes_of(machine, State)
+            work += [state.machine.target for state in states if state.machine is not None]
             common = found.setdefault(machine, {name: [] for name in parts})
             found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
     return defaultdict(dict, found)
@@ -170,9 +159,7 @@ def _link_activities(
     report: Diagnostics,
 ) -> None:
     """Resolve what each state does: a function, `part.operation` or `Component.operation`."""
-    for node in walk(machine):
-        if not isinstance(node, Activity):
-            continue
+    for node in nodes_of(machine, Activity):
         ref = node.function
         before, _, name = ref.name.rpartition(".")
         places = parts.get(before, [])

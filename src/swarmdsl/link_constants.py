@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.load import Project
-from swarmdsl.syntax import Constant, NameUse, walk
+from swarmdsl.syntax import Constant, NameUse, nodes_of
 
 
 def open_cycles(project: Project, report: Diagnostics) -> None:
@@ -15,8 +15,8 @@ def open_cycles(project: Project, report: Diagnostics) -> None:
     constants = [node for _, node in project.declarations() if isinstance(node, Constant)]
 
     def used(constant: Constant) -> Iterator[tuple[NameUse, Constant]]:
-        for node in walk(constant):
-            if isinstance(node, NameUse) and isinstance(node.target, Constant):
+        for node in nodes_of(constant, NameUse):
+            if isinstance(node.target, Constant):
                 yield node, node.target
 
     for constant, uses in cycles(constants, used):

@@ -23,11 +23,12 @@ from swarmdsl.syntax import (
     FieldUse,
     FitnessInput,
     NameUse,
-    Node,
     OperatorUse,
     Param,
+    TopLevel,
     Variable,
-    walk,
+    changed,
+    nodes_of,
 )
 
 Values = Mapping[str, Variable | Param | FitnessInput]
@@ -43,24 +44,26 @@ class ValueLinker:
     enums: Mapping[Named, EnumType]
     report: Diagnostics
 
-    def link(self, owner: Node, values: Values) -> None:
+    def link(self, owner: TopLevel, values: Values) -> None:
         """Bind the names in the expressions of a declaration, which has these values."""
-        for node in walk(owner):
-            if isinstance(node, Expression) and node.tree is not None:
-                node.tree = self._linked(node.tree, values)
+        for node in nodes_of(owner, Expression):
+            if node.tree is not None:
+                node.tree = self._linked(node.tree, owner, values)
 
-    def _linked(self, tree: ExpressionTree, values: Values) -> ExpressionTree:
+    def _linked(self, tree: ExpressionTree, owner: TopLevel, values: Values) -> ExpressionTree:
         """The same, with one name for a path of words that together name a declaration."""
         match tree:
             case Call(arguments=arguments):
-                tree.arguments = tuple(self._linked(argument, values) for argument in arguments)
+                tree.arguments = tuple(
+                    self._linked(argument, owner, values) for argument in arguments
+                )
             case OperatorUse(operands=operands):
-                tree.operands = tuple(self._linked(operand, values) for operand in operands)
+                tree.operands = tuple(self._linked(operand, owner, values) for operand in operands)
             case NameUse() | FieldUse():
-                return self._path(tree, values)
+                return self._path(tree, owner, values)
         return tree
 
-    def _path(self, tree: NameUse | FieldUse, values: Values) -> ExpressionTree:
+    def _path(self, tree: NameUse | FieldUse, owner: TopLevel, values: Values) -> ExpressionTree:
         fields: list[FieldUse] = []
         base: ExpressionTree = tree
         while isinstance(base, FieldUse):
@@ -76,7 +79,10 @@ class ValueLinker:
             if length is None:
                 self._report_unknown(base, fields, values)
                 return tree
-            used = NameUse(fields[length - 1].span, names[length]) if length else base
+            used = base
+            if length:
+                used = NameUse(fields[length - 1].span, names[length])
+                changed(owner)
             used.target = self._declared(used.name, used.span)
             if length == len(fields):
                 return used

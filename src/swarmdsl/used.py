@@ -2,17 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
-from swarmdsl.syntax import Component, Declaration, Node, Operation, Ref, TypeRef, walk
+from swarmdsl.syntax import (
+    Activity,
+    Component,
+    Declaration,
+    NameUse,
+    Node,
+    Operation,
+    TopLevel,
+    TypeRef,
+    nodes_of,
+    references,
+)
 
 
 def used_declarations(project: Project) -> list[tuple[File, Declaration]]:
     """All that the project declares itself, and what that leads to, in the order of the files."""
     pairs = list(project.declarations())
+    if not any(file.library for file in project.files):
+        return pairs
     by_type = {interface_name(file, node.name): node for file, node in pairs}
     owners: dict[Node, Declaration] = {}
     for _, declaration in pairs:
@@ -21,29 +32,20 @@ def used_declarations(project: Project) -> list[tuple[File, Declaration]]:
             for item in declaration.items:
                 if isinstance(item, Operation):
                     owners[item] = declaration
-    work: list[Node] = [node for file, node in pairs if not file.library]
+    work: list[TopLevel] = [node for file, node in pairs if not file.library]
     work += [optimization for _, optimization in project.optimizations()]
-    used: set[Node] = set()
+    used: set[TopLevel] = set()
     while work:
         node = work.pop()
         if node in used:
             continue
         used.add(node)
-        for inside in walk(node):
-            work += [owners[target] for target in _targets(inside) if target in owners]
-            if isinstance(inside, TypeRef):
-                element = inside.type.element if isinstance(inside.type, Array) else inside.type
-                if isinstance(element, Named) and element in by_type:
-                    work.append(by_type[element])
+        targets = [ref.target for _, ref in references(node)]
+        targets += [use.target for use in nodes_of(node, NameUse)]
+        targets += [activity.owner for activity in nodes_of(node, Activity)]
+        work += [owners[target] for target in targets if target in owners]
+        for ref in nodes_of(node, TypeRef):
+            element = ref.type.element if isinstance(ref.type, Array) else ref.type
+            if isinstance(element, Named) and element in by_type:
+                work.append(by_type[element])
     return [(file, node) for file, node in pairs if node in used]
-
-
-def _targets(node: Node) -> Iterator[Node]:
-    for attribute in node.__dataclass_fields__:
-        value = getattr(node, attribute)
-        if isinstance(value, Ref):
-            value = value.target
-        elif attribute not in ("target", "owner"):
-            continue
-        if isinstance(value, Node):
-            yield value

@@ -140,3 +140,8 @@ def test_a_constant_is_not_assigned_to(checked: Checked) -> None:
     result = checked(machine(guard="true").replace("] ->", "] / air.K = 3 ->"))
 
     assert "not-assignable" in [found.name for found in result.report]
+
+
+def test_a_constant_by_its_package_keeps_no_check_from_looking(checked: Checked) -> None:
+    found = checked(machine("var x : int32\n", "x < sar.modes.K").replace("->", "/ x = 1 ->"))
+    assert [one.name for one in found.report] == ["early-read"]

@@ -101,11 +101,12 @@ from swarmdsl.syntax.nodes import (
     Node,
     OperatorUse,
     Ref,
+    TopLevel,
     TypeRef,
     Value,
     Word,
 )
-from swarmdsl.syntax.tree import NODES, children, walk
+from swarmdsl.syntax.tree import NODES, changed, children, nodes_of, references, walk
 
 __all__ = [
     "NODES",
@@ -188,6 +189,7 @@ __all__ = [
     "StructType",
     "Swarm",
     "TimeTrigger",
+    "TopLevel",
     "Transition",
     "Trigger",
     "TypeRef",
@@ -196,7 +198,10 @@ __all__ = [
     "Vertex",
     "Word",
     "World",
+    "changed",
     "children",
     "in_metres",
+    "nodes_of",
+    "references",
     "walk",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Generic, TypeVar
 
@@ -43,9 +44,15 @@ class Documented(Node):
 
 @dataclass(slots=True, eq=False)
 class TopLevel(Documented):
-    """A declaration of a file; `nodes` are it and all inside it, once somebody walked it."""
+    """A declaration of a file.
+
+    `nodes` are it and all inside it, `by_class` the same by their classes, once somebody asked.
+    """
 
     nodes: tuple[Node, ...] | None = field(default=None, init=False, metadata={"elsewhere": True})
+    by_class: Mapping[type[Node], Sequence[Node]] | None = field(
+        default=None, init=False, metadata={"elsewhere": True}
+    )
 
 
 N = TypeVar("N", bound=Node)

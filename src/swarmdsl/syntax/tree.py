@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import fields
 from types import UnionType
-from typing import get_args
+from typing import Any, TypeVar, cast, get_args
 
 from swarmdsl.syntax import architecture, behaviour, composition, file, interfaces, nodes
-from swarmdsl.syntax.nodes import Documented, Node, TopLevel
+from swarmdsl.syntax.nodes import Documented, Node, Ref, TopLevel
 
 _MODULES = (nodes, interfaces, architecture, behaviour, composition, file)
 
@@ -45,6 +45,12 @@ def _parts(cls: type[Node]) -> tuple[tuple[str, bool], ...]:
 
 
 _PARTS = {cls: _parts(cls) for cls in NODES.values()}
+_REFERENCES = {
+    cls: tuple(part.name for part in fields(cls) if str(part.type).startswith("Ref["))
+    for cls in NODES.values()
+}
+
+N = TypeVar("N", bound=Node)
 
 
 def children(node: Node) -> Iterator[Node]:
@@ -60,7 +66,7 @@ def children(node: Node) -> Iterator[Node]:
 def walk(node: Node) -> Iterable[Node]:
     """A node and all inside it, in document order.
 
-    Every phase walks every declaration, which does not change once it is parsed: what is in
+    Every phase walks every declaration, which hardly changes once it is parsed: what is in
     it is looked for once.
     """
     if not isinstance(node, TopLevel):
@@ -68,6 +74,30 @@ def walk(node: Node) -> Iterable[Node]:
     if node.nodes is None:
         node.nodes = tuple(_walk(node))
     return node.nodes
+
+
+def nodes_of(owner: TopLevel, kind: type[N]) -> Sequence[N]:
+    """The nodes of one class in a declaration, in document order, looked for once like all."""
+    if owner.by_class is None:
+        by_class: dict[type[Node], list[Node]] = {}
+        for node in walk(owner):
+            by_class.setdefault(type(node), []).append(node)
+        owner.by_class = by_class
+    return cast("Sequence[N]", owner.by_class.get(kind, ()))
+
+
+def references(owner: Node) -> Iterator[tuple[Node, Ref[Any]]]:
+    """The references in a node, in document order, each with the node that holds it."""
+    for node in walk(owner):
+        for attribute in _REFERENCES[type(node)]:
+            ref = getattr(node, attribute)
+            if ref is not None:
+                yield node, ref
+
+
+def changed(owner: TopLevel) -> None:
+    """Forget what is in a declaration: a node of it was replaced."""
+    owner.nodes = owner.by_class = None
 
 
 def _walk(node: Node) -> Iterator[Node]:
