@@ -2,7 +2,8 @@
 
 It follows a program, as the parsing machine of LPeg does (R. Ierusalimschy, A Text Pattern-
 Matching Tool based on Parsing Expression Grammars, 2009), with a stack of its own: nothing
-is nested too deeply for it. It takes a hundred times as long as a generated parser.
+is nested too deeply for it. It takes about three times as long as a generated parser, which
+makes a tree as well.
 """
 
 from __future__ import annotations
