@@ -23,7 +23,6 @@ from swarmdsl.syntax import (
 )
 
 Folded = bool | int | float | str
-Constants = dict[Constant, Folded | None]
 
 _OPERATIONS: Mapping[str, Callable[..., Folded]] = {
     "==": operator.eq,
@@ -51,101 +50,116 @@ class _UndefinedError(Exception):
     """An operation on known operands has no result that any target can hold."""
 
 
-def fold(tree: ExpressionTree, known: Constants | None = None) -> Folded | None:
-    """The value of an expression, durations in nanoseconds; None when it is not known.
+class Folding:
+    """Values of expressions, each worked out once: the tree does not change any more."""
 
-    `and` and `or` are known where one side decides. An expression that has no value (a
-    division by zero) is None too: `undefined` says why. What constants are found to be is kept
-    in `known`.
-    """
-    known = {} if known is None else known
+    def __init__(self) -> None:
+        self._known: dict[ExpressionTree, Folded | Exception | None] = {}
+        self._constants: dict[Constant, Folded | None] = {}
+        self._numbers: dict[EnumType, Mapping[str, int]] = {}
 
-    def needed(tree: ExpressionTree | None) -> list[Constant]:
-        return [constant for constant in _constants(tree) if constant not in known]
+    def value(self, tree: ExpressionTree) -> Folded | None:
+        """The value of an expression, durations in nanoseconds; None when it is not known.
 
-    for constant in leaves_first(needed(tree), lambda each: needed(each.value.tree)):
-        known[constant] = _folded(constant.value.tree, known)
-    return _folded(tree, known)
+        `and` and `or` are known where one side decides. An expression that has no value (a
+        division by zero) is None too: `undefined` says why.
+        """
+        try:
+            return self._fold(tree)
+        except (_UndefinedError, TypeError):
+            return None
 
+    def numbers(self, enum: EnumType) -> Mapping[str, int]:
+        """The number of each value of an enum."""
+        found = self._numbers.get(enum)
+        if found is None:
+            found = self._numbers[enum] = numbers(enum)
+        return found
 
-def undefined(
-    tree: Call | OperatorUse, known: Constants | None = None, *, duration: bool = False
-) -> str | None:
-    """Why an operation has no result, whatever its unknown operands are; None where it has one.
+    def constant(self, constant: Constant) -> Folded | None:
+        """The value of a constant, which may follow from those of any number of others."""
+        if constant not in self._constants:
+            for each in leaves_first([constant], self._needed):
+                tree = each.value.tree
+                self._constants[each] = self.value(tree) if tree is not None else None
+        return self._constants[constant]
 
-    It is the operation itself that is looked at: of operands without a value nothing is said.
-    `duration` says that the result is one.
-    """
-    operands = tree.arguments if isinstance(tree, Call) else tree.operands
-    values = [fold(operand, known) for operand in operands]
-    word = str(tree.function if isinstance(tree, Call) else tree.operator)
-    if word in ("/", "%") and _is_zero(values[-1]):
-        return "the divisor is 0"
-    if None in values or word in ("and", "or", "not"):
+    def _needed(self, constant: Constant) -> list[Constant]:
+        """The constants that one is made of, of which the values are not known yet."""
+        tree = constant.value.tree
+        return [
+            node.target
+            for node in (walk(tree) if tree is not None else ())
+            if isinstance(node, NameUse)
+            and isinstance(node.target, Constant)
+            and node.target not in self._constants
+        ]
+
+    def undefined(self, tree: Call | OperatorUse, *, duration: bool = False) -> str | None:
+        """Why an operation has no result, whatever its unknown operands are; None if it has one.
+
+        It is the operation itself that is looked at: of operands without a value nothing is
+        said. `duration` says that the result is one.
+        """
+        operands = tree.arguments if isinstance(tree, Call) else tree.operands
+        values = [self.value(operand) for operand in operands]
+        word = str(tree.function if isinstance(tree, Call) else tree.operator)
+        if word in ("/", "%") and _is_zero(values[-1]):
+            return "the divisor is 0"
+        if None in values or word in ("and", "or", "not"):
+            return None
+        try:
+            negation = (word, len(values)) == ("-", 1)
+            result = _negative(values[0]) if negation else _apply(word, values)
+        except _UndefinedError as error:
+            return str(error)
+        except TypeError:
+            return None
+        if duration and isinstance(result, (int, float)) and round(result) not in _LENGTHS:
+            return "it would be longer than 292 years"
         return None
-    try:
-        result = _negative(values[0]) if (word, len(values)) == ("-", 1) else _apply(word, values)
-    except _UndefinedError as error:
-        return str(error)
-    except TypeError:
-        return None
-    if duration and isinstance(result, (int, float)) and round(result) not in _LENGTHS:
-        return "it would be longer than 292 years"
-    return None
 
+    def _fold(self, tree: ExpressionTree) -> Folded | None:
+        """Like `value`; raises what came of an operation that has no result."""
+        if isinstance(tree, NameUse):
+            return self.constant(tree.target) if isinstance(tree.target, Constant) else None
+        if isinstance(tree, Value) and not tree.unit:
+            return tree.value
+        if tree not in self._known:
+            try:
+                self._known[tree] = self._worked_out(tree)
+            except (_UndefinedError, TypeError) as error:
+                self._known[tree] = error
+        found = self._known[tree]
+        if isinstance(found, Exception):
+            raise found
+        return found
 
-def _constants(tree: ExpressionTree | None) -> list[Constant]:
-    """The constants that an expression names."""
-    nodes = walk(tree) if tree is not None else ()
-    return [
-        node.target
-        for node in nodes
-        if isinstance(node, NameUse) and isinstance(node.target, Constant)
-    ]
-
-
-def _folded(tree: ExpressionTree | None, known: Mapping[Constant, Folded | None]) -> Folded | None:
-    try:
-        return _Folding(known).fold(tree) if tree is not None else None
-    except (_UndefinedError, TypeError):
-        return None
-
-
-class _Folding:
-    """A walk over an expression; of the constants in it the values are known before."""
-
-    def __init__(self, known: Mapping[Constant, Folded | None]) -> None:
-        self._known = known
-
-    def fold(self, tree: ExpressionTree) -> Folded | None:
+    def _worked_out(self, tree: ExpressionTree) -> Folded | None:
         match tree:
-            case Value(value=bool() | str() as value):
-                return value
-            case Value(unit=unit, value=value):
-                return nanoseconds(tree.span.text, unit) if unit else value
-            case NameUse(target=Constant() as constant):
-                return self._known[constant]
-            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-                return numbers(enum).get(str(name))
-            case Call(function=function, arguments=arguments) if function in _OPERATIONS:
-                return self._applied(str(function), arguments)
             case OperatorUse(operator="and" | "or" as word, operands=operands):
                 return self._logic(word == "or", operands)
             case OperatorUse(operator="not", operands=(operand,)):
-                known = self.fold(operand)
+                known = self._fold(operand)
                 return None if known is None else not known
             case OperatorUse(operands=(operand,)):
-                return _negative(self.fold(operand))
+                return _negative(self._fold(operand))
             case OperatorUse(operator=word, operands=operands):
                 return self._applied(str(word), operands)
+            case Call(function=function, arguments=arguments) if function in _OPERATIONS:
+                return self._applied(str(function), arguments)
+            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+                return self.numbers(enum).get(str(name))
+            case Value(unit=unit):
+                return nanoseconds(tree.span.text, unit)
         return None
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
-        values = [self.fold(operand) for operand in operands]
+        values = [self._fold(operand) for operand in operands]
         return None if None in values else _apply(word, values)
 
     def _logic(self, decisive: bool, operands: tuple[ExpressionTree, ...]) -> Folded | None:
-        values = [self.fold(operand) for operand in operands]
+        values = [self._fold(operand) for operand in operands]
         if any(value is decisive for value in values):
             return decisive
         return None if None in values else not decisive

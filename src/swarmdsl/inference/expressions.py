@@ -7,11 +7,11 @@ was not resolved) is None and fits everywhere: one mistake is reported once.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import inf
 
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.folding import Constants, Folded, fold, undefined
+from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference.fitting import fits, is_number, range_of
 from swarmdsl.inference.operators import Operation
 from swarmdsl.interfaces import Interfaces
@@ -45,14 +45,14 @@ class Typing:
     """Infers types; `interfaces` say which fields messages have.
 
     `event` is the type of the triggering event's message: absent where no event is at
-    hand (`has_event` False), None where it is not known. `known` keeps values of constants.
+    hand (`has_event` False), None where it is not known. `folding` knows the values of expressions.
     """
 
     interfaces: Interfaces
     report: Diagnostics = field(default_factory=Diagnostics)
     has_event: bool = False
     event: Type | None = None
-    known: Constants = field(default_factory=dict)
+    folding: Folding = field(default_factory=Folding)
 
     def infer(self, tree: ExpressionTree) -> Type | None:
         """The type of an expression; what is wrong in it is reported."""
@@ -97,7 +97,7 @@ class Typing:
         if tree is None:
             return
         found = self.infer(tree)
-        value = fold(tree, self.known)
+        value = self.folding.value(tree)
         if fits(found, wanted) and value is not None:
             self._check_size(tree, value, wanted)
         elif not fits(found, wanted):
@@ -111,9 +111,11 @@ class Typing:
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """The type of an operation; one that has no result, whenever it is done, is reported."""
         mistakes = Diagnostics()
-        type_ = replace(self, report=mistakes).result(tree, types)
-        self.report.include(mistakes)
-        fault = undefined(tree, self.known, duration=type_ == DURATION) if not mistakes else None
+        type_ = Operation(tree, types, self._is_enum, mistakes).result()
+        if mistakes:
+            self.report.include(mistakes)
+            return type_
+        fault = self.folding.undefined(tree, duration=type_ == DURATION)
         if fault is not None:
             operator = tree.function if isinstance(tree, Call) else tree.operator
             self.report.report("no-result", tree.span, operator=operator, fault=fault)
@@ -155,10 +157,10 @@ class Typing:
         return isinstance(self.interfaces.get(type_), EnumType)
 
     def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
-        values = [str(value.name) for value in enum.values]
-        if str(name) not in values:
+        known = self.folding.numbers(enum)
+        if str(name) not in known:
             report_unresolved(
-                f"value of enum `{enum.name}`", name, name.span, values, None, self.report
+                f"value of enum `{enum.name}`", name, name.span, known, None, self.report
             )
             return None
         return enum.type

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from swarmdsl import ir
-from swarmdsl.enums import numbers
 from swarmdsl.expressions import nanoseconds
-from swarmdsl.folding import fold
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context
 from swarmdsl.source import Span
@@ -60,11 +58,11 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
         case NameUse(target=Param() as param) if param in context.values:
             return context.values[param]
         case NameUse(target=Constant() as constant):
-            return _constant(constant, tree.span)
+            return _constant(constant, tree.span, context)
         case NameUse():
             return _name(tree, context)
         case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-            return ir.Literal(numbers(enum)[str(name)], INT, tree.span)
+            return ir.Literal(context.typing.folding.numbers(enum)[str(name)], INT, tree.span)
         case FieldUse(base=base, name=name):
             owner = _lower(base, context)
             type_ = context.typing.field(owner.type, name, name.span)
@@ -82,10 +80,9 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
     raise AssertionError(tree)
 
 
-def _constant(constant: Constant, at: Span) -> ir.Literal:
+def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
     """The value of a constant: its expression could be that of others, again and again."""
-    assert constant.value.tree is not None
-    value = fold(constant.value.tree)
+    value = context.typing.folding.constant(constant)
     assert value is not None
     if constant.type.type == DURATION:
         assert not isinstance(value, str)

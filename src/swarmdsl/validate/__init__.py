@@ -51,7 +51,7 @@ from swarmdsl.validate.optimization import (
 )
 from swarmdsl.validate.order import check_order
 from swarmdsl.validate.reachability import check_reachability
-from swarmdsl.validate.settling import check_settling
+from swarmdsl.validate.settling import check_settling, circles_of
 from swarmdsl.validate.structure import check_structure, check_submachines
 from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
@@ -99,12 +99,13 @@ def _check(declaration: Declaration, context: Context) -> None:
         case StateMachine():
             check_structure(declaration, context)
             check_transitions(declaration, context)
-            check_settling(declaration, context)
-            check_order(declaration, context)
+            circles = circles_of(declaration, context)
+            check_settling(declaration, circles, context)
+            check_order(declaration, circles, context)
             check_reachability(declaration, context)
             check_activities(declaration, context)
             check_expressions(declaration, context)
-            check_guards(declaration, context)
+            check_guards(declaration, circles, context)
             check_variables(declaration, context)
             check_conflicts(declaration, context)
         case Constant():

@@ -12,8 +12,7 @@ from collections.abc import Hashable, Iterable
 from dataclasses import dataclass, replace
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.enums import numbers
-from swarmdsl.folding import Folded, fold
+from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference import Typing
 from swarmdsl.ir.types import INTEGERS, Named, Primitive, Type
 from swarmdsl.syntax import (
@@ -21,6 +20,7 @@ from swarmdsl.syntax import (
     Call,
     EnumType,
     EventTrigger,
+    Expression,
     ExpressionTree,
     FieldUse,
     MonitorTrigger,
@@ -64,7 +64,7 @@ ALWAYS = Combined(every=True)
 
 def condition(tree: ExpressionTree, typing: Typing) -> Condition:
     """The condition that a `bool` expression is."""
-    known = fold(tree)
+    known = typing.folding.value(tree)
     if isinstance(known, bool):
         return ALWAYS if known else negated(ALWAYS)
     match tree:
@@ -74,7 +74,7 @@ def condition(tree: ExpressionTree, typing: Typing) -> Condition:
             return negated(condition(operand, typing))
         case OperatorUse(operator=operator, operands=(left, right)) if operator in _MIRRORED:
             return _comparison(str(operator), left, right, typing)
-    return _truth(_term(tree))
+    return _truth(_term(tree, typing.folding))
 
 
 def negated(some: Condition) -> Condition:
@@ -88,26 +88,34 @@ def condition_of(item: Transition | Branch, context: Context) -> Condition:
     """The condition under which a transition is taken when it is triggered."""
     if item.guard is None:
         return ALWAYS
-    if item.guard.tree is None:
+    if item not in context.conditions:
+        context.conditions[item] = _condition_of(item, item.guard, context)
+    return context.conditions[item]
+
+
+def _condition_of(item: Transition | Branch, guard: Expression, context: Context) -> Condition:
+    if guard.tree is None:
         return _truth(item)
     triggers = item.triggers if isinstance(item, Transition) else []
     events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
     typing = context.with_event(events) if events else context.typing
-    tree = item.guard.tree
+    tree = guard.tree
     holds = condition(tree, replace(typing, report=Diagnostics()))
-    if not any(_may_fail(part) for part in walk(tree)):
+    if not any(_may_fail(part, typing.folding) for part in walk(tree)):
         return holds
     # A guard that has no result does not hold.
-    return Combined(every=True, parts=(_truth(("has a result", _term(tree))), holds))
+    return Combined(
+        every=True, parts=(_truth(("has a result", _term(tree, typing.folding))), holds)
+    )
 
 
-def _may_fail(part: Node) -> bool:
+def _may_fail(part: Node, folding: Folding) -> bool:
     """Whether an operation may have no result: a division by zero, the root of less."""
     match part:
         case OperatorUse(operator="/" | "%", operands=(_, divisor)):
-            return not fold(divisor)
-        case Call(function="sqrt"):
-            return fold(part) is None
+            return not folding.value(divisor)
+        case Call(function="sqrt") as tree:
+            return folding.value(tree) is None
     return False
 
 
@@ -154,12 +162,12 @@ def possible(conditions: Iterable[Condition]) -> bool:
 def _comparison(
     operator: str, left: ExpressionTree, right: ExpressionTree, typing: Typing
 ) -> Condition:
-    value = fold(right)
+    value = typing.folding.value(right)
     if value is None:
-        value, left, right = fold(left), right, left
+        value, left, right = typing.folding.value(left), right, left
         operator = _MIRRORED[operator]
     if value is None:
-        return _relation(operator, left, right)
+        return _relation(operator, left, right, typing.folding)
     if isinstance(value, bool):
         holds = condition(left, typing)
         return holds if value is (operator == "==") else negated(holds)
@@ -171,9 +179,9 @@ def _compared(operator: str, tree: ExpressionTree, value: Folded, typing: Typing
     if isinstance(value, str):
         texts = Texts(frozenset({value}))
         held = texts if operator == "==" else texts.complement()
-        return Atom(_term(tree), held, Texts(frozenset(), others=True))
+        return Atom(_term(tree, typing.folding), held, Texts(frozenset(), others=True))
     known = _range(tree, typing.infer(tree), typing)
-    return Atom(_term(tree), compared(operator, value, whole=known.whole), known)
+    return Atom(_term(tree, typing.folding), compared(operator, value, whole=known.whole), known)
 
 
 def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
@@ -186,14 +194,16 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
     if isinstance(type_, Named):
         enum = typing.interfaces.get(type_)
         if isinstance(enum, EnumType):
-            return these([0, *numbers(enum).values()])
+            return these([0, *typing.folding.numbers(enum).values()])
     whole = isinstance(type_, Primitive) and type_.name in _WHOLE
     return all_numbers(whole=whole)
 
 
-def _relation(operator: str, left: ExpressionTree, right: ExpressionTree) -> Condition:
+def _relation(
+    operator: str, left: ExpressionTree, right: ExpressionTree, folding: Folding
+) -> Condition:
     """The comparison of two terms: a truth value; the same one when its sides are exchanged."""
-    first, second = _term(left), _term(right)
+    first, second = _term(left, folding), _term(right, folding)
     if operator in (">", ">=") or (operator in ("==", "!=") and hash(first) > hash(second)):
         operator, first, second = _MIRRORED[operator], second, first
     if operator == "!=":
@@ -205,9 +215,9 @@ def _truth(term: Hashable) -> Condition:
     return Atom(("holds", term), these([1]), these([0, 1]))
 
 
-def _term(tree: ExpressionTree) -> Hashable:
+def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
     """What two expressions have in common that have the same value at one moment."""
-    value = fold(tree)
+    value = folding.value(tree)
     if value is not None:
         return (type(value), value)
     match tree:
@@ -216,9 +226,9 @@ def _term(tree: ExpressionTree) -> Hashable:
         case NameUse(name=name, target=target):
             return target or name
         case FieldUse(base=base, name=name):
-            return (_term(base), str(name))
+            return (_term(base, folding), str(name))
         case Call(function=word, arguments=operands):
-            return (str(word), *map(_term, operands))
+            return (str(word), *(_term(operand, folding) for operand in operands))
         case OperatorUse(operator=word, operands=operands):
-            return (str(word), *map(_term, operands))
+            return (str(word), *(_term(operand, folding) for operand in operands))
     raise AssertionError(tree)

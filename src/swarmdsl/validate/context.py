@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.inference import Typing, constant, fits, is_number
@@ -15,6 +16,7 @@ from swarmdsl.ros.interface_file import KINDS
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
+    Branch,
     Declaration,
     EventTrigger,
     Expression,
@@ -24,10 +26,14 @@ from swarmdsl.syntax import (
     MonitorTrigger,
     Param,
     StructType,
+    Transition,
     TypeRef,
     Variable,
     Word,
 )
+
+if TYPE_CHECKING:
+    from swarmdsl.validate.conditions import Condition
 
 
 @dataclass(frozen=True)
@@ -35,13 +41,14 @@ class Context:
     """Passed to every rule.
 
     `damaged` are the declarations with a piece that could not be parsed: of what they seem
-    to lack nothing can be said.
+    to lack nothing can be said. `conditions` are those of the guards that were looked at.
     """
 
     report: Diagnostics
     interfaces: Interfaces
     typing: Typing
     damaged: set[Declaration]
+    conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
 
     def reporting_to(self, report: Diagnostics) -> Context:
         """The same with another collector."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from swarmdsl.folding import fold
 from swarmdsl.inference import Typing, assignable
 from swarmdsl.ir.types import BOOL, DURATION, Named
 from swarmdsl.syntax import (
@@ -41,7 +40,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 check_first_value(node, context)
             case TimeTrigger():
                 context.expect(node.delay, DURATION, context.typing)
-                if node.delay.tree is not None and _negative(node.delay.tree):
+                if node.delay.tree is not None and _negative(node.delay.tree, context.typing):
                     context.report.report("negative-delay", node.delay.span)
                 elif node.delay.tree is not None and _zero(node.delay.tree, context.typing):
                     context.report.report(
@@ -65,9 +64,9 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
                 _check_effects(node.effects, context.typing, context)
 
 
-def _negative(delay: ExpressionTree) -> bool:
+def _negative(delay: ExpressionTree, typing: Typing) -> bool:
     """Whether a delay is below zero, also that of a param: params of delays are not."""
-    value = fold(delay)
+    value = typing.folding.value(delay)
     if isinstance(value, (int, float)):
         return value < 0
     return isinstance(delay, OperatorUse) and delay.operator == "-" and len(delay.operands) == 1
@@ -75,7 +74,7 @@ def _negative(delay: ExpressionTree) -> bool:
 
 def _zero(delay: ExpressionTree, typing: Typing) -> bool:
     """Whether a delay is nothing; a number is none, which is reported as such."""
-    return fold(delay) == 0 and typing.infer(delay) == DURATION
+    return typing.folding.value(delay) == 0 and typing.infer(delay) == DURATION
 
 
 def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> None:

@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from swarmdsl.folding import fold
 from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, walk
 from swarmdsl.validate.conditions import always, condition_of, never
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.settling import endless, is_idle, transitions_of
+from swarmdsl.validate.settling import Circles, endless, is_idle, transitions_of
 
 
-def check_guards(machine: StateMachine, context: Context) -> None:
+def check_guards(machine: StateMachine, circles: Circles, context: Context) -> None:
     """Check the guards of all transitions and branches of a machine.
 
     Where one that always holds makes a machine go round for ever, that has been reported.
     """
-    reported = endless(machine, context)
+    reported = endless(circles)
     for node in walk(machine):
         match node:
             case Choice(branches=branches):
@@ -38,7 +37,7 @@ def _check(item: Transition | Branch, advice: str, context: Context) -> None:
         held, help_ = "always", advice
     else:
         return
-    known = fold(guard.tree) is not None
+    known = context.typing.folding.value(guard.tree) is not None
     context.report.report(
         "constant-guard",
         guard.span,

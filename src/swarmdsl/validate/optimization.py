@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from swarmdsl.folding import fold
 from swarmdsl.inference import is_number
 from swarmdsl.ir.types import INT, Type
 from swarmdsl.syntax import (
@@ -46,7 +45,7 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
         context.check_single(places, f"setting `{name}`")
     for setting in settings:
         context.check_constant(setting.value, INT)
-        value, least = _number(setting.value), 0 if setting.name == "seed" else 1
+        value, least = _number(setting.value, context), 0 if setting.name == "seed" else 1
         if value is not None and value < least:
             context.report.report(
                 "impossible-setting", setting.value.span, name=setting.name, least=least
@@ -91,10 +90,10 @@ def _check_range(
     for value in (lower, upper, step):
         if value is not None:
             context.check_constant(value, type_)
-    low, high = _number(lower), _number(upper)
+    low, high = _number(lower, context), _number(upper, context)
     if low is not None and high is not None and low > high:
         context.report.report("empty-range", upper.span, fault="ends below its start")
-    width = _number(step) if step is not None else None
+    width = _number(step, context) if step is not None else None
     if step is not None and width is not None and width <= 0:
         context.report.report("empty-range", step.span, fault="has a step that is not positive")
     elif step is not None and _is_wider(width, low, high):
@@ -107,6 +106,7 @@ def _is_wider(step: float | None, low: float | None, high: float | None) -> bool
     return step > high - low >= 0
 
 
-def _number(expression: Expression) -> float | None:
-    value = fold(expression.tree) if expression.tree is not None else None
+def _number(expression: Expression, context: Context) -> float | None:
+    tree = expression.tree
+    value = context.typing.folding.value(tree) if tree is not None else None
     return value if isinstance(value, (int, float)) else None

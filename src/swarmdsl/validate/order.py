@@ -7,9 +7,10 @@ event before all that wait for one.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
+from heapq import nsmallest
+from math import inf
 
 from swarmdsl.diagnostics import Label
-from swarmdsl.folding import fold
 from swarmdsl.syntax import (
     Branch,
     Choice,
@@ -28,14 +29,16 @@ from swarmdsl.syntax import (
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.conditions import always, condition_of, negated, never, possible
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.settling import Step, at_once, endless, immediate, transitions_of
+from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate, transitions_of
 
 _AT_ONCE = ("at once",)
+# A transition, and how long its trigger waits.
+_Leaving = tuple[float, Transition]
 
 
-def check_order(machine: StateMachine, context: Context) -> None:
+def check_order(machine: StateMachine, circles: Circles, context: Context) -> None:
     """Report what is never taken because something else always comes before it."""
-    reported = endless(machine, context)
+    reported = endless(circles)
     for node in walk(machine):
         match node:
             case State() | Parallel():
@@ -80,9 +83,10 @@ def _check_transitions(
     transitions: list[Transition], state: State | Parallel, context: Context
 ) -> None:
     earlier: dict[Hashable, list[Transition]] = {}
+    soonest = _soonest(transitions, context)
     for transition in transitions:
         keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
-        sooner = [_sooner(trigger, transition, transitions) for trigger in transition.triggers]
+        sooner = [_sooner(each, transition, soonest, context) for each in transition.triggers]
         blockers = [
             [first] if first is not None else _covering(transition, _all(earlier, each), context)
             for first, each in zip(sooner or [None], keys, strict=True)
@@ -200,27 +204,34 @@ def _leaves(transition: Transition) -> bool:
     return transition.target is not None and not transition.internal
 
 
+def _soonest(transitions: Sequence[Transition], context: Context) -> list[_Leaving]:
+    """The two transitions that leave the state always and first, as their time comes."""
+    found: list[_Leaving] = []
+    for transition in transitions:
+        if transition.guard is None and _leaves(transition):
+            known = [_delay(trigger, context) for trigger in transition.triggers]
+            delays = [delay for delay in known if delay is not None]
+            if delays:
+                found.append((min(delays), transition))
+    return nsmallest(2, found, key=lambda each: each[0])
+
+
 def _sooner(
-    trigger: Trigger, transition: Transition, transitions: Sequence[Transition]
+    trigger: Trigger, transition: Transition, soonest: Sequence[_Leaving], context: Context
 ) -> Transition | None:
     """The transition that leaves the state always, and after a shorter time or the same."""
-    delay = _delay(trigger)
-    found: tuple[float, Transition] | None = None
-    for other in transitions:
-        if delay is None or other is transition or other.guard is not None or not _leaves(other):
-            continue
-        before = other.span.start < transition.span.start
-        for sooner in map(_delay, other.triggers):
-            if sooner is None or not (sooner < delay or (before and sooner == delay)):
-                continue
-            if found is None or sooner < found[0]:
-                found = (sooner, other)
-    return found[1] if found is not None else None
+    delay = _delay(trigger, context)
+    others = ((sooner, other) for sooner, other in soonest if other is not transition)
+    sooner, other = next(others, (inf, None))
+    if delay is None or other is None:
+        return None
+    before = other.span.start < transition.span.start
+    return other if sooner < delay or (before and sooner == delay) else None
 
 
-def _delay(trigger: Trigger) -> float | None:
+def _delay(trigger: Trigger, context: Context) -> float | None:
     """How long a trigger waits, where that is known and makes sense."""
     if isinstance(trigger, TimeTrigger) and trigger.delay.tree is not None:
-        value = fold(trigger.delay.tree)
+        value = context.typing.folding.value(trigger.delay.tree)
         return value if isinstance(value, (int, float)) and value > 0 else None
     return None

@@ -28,11 +28,13 @@ from swarmdsl.validate.context import Context
 
 # What leads on to another state without waiting.
 Step = Transition | Branch | Initial | History
+# Each by a state on it and the steps from there.
+Circles = Sequence[tuple[Vertex, list[Step]]]
 
 
-def check_settling(machine: StateMachine, context: Context) -> None:
+def check_settling(machine: StateMachine, circles: Circles, context: Context) -> None:
     """Report circles of steps that wait for nothing, and those that only guards may end."""
-    for state, steps in _circles(machine, context):
+    for state, steps in circles:
         help_ = "let one of the states on the way wait for something"
         _report("endless-steps", state, steps, help_, context)
     for node in walk(machine):
@@ -57,9 +59,9 @@ def _check_stays(state: State | Parallel, context: Context) -> None:
             )
 
 
-def endless(machine: StateMachine, context: Context) -> set[Step]:
+def endless(circles: Circles) -> set[Step]:
     """The steps of all circles in which nothing is waited for."""
-    return {step for _, steps in _circles(machine, context) for step in steps}
+    return {step for _, steps in circles for step in steps}
 
 
 def immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
@@ -89,14 +91,16 @@ def transitions_of(state: State | Parallel) -> list[Transition]:
     return [item for item in state.items if isinstance(item, Transition)]
 
 
-def _circles(machine: StateMachine, context: Context) -> Iterator[tuple[Vertex, list[Step]]]:
+def circles_of(machine: StateMachine, context: Context) -> Circles:
+    """The circles of steps in which nothing is waited for."""
+
     def steps(vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
         for step in _steps(vertex, context):
             if step.target is not None and step.target.target is not None:
                 yield step, step.target.target
 
     states = [node for node in walk(machine) if isinstance(node, Vertex)]
-    return cycles(states, steps)
+    return list(cycles(states, steps))
 
 
 def _steps(vertex: Vertex, context: Context) -> Iterator[Step]:
