@@ -643,6 +643,18 @@ def test_a_guard_that_fails_over_and_over_is_a_loop() -> None:
         started(Machine("m", (a,), limit=200))
 
 
+def test_delays_of_no_length_that_lead_round_are_a_loop() -> None:
+    wait = (lambda instance, event: instance.send_after(Event("t"), 0),)
+    states = (
+        State("a", transitions=(on("t", "b"),), entry=wait),
+        State("b", transitions=(on("t", "a"),), entry=wait),
+    )
+
+    with pytest.raises(LoopError) as caught:
+        started(Machine("m", states, limit=200))
+    assert caught.value.states == ["a", "b"]
+
+
 def test_a_long_way_is_no_loop() -> None:
     def count(instance: Instance, event: Event) -> None:
         instance.data["n"] = instance.data.get("n", 0) + 1

@@ -289,9 +289,17 @@ class Instance:
             self.servers.start(run)
 
     def _receive_waiting(self) -> None:
+        """Run the events that came in the middle of another, such as those of no delay."""
+        events = 0
+        passed: list[Configuration] = []
         while self._external:
             event = self._external.popleft()
             if self.running:
+                events += 1
+                if events > self.machine.limit - _LOOKED_AT:
+                    passed.append(self.configuration)
+                    if events > self.machine.limit:
+                        self._give_up(passed)
                 self._run(event)
         self._external = None
 
