@@ -85,11 +85,14 @@ def report_fault(fault: Fault, source: Source, report: Diagnostics) -> None:
     bracket = text[at]
     if fault.kind == "unclosed":
         closer = CLOSER[bracket]
-        help_ = None
+        related: tuple[Label, ...] = ()
         if fault.before is not None:
-            line = source.line_column(fault.before)[0]
-            help_ = f"the indentation says that `{closer}` is missing before line {line}"
-        report.report("unclosed-bracket", place, bracket=bracket, help=help_)
+            end = text.find("\n", fault.before)
+            line = Span(source, fault.before, end if end >= 0 else len(text))
+            message = f"the indentation says that `{closer}` is missing before this"
+            related = (Label(line, message),)
+        help_ = f"write `{closer}` where it ends" if bracket == "{" else None
+        report.report("unclosed-bracket", place, bracket=bracket, related=related, help=help_)
     elif fault.kind == "wrong" and fault.opener is not None:
         opener = text[fault.opener]
         report.report(

@@ -7,7 +7,7 @@ exception: every phase reports and goes on.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -62,6 +62,16 @@ class Diagnostic:
     related: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+
+
+def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
+    """The same finding with other places."""
+    primary = found.primary
+    return replace(
+        found,
+        primary=replace(primary, span=place(primary.span)) if primary is not None else None,
+        related=tuple(replace(label, span=place(label.span)) for label in found.related),
+    )
 
 
 class Diagnostics:

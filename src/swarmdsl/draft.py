@@ -12,6 +12,7 @@ from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Expression, Node, Ref, Word
 
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_NOTHING = re.compile(r"_\d+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +80,11 @@ class Draft:
     def _place(self, span: Span, source: Source) -> Span:
         start = self.origins[span.start]
         return Span(source, start, max(start, self.origins[span.end]))
+
+
+def stands_for_nothing(name: Word) -> bool:
+    """Whether a name was put in where none could be read."""
+    return _NOTHING.fullmatch(name) is not None and name.span.text != name
 
 
 def untouched(text: str) -> Draft:

@@ -1,8 +1,9 @@
 """One file's text to its syntax tree.
 
-`swarm_parser`, which is made from the grammar, parses a file or refuses it. Only then does
-the rest come in: a closer look at the file (`scan`), a slower parser that knows where it had
-to stop (`peg.machine`), and what makes the best of it (`recovery`).
+`swarm_parser`, which is made from the grammar, parses a file or refuses it. Then it is cut
+into pieces (`pieces`), and for those that are refused the rest comes in: a closer look
+(`scan`), a slower parser that knows where it had to stop (`peg.machine`), and what makes the
+best of it (`recovery`).
 """
 
 from __future__ import annotations
@@ -11,12 +12,15 @@ import gc
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 from swarmdsl import swarm_parser
 from swarmdsl.comments import DocComment, documentation
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, placed
+from swarmdsl.draft import Draft
 from swarmdsl.expression_parser import TooDeepError, report_fault
 from swarmdsl.peg.machine import mismatch
+from swarmdsl.pieces import joined, split
 from swarmdsl.recovery import Parsed, parse_with_recovery
 from swarmdsl.resources import checkout_root, grammar_checksum
 from swarmdsl.scan import NESTING_LIMIT, scan
@@ -32,7 +36,31 @@ _SHALLOW = NESTING_LIMIT // 4
 def parse(source: Source, report: Diagnostics) -> Parsed:
     """Parse a file; whatever is wrong with it is reported and left out of the tree."""
     with _no_garbage_collection():
+        return _parse_shallow(source, report) or _parse_in_pieces(source, report)
+
+
+def parse_piece(source: Source, report: Diagnostics) -> Parsed:
+    """Parse a piece of a file on its own; all places are places in the piece."""
+    with _no_garbage_collection():
         return _parse_shallow(source, report) or _parse_carefully(source, report)
+
+
+def _parse_in_pieces(source: Source, report: Diagnostics) -> Parsed:
+    parts = []
+    for start, end in split(source.text):
+        piece = Source(source.name, source.text[start:end], source.path)
+        found = Diagnostics()
+        part = parse_piece(piece, found)
+        draft = Draft(piece.text, range(start, end + 1))
+        draft.restore(part.model, source)
+        moved = partial(_moved, source, start)
+        report.include(placed(one, moved) for one in found)
+        parts.append(part)
+    return joined(source, parts, report)
+
+
+def _moved(source: Source, base: int, span: Span) -> Span:
+    return Span(source, base + span.start, base + span.end)
 
 
 def _parse_shallow(source: Source, report: Diagnostics) -> Parsed | None:
@@ -66,7 +94,7 @@ def _parse_carefully(source: Source, report: Diagnostics) -> Parsed:
     if isinstance(whole, Model):
         parsed = Parsed(whole)
     else:
-        parsed = parse_with_recovery(source, scanned, whole, _parse_text, report)
+        parsed = parse_with_recovery(source, scanned, _parse_text, report)
     _attach(parsed, scanned.docs, report)
     _report_faults(parsed, report)
     return parsed
@@ -130,4 +158,4 @@ def _no_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["Parsed", "parse"]
+__all__ = ["Parsed", "parse", "parse_piece"]

@@ -6,6 +6,7 @@ from collections.abc import Hashable, Iterable
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.draft import stands_for_nothing
 from swarmdsl.inheritance import all_items, lineage
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.link_types import interface_name
@@ -84,10 +85,18 @@ def check_names(project: Project, report: Diagnostics) -> None:
                 help="SCXML keeps it for errors of its own",
             )
         for node in walk(declaration):
-            for names in _namespaces(node):
+            for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
                 seen: dict[Hashable, Named] = {}
                 for named in names:
                     _check_first(str(named.name), named, seen, report)
+
+
+_WITH_NAMES = frozenset(
+    (
+        *(StructType, MessageType, ServiceType, ActionType, Function, Component, Member),
+        *(EnumType, Operation, Fitness, Swarm, StateMachine, Parallel, State, Region),
+    )
+)
 
 
 def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
@@ -129,7 +138,7 @@ def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
     """The named items, inherited ones first, without params that others take the place of."""
     kinds = (Port, Param, Operation, Part)
     own = [item for item in owner.items if isinstance(item, kinds)]
-    params = all_items(owner, Param)
+    params = set(all_items(owner, Param))
     inherited = [
         item
         for base in reversed(lineage(owner)[1:])
@@ -140,9 +149,11 @@ def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
 
 
 def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:
+    name: Word = named.name
+    if stands_for_nothing(name):
+        return
     first = seen.setdefault(key, named)
     if first is not named:
-        name: Word = named.name
         kind, earlier = kind_of(named), kind_of(first)
         also = "" if kind == earlier else f", as {earlier}"
         report.report(

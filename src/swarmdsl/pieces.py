@@ -1,0 +1,141 @@
+"""Where the declarations of a file begin, known before it is parsed and whatever is wrong with it.
+
+A piece is what a file can be cut into and put together again: a declaration with the comments
+before it. What stands in one piece does not change how another one is read, so that after an
+edit only the pieces it touches are parsed again.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from swarmdsl.brackets import outermost
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.recovery import Parsed
+from swarmdsl.source import Source, Span
+from swarmdsl.syntax import Model, references, walk
+
+# Where a top-level declaration starts: a keyword in the first column, or what looks like
+# one with a slip in it (`Event Start :`).
+_START = re.compile(
+    r"^(?=(?:package|import|struct|enum|type|const|message|service|action|swarm|event|function|"
+    r"sensor|actuator|controller|virtual|member|endless|statemachine|environment|fitness|"
+    r"optimize)\b|(?!extends\b)[A-Za-z]+[ \t]+[A-Za-z_]\w*[ \t]*[:{])",
+    re.MULTILINE,
+)
+# What goes on behind these words on a line of its own is no declaration by itself.
+_GOES_ON = re.compile(r"(?:^|\s)(?:swarm|endless)$|:$")
+_AFTER = {"swarm": re.compile("event"), "endless": re.compile("statemachine")}
+_CATEGORY = re.compile(r"swarm\s*\{")
+
+_NO_CODE = re.compile(
+    r'(?P<text>"(?:[^"\\\n]|\\[^\n])*"?)|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/'
+    r"|(?P<mark>^(?:<{7}|>{7})(?![<>])[^\n]*)",
+    re.MULTILINE,
+)
+
+
+def split(text: str) -> list[tuple[int, int]]:
+    """The offsets of the pieces of a text, which together are all of it."""
+    starts = sorted({0, *_boundaries(text), len(text)})
+    return list(pairwise(starts)) or [(0, 0)]
+
+
+def _boundaries(text: str) -> Iterator[int]:
+    code, merges = _code(text)
+    blocks = outermost(code)
+    openings = [start for start, _ in blocks]
+    last = 0
+    for found in _START.finditer(code):
+        start = found.start()
+        block = bisect_right(openings, start) - 1
+        if block >= 0 and start < blocks[block][1]:
+            continue
+        if any(first < start < end for first, end in merges):
+            continue
+        before = code[last:start].rstrip()
+        if not before or _continues(before, code, start):
+            continue
+        # Comments belong to what they stand before, unless they stand behind something.
+        yield code.index("\n", last + len(before)) + 1
+        last = start
+
+
+def _continues(before: str, code: str, start: int) -> bool:
+    """Whether what stands at the start of a line belongs to the declaration before it."""
+    found = _GOES_ON.search(before)
+    if found is None:
+        return False
+    after = _AFTER.get(found[0].strip(), _CATEGORY)
+    return after.match(code, start) is not None
+
+
+def _code(text: str) -> tuple[str, list[tuple[int, int]]]:
+    """The text with blanks for comments, also their ends of lines, and what is in quotes.
+
+    With it come the pieces in which a merge was not finished.
+    """
+    marks: list[tuple[int, str]] = []
+
+    def blank(found: re.Match[str]) -> str:
+        if found["mark"]:
+            marks.append((found.start(), found[0][0]))
+        return '"' * len(found[0]) if found["text"] else " " * len(found[0])
+
+    code = _NO_CODE.sub(blank, text)
+    merges = [
+        (first, end)
+        for (first, opening), (end, closing) in pairwise(marks)
+        if opening == "<" and closing == ">"
+    ]
+    return code, merges
+
+
+def joined(source: Source, parts: Sequence[Parsed], report: Diagnostics) -> Parsed:
+    """The pieces of a file as one, with a report of what stands in the wrong order."""
+    parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
+    for part in parts:
+        _add(part.model, parsed.model, report)
+        parsed.damaged |= part.damaged
+        parsed.lost_names |= part.lost_names
+        parsed.repaired |= part.repaired
+        parsed.unnamed |= part.unnamed
+    if parsed.unnamed:
+        _lose_references(parsed)
+    return parsed
+
+
+def _add(piece: Model, model: Model, report: Diagnostics) -> None:
+    misplaced = piece.package or (piece.imports[0] if piece.imports else None)
+    if piece.package and model.package:
+        report.report(
+            "syntax-error",
+            piece.package.span,
+            message="a file has one package",
+            related=(Label(model.package.span, "it is given here"),),
+            help="delete one of the two, or make two files",
+        )
+    elif misplaced and (
+        model.declarations or model.optimizations or (piece.package and model.imports)
+    ):
+        report.report(
+            "syntax-error",
+            misplaced.span,
+            message="the package and the imports stand at the top of the file",
+            help="move it up",
+        )
+    model.package = model.package or piece.package
+    model.imports += piece.imports
+    model.declarations += piece.declarations
+    model.optimizations += piece.optimizations
+
+
+def _lose_references(parsed: Parsed) -> None:
+    """Take names that nothing has for those of what has none."""
+    names = {str(getattr(node, "name", "")) for node in walk(parsed.model)}
+    for _, ref in references(parsed.model):
+        if ref.kind in parsed.unnamed:
+            parsed.lost_names.update({ref.name} - names)
