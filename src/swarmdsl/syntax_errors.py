@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.draft import Draft
+from swarmdsl.habits import habit
 from swarmdsl.late import noticed_late
 from swarmdsl.slips import foreign
 from swarmdsl.source import Source, Span
@@ -121,14 +122,13 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
             "keyword-as-name",
             place(found),
             word=found[0],
-            help="write `after` without `on`"
-            if before and (before[0], found[0]) == ("on", "after")
-            else f"choose another name, `{found[0]}_` for instance",
+            help=habit(words, text, at) or f"choose another name, `{found[0]}_` for instance",
         )
     elif before and (found is None or (new_line and not _may_begin_anew(words))):
         # The mistake is where something is missing, not at the line that follows.
         message = f"expected {_either(expected)} after `{before[0]}`"
-        report.report("syntax-error", place(before), message=message)
+        help_ = habit(words, text, before.end())
+        report.report("syntax-error", place(before), message=message, help=help_)
         return before.start()
     else:
         what = f"`{found[0]}`" if found else "the end of the file"
@@ -137,7 +137,9 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
             "syntax-error",
             place(found) if found else Span(source, end, end),
             message=f"expected {_either(expected)}, found {what}",
-            help=foreign(words, text, at) or advice(words, before, found) if found else None,
+            help=habit(words, text, at) or foreign(words, text, at) or advice(words, before, found)
+            if found
+            else None,
         )
     return min(at, len(text))
 
