@@ -16,8 +16,8 @@ from swarmdsl.link_constants import open_cycles
 from swarmdsl.link_machines import link_machine
 from swarmdsl.link_types import TypeLinker
 from swarmdsl.link_values import ValueLinker, Values
-from swarmdsl.load import Project
-from swarmdsl.scopes import FileScope, bare, kind_of, report_unresolved
+from swarmdsl.load import File, Project
+from swarmdsl.scopes import FileScope, Scopes, bare, kind_of, report_unresolved
 from swarmdsl.syntax import (
     Activity,
     BehaviorUse,
@@ -60,29 +60,56 @@ K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
 
 def link(project: Project, report: Diagnostics) -> None:
     """Resolve every name of every file."""
-    scopes = {file: FileScope(file, project) for file in project.files}
-    types = TypeLinker(scopes, report)
-    enums = {
-        node.type: node
-        for _, node in project.declarations()
-        if isinstance(node, EnumType) and node.type is not None
-    }
+    linker = Linker(project, Scopes(project))
     owners = [*project.declarations(), *project.optimizations()]
     for file, owner in owners:
-        for type_ in nodes_of(owner, TypeRef):
-            types.link(type_, file)
-        _link_top_level(owner, scopes[file], report)
-    params = _params_of_members(project)
-    parts = _parts_of_members(project)
+        linker.link_outside(file, owner, report)
+    linker.gather(owner for _, owner in owners)
     for file, owner in owners:
-        scope = scopes[file]
+        linker.link_inside(file, owner, report)
+    open_cycles(project, report)
+
+
+class Linker:
+    """Links the declarations of a project, all of them or some.
+
+    First the names of other declarations are resolved, in all that are to be linked, then what
+    is known of the members is gathered, and then the names of what is inside of declarations.
+    """
+
+    def __init__(self, project: Project, scopes: Scopes) -> None:
+        self._scopes = scopes
+        self._types = TypeLinker(scopes, project)
+        self._enums = {
+            node.type: node
+            for _, node in project.declarations()
+            if isinstance(node, EnumType) and node.type is not None
+        }
+        self._params: Mapping[StateMachine, dict[str, Param]] = {}
+        self._parts: Mapping[StateMachine, dict[str, list[Part]]] = {}
+
+    def link_outside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
+        """Resolve the names of types and of other declarations."""
+        for type_ in nodes_of(owner, TypeRef):
+            self._types.link(type_, file, report)
+        _link_top_level(owner, self._scopes[file], report)
+
+    def gather(self, owners: Iterable[TopLevel]) -> None:
+        """Learn from members and components what the machines that they run can name."""
+        runners = [owner for owner in owners if isinstance(owner, (Member, Component))]
+        self._params = _params_of_members(runners)
+        self._parts = _parts_of_members(runners)
+
+    def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
+        """Resolve the names of what is inside of a declaration, and of what it leads to."""
+        scope = self._scopes[file]
         values: Values = {}
         match owner:
             case StateMachine():
                 link_machine(owner, scope, report)
-                _link_activities(owner, parts[owner], scope, report)
+                _link_activities(owner, self._parts[owner], scope, report)
                 values = {
-                    **params[owner],
+                    **self._params[owner],
                     **_named(owner.items, Param),
                     **_named(owner.items, Variable),
                 }
@@ -93,8 +120,7 @@ def link(project: Project, report: Diagnostics) -> None:
                 values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
             case Optimization():
                 _link_optimization(owner, scope, report)
-        ValueLinker(scope, enums, report).link(owner, values)
-    open_cycles(project, report)
+        ValueLinker(scope, self._enums, report).link(owner, values)
 
 
 def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:
@@ -105,12 +131,12 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
             ref.target = scope.resolve(ref.name, ref.span, kind, report)
 
 
-def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Param]]:
+def _params_of_members(
+    runners: Iterable[Member | Component],
+) -> Mapping[StateMachine, dict[str, Param]]:
     """For each machine the params that all members which behave so have in common."""
     found: dict[StateMachine, dict[str, Param]] = {}
-    for _, owner in project.declarations():
-        if not isinstance(owner, (Member, Component)):
-            continue
+    for owner in runners:
         params = _named(all_items(owner, Param), Param)
         for use in all_items(owner, BehaviorUse):
             if use.machine.target is not None:
@@ -119,28 +145,31 @@ def _params_of_members(project: Project) -> Mapping[StateMachine, dict[str, Para
     return defaultdict(dict, found)
 
 
-def _parts_of_members(project: Project) -> Mapping[StateMachine, dict[str, list[Part]]]:
-    """For each machine the parts by name that all members which run it have in common.
-
-    A member runs its behaviour and the machines that are reused in it.
-    """
+def _parts_of_members(
+    runners: Iterable[Member | Component],
+) -> Mapping[StateMachine, dict[str, list[Part]]]:
+    """For each machine the parts by name that all members which run it have in common."""
     found: dict[StateMachine, dict[str, list[Part]]] = {}
-    for _, owner in project.declarations():
-        if not isinstance(owner, (Member, Component)):
-            continue
+    for owner in runners:
         parts = _named(all_items(owner, Part), Part)
-        work = [use.machine.target for use in all_items(owner, BehaviorUse)]
-        seen: set[StateMachine] = set()
-        while work:
-            machine = work.pop()
-            if machine is None or machine in seen:
-                continue
-            seen.add(machine)
-            states = nodes_of(machine, State)
-            work += [state.machine.target for state in states if state.machine is not None]
+        for machine in machines_of(owner):
             common = found.setdefault(machine, {name: [] for name in parts})
             found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
     return defaultdict(dict, found)
+
+
+def machines_of(runner: Member | Component) -> list[StateMachine]:
+    """The machines that a member runs: its behaviour, and what is reused in it."""
+    work = [use.machine.target for use in all_items(runner, BehaviorUse)]
+    seen: dict[StateMachine, None] = {}
+    while work:
+        machine = work.pop()
+        if machine is None or machine in seen:
+            continue
+        seen[machine] = None
+        states = nodes_of(machine, State)
+        work += [state.machine.target for state in states if state.machine is not None]
+    return list(seen)
 
 
 def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.ir.types import PRIMITIVES, Array, Named, Primitive, Type
-from swarmdsl.load import File
+from swarmdsl.load import File, Project
 from swarmdsl.scopes import FileScope
 from swarmdsl.syntax import (
     ActionType,
@@ -81,20 +81,19 @@ def _is_size(number: str) -> bool:
 class TypeLinker:
     """Sets `TypeRef.type`, following aliases across files."""
 
-    def __init__(self, scopes: Mapping[File, FileScope], report: Diagnostics) -> None:
+    def __init__(self, scopes: Mapping[File, FileScope], project: Project) -> None:
         self._scopes = scopes
-        self._report = report
+        self._report = Diagnostics()
         # Aliases of which a cycle was reported.
         self._endless: set[AliasType] = set()
-        self._homes = {
-            declaration: file for file in scopes for declaration in file.model.declarations
-        }
+        self._homes = {declaration: file for file, declaration in project.declarations()}
         for declaration, file in self._homes.items():
             if isinstance(declaration, EnumType):
                 declaration.type = interface_name(file, declaration.name)
 
-    def link(self, ref: TypeRef, file: File) -> None:
+    def link(self, ref: TypeRef, file: File, report: Diagnostics) -> None:
         """Resolve a type named in a file, and with it those that its aliases name."""
+        self._report = report
         waiting: list[TypeRef] = []
         aliases: list[AliasType] = []
         found: Type | AliasType | None = ref.type

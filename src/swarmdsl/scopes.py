@@ -249,6 +249,18 @@ class FileScope:
         return f'"{Path(way).as_posix()}"'
 
 
+class Scopes(dict[File, FileScope]):
+    """The scopes of the files of a project, each made when it is first asked for."""
+
+    def __init__(self, project: Project) -> None:
+        super().__init__()
+        self._project = project
+
+    def __missing__(self, file: File) -> FileScope:
+        self[file] = scope = FileScope(file, self._project)
+        return scope
+
+
 def report_unresolved(
     kind: str,
     name: str,
