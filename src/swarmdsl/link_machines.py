@@ -67,8 +67,11 @@ def content(state: Vertex | Container) -> Container | None:
 def all_resolved(container: Container) -> bool:
     """Whether each transition and initial state inside leads to a state that was found."""
     arrows = (Initial, Transition, Branch, History)
-    refs = [node.target for node in walk(container) if isinstance(node, arrows)]
-    return all(ref.target is not None for ref in refs if ref is not None)
+    return all(
+        node.target is None or node.target.target is not None
+        for node in walk(container)
+        if isinstance(node, arrows)
+    )
 
 
 def _link_container(

@@ -19,7 +19,7 @@ from swarmdsl.syntax import (
     ServiceType,
     StateMachine,
     Word,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.context import Context
 
@@ -27,12 +27,11 @@ from swarmdsl.validate.context import Context
 def check_activities(machine: StateMachine, context: Context) -> None:
     """Check each call of a function against the interface of its action or service."""
     users: dict[str, Activity] = {}
-    for activity in walk(machine):
-        if isinstance(activity, Activity):
-            _check_activity(activity, context)
-            for callback in (activity.goal_callback, activity.result_callback):
-                if callback is not None:
-                    _check_callback(callback, activity, users, context)
+    for activity in nodes_of(machine, Activity):
+        _check_activity(activity, context)
+        for callback in (activity.goal_callback, activity.result_callback):
+            if callback is not None:
+                _check_callback(callback, activity, users, context)
 
 
 def _check_activity(activity: Activity, context: Context) -> None:

@@ -11,6 +11,7 @@ from swarmdsl.syntax import (
     Region,
     StateMachine,
     Transition,
+    nodes_of,
     walk,
 )
 from swarmdsl.topics import awaited, heard_on
@@ -22,16 +23,15 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
 
     SCXML takes the first in the text (3.13); whoever reads the model should not have to know.
     """
-    for parallel in walk(machine):
-        if not isinstance(parallel, Parallel):
-            continue
+    outline = context.outline(machine)
+    for parallel in nodes_of(machine, Parallel):
         leaving: dict[tuple[str, Type | None], tuple[Region, Transition]] = {}
         for region in regions(parallel):
-            inside = set(walk(region))
             for transition in walk(region):
                 if not isinstance(transition, Transition) or transition.target is None:
                     continue
-                if transition.target.target is None or transition.target.target in inside:
+                target = transition.target.target
+                if target is None or region in outline.around(target):
                     continue
                 for trigger in transition.triggers:
                     event = awaited(trigger)
@@ -42,7 +42,7 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
                     if (
                         first[0] is not region
                         and first[1].target is not None
-                        and (first[1].target.target is not transition.target.target)
+                        and (first[1].target.target is not target)
                     ):
                         context.report.report(
                             "conflicting-regions",

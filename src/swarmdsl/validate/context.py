@@ -25,12 +25,14 @@ from swarmdsl.syntax import (
     MessageType,
     MonitorTrigger,
     Param,
+    StateMachine,
     StructType,
     Transition,
     TypeRef,
     Variable,
     Word,
 )
+from swarmdsl.validate.outline import Outline
 
 if TYPE_CHECKING:
     from swarmdsl.validate.conditions import Condition
@@ -41,7 +43,8 @@ class Context:
     """Passed to every rule.
 
     `damaged` are the declarations with a piece that could not be parsed: of what they seem
-    to lack nothing can be said. `conditions` are those of the guards that were looked at.
+    to lack nothing can be said. `conditions` are those of the guards that were looked at,
+    `outlines` those of the machines.
     """
 
     report: Diagnostics
@@ -49,10 +52,17 @@ class Context:
     typing: Typing
     damaged: set[Declaration]
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
+    outlines: dict[StateMachine, Outline] = field(default_factory=dict)
 
     def reporting_to(self, report: Diagnostics) -> Context:
         """The same with another collector."""
         return replace(self, report=report, typing=replace(self.typing, report=report))
+
+    def outline(self, machine: StateMachine) -> Outline:
+        """Which states of a machine are in which."""
+        if machine not in self.outlines:
+            self.outlines[machine] = Outline(machine)
+        return self.outlines[machine]
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
         """Check the type of an expression that could be parsed."""

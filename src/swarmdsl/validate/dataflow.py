@@ -6,23 +6,21 @@ from collections.abc import Iterator
 
 from swarmdsl.ir.types import Named
 from swarmdsl.syntax import (
-    Assignment,
     FieldUse,
     NameUse,
-    ResultMapping,
     StateMachine,
     Variable,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.steps import stores_of
 
 
 def check_variables(machine: StateMachine, context: Context) -> None:
     """A variable is written before it is of use, and read to be of use."""
     stores = set(_stores(machine))
-    uses = [node for node in walk(machine) if isinstance(node, NameUse)]
     written = {use.target for use in stores}
-    read = {use.target for use in uses if use not in stores}
+    read = {use.target for use in nodes_of(machine, NameUse) if use not in stores}
     for item in machine.items:
         if not isinstance(item, Variable):
             continue
@@ -39,10 +37,9 @@ def check_variables(machine: StateMachine, context: Context) -> None:
 
 def _stores(machine: StateMachine) -> Iterator[NameUse]:
     """The names that stand where a value is stored: the variable is written there, not read."""
-    for node in walk(machine):
-        if isinstance(node, (Assignment, ResultMapping)):
-            tree = node.target.tree
-            while isinstance(tree, FieldUse):
-                tree = tree.base
-            if isinstance(tree, NameUse):
-                yield tree
+    for node in stores_of(machine):
+        tree = node.target.tree
+        while isinstance(tree, FieldUse):
+            tree = tree.base
+        if isinstance(tree, NameUse):
+            yield tree

@@ -7,6 +7,7 @@ is no part of the model, or go to one.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
@@ -27,6 +28,7 @@ from swarmdsl.syntax import (
     State,
     StateMachine,
     Swarm,
+    nodes_of,
     walk,
 )
 from swarmdsl.topics import awaited, heard_on
@@ -182,16 +184,16 @@ def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]
 
     None stands for what may be missing.
     """
-    ahead = list(_behaviors(member, context))
+    ahead = deque(_behaviors(member, context))
     seen = set()
     while ahead:
-        machine = ahead.pop(0)
+        machine = ahead.popleft()
         if machine in seen:
             continue
         seen.add(machine)
         yield machine
-        for state in walk(machine) if machine is not None else ():
-            if isinstance(state, State) and state.machine is not None:
+        for state in nodes_of(machine, State) if machine is not None else ():
+            if state.machine is not None:
                 ahead.append(state.machine.target)
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, walk
+from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
 from swarmdsl.validate.conditions import always, condition_of, never
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.settling import Circles, endless, is_idle, transitions_of
+from swarmdsl.validate.settling import Circles, endless, is_idle
 
 
 def check_guards(machine: StateMachine, circles: Circles, context: Context) -> None:
@@ -14,16 +14,14 @@ def check_guards(machine: StateMachine, circles: Circles, context: Context) -> N
     Where one that always holds makes a machine go round for ever, that has been reported.
     """
     reported = endless(circles)
-    for node in walk(machine):
-        match node:
-            case Choice(branches=branches):
-                for branch in branches:
-                    if branch not in reported:
-                        _check(branch, _advice(branch, node), context)
-            case State() | Parallel():
-                for transition in transitions_of(node):
-                    if transition not in reported:
-                        _check(transition, _advice(transition, node), context)
+    for choice in nodes_of(machine, Choice):
+        for branch in choice.branches:
+            if branch not in reported:
+                _check(branch, _advice(branch, choice), context)
+    for state, transitions in context.outline(machine).transitions.items():
+        for transition in transitions:
+            if transition not in reported:
+                _check(transition, _advice(transition, state), context)
 
 
 def _check(item: Transition | Branch, advice: str, context: Context) -> None:

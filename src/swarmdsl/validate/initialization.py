@@ -10,17 +10,16 @@ from swarmdsl.ir.types import DURATION, Named, Primitive, Type
 from swarmdsl.link_machines import all_resolved
 from swarmdsl.load import Project
 from swarmdsl.syntax import (
-    Assignment,
     EnumType,
     NameUse,
-    ResultMapping,
     State,
     StateMachine,
     Variable,
+    nodes_of,
     walk,
 )
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.steps import Read
+from swarmdsl.validate.steps import Read, stores_of
 from swarmdsl.validate.ways import Point, Ways
 
 
@@ -38,14 +37,14 @@ def check_initialization(project: Project, context: Context) -> None:
     reused = {
         state.machine.target
         for _, machine in machines
-        for state in walk(machine)
-        if isinstance(state, State) and state.machine is not None
+        for state in nodes_of(machine, State)
+        if state.machine is not None
     }
     for file, machine in machines:
         variables = _unset(machine, context)
         if file.library or not variables or _has_unknown(machine):
             continue
-        start = Ways(machine).start
+        start = Ways(context.outline(machine)).start
         for variable in variables:
             settable = machine not in reused and _has_literals(variable.type.type, context)
             _check(variable, start, settable, context)
@@ -53,18 +52,14 @@ def check_initialization(project: Project, context: Context) -> None:
 
 def _has_unknown(machine: StateMachine) -> bool:
     """Whether a name in the machine, which may be that of a variable, was not resolved."""
-    return any(
-        isinstance(node, NameUse) and node.target is None and node.name != "event"
-        for node in walk(machine)
-    )
+    return any(use.target is None and use.name != "event" for use in nodes_of(machine, NameUse))
 
 
 def _unset(machine: StateMachine, context: Context) -> list[Variable]:
     """The variables without a first value that are written somewhere."""
     written = {
         use.target
-        for node in walk(machine)
-        if isinstance(node, (Assignment, ResultMapping))
+        for node in stores_of(machine)
         for use in walk(node.target)
         if isinstance(use, NameUse)
     }

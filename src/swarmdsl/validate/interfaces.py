@@ -28,13 +28,15 @@ from swarmdsl.syntax import (
     TypeRef,
     Variable,
     Word,
-    walk,
+    nodes_of,
 )
 from swarmdsl.topics import heard_on, topic_of
 from swarmdsl.validate.context import Context
 
 # Relative, absolute or private; parts with a letter (ROS 2: or `_`) first.
 _GRAPH_NAME = re.compile(r"[~/]?/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
+# What holds a value.
+_VALUES: tuple[type[Field | Param | Port | Variable], ...] = (Field, Param, Port, Variable)
 
 
 def check_message_cycles(context: Context) -> None:
@@ -65,20 +67,17 @@ def check_message_cycles(context: Context) -> None:
 
 def check_values(declaration: Declaration, context: Context) -> None:
     """A value is no service and no action."""
-    for node in walk(declaration):
-        if isinstance(node, (Field, Param, Port, Variable)):
-            type_ = node.type.type
-            element = type_.element if isinstance(type_, Array) else type_
-            known = context.interfaces.get(element) if isinstance(element, Named) else None
-            if isinstance(known, (ServiceType, ActionType)):
-                context.check_kind(node.type, MessageType)
+    for node in (node for kind in _VALUES for node in nodes_of(declaration, kind)):
+        type_ = node.type.type
+        element = type_.element if isinstance(type_, Array) else type_
+        known = context.interfaces.get(element) if isinstance(element, Named) else None
+        if isinstance(known, (ServiceType, ActionType)):
+            context.check_kind(node.type, MessageType)
 
 
 def check_known(declaration: Declaration, context: Context) -> None:
     """An interface of a package that is known exists; nearly the name of one is a slip."""
-    for node in walk(declaration):
-        if not isinstance(node, TypeRef):
-            continue
+    for node in nodes_of(declaration, TypeRef):
         element = node.type.element if isinstance(node.type, Array) else node.type
         if not isinstance(element, Named) or context.interfaces.get(element) is not None:
             continue
@@ -117,7 +116,7 @@ def check_topics(used: Iterable[tuple[File, Declaration]], report: Diagnostics) 
     sources: list[Event | MonitorTrigger] = [node for _, node in pairs if isinstance(node, Event)]
     for _, machine in pairs:
         if isinstance(machine, StateMachine):
-            sources += [node for node in walk(machine) if isinstance(node, MonitorTrigger)]
+            sources += nodes_of(machine, MonitorTrigger)
     first: dict[str, Event | MonitorTrigger] = {}
     for source in sources:
         known = first.setdefault(heard_on(source), source)

@@ -24,12 +24,12 @@ from swarmdsl.syntax import (
     TimeTrigger,
     Transition,
     Trigger,
-    walk,
+    nodes_of,
 )
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.conditions import always, condition_of, negated, never, possible
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate, transitions_of
+from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate
 
 _AT_ONCE = ("at once",)
 # A transition, and how long its trigger waits.
@@ -39,25 +39,23 @@ _Leaving = tuple[float, Transition]
 def check_order(machine: StateMachine, circles: Circles, context: Context) -> None:
     """Report what is never taken because something else always comes before it."""
     reported = endless(circles)
-    for node in walk(machine):
-        match node:
-            case State() | Parallel():
-                dead = _check_immediate(node, reported, context)
-                _check_transitions(
-                    [t for t in transitions_of(node) if t not in dead], node, context
-                )
-            case Choice():
-                _check_branches(node, context)
+    for state, transitions in context.outline(machine).transitions.items():
+        dead = _check_immediate(state, transitions, reported, context)
+        _check_transitions([t for t in transitions if t not in dead], state, context)
+    for choice in nodes_of(machine, Choice):
+        _check_branches(choice, context)
 
 
 def _check_immediate(
-    state: State | Parallel, reported: set[Step], context: Context
+    state: State | Parallel,
+    transitions: Sequence[Transition],
+    reported: set[Step],
+    context: Context,
 ) -> set[Transition]:
     """Report what stands beside the way out that a state takes at once; return all of it.
 
     Where it is left at once in a circle of such states, that is the mistake.
     """
-    transitions = transitions_of(state)
     first = next((t for t in transitions if immediate(t, state, context)), None)
     if first is None or first.target is None:
         return set()

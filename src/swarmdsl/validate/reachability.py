@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.diagnostics import Label
 from swarmdsl.link_machines import all_resolved, regions, vertices
@@ -20,9 +20,9 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
-    walk,
 )
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.outline import Outline
 
 
 def check_reachability(machine: StateMachine, context: Context) -> None:
@@ -35,8 +35,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     """
     if not all_resolved(machine):
         return
-    around: dict[Vertex | Region, Container] = {}
-    _collect(machine, around)
+    outline = context.outline(machine)
     reached: set[Vertex | Region] = set()
     work = _initials(machine)
     while work:
@@ -45,17 +44,22 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
             continue
         reached.add(state)
         work += _successors(state)
-        outer = around[state]
+        outer = outline.container[state]
         if not isinstance(outer, StateMachine):
             work.append(outer)  # to be in a state is to be in those around it
-    _report(machine, reached, machine, context)
-
-
-def _collect(container: Container, around: dict[Vertex | Region, Container]) -> None:
-    for inside in (*vertices(container), *regions(container)):
-        around[inside] = container
-        if isinstance(inside, (State, Parallel, Region)):
-            _collect(inside, around)
+    unreached = list(_unreached(machine, reached))
+    waiting = _waiting(reached, outline) if unreached else {}
+    for state in unreached:
+        context.report.report(
+            "unreachable-state",
+            state.name.span,
+            kind=bare(kind_of(state)),
+            name=state.name,
+            related=tuple(
+                Label(trigger.span, "so this never happens")
+                for trigger in _in_vain(state, waiting, reached, outline)
+            ),
+        )
 
 
 def _initials(container: Container) -> list[Vertex | Region]:
@@ -83,50 +87,52 @@ def _successors(state: Vertex | Region) -> list[Vertex | Region]:
     return found + [target for target in targets if target is not None]
 
 
-def _waiting(
-    final: Vertex, container: Container, reached: set[Vertex | Region], machine: StateMachine
-) -> Iterator[DoneTrigger]:
-    """The triggers that wait for a final state, which is not reached, in vain.
+# By a final state those that wait for it, by a container those that wait for any of its.
+_Waiting = Mapping[Vertex | Container | None, Sequence[DoneTrigger]]
+
+
+def _waiting(reached: set[Vertex | Region], outline: Outline) -> _Waiting:
+    """The triggers that wait for the end of something, in states that are reached."""
+    found: dict[Vertex | Container | None, list[DoneTrigger]] = {}
+    for owner, transitions in outline.transitions.items():
+        if owner not in reached:
+            continue
+        for transition in transitions:
+            for trigger in transition.triggers:
+                if isinstance(trigger, DoneTrigger):
+                    of = trigger.region.target if trigger.region is not None else owner
+                    end = of if trigger.final is None else trigger.final.target
+                    found.setdefault(end, []).append(trigger)
+    return found
+
+
+def _in_vain(
+    final: Vertex, waiting: _Waiting, reached: set[Vertex | Region], outline: Outline
+) -> list[DoneTrigger]:
+    """The triggers that wait for a final state, which is not reached.
 
     A parallel state waits for each of its regions, each for any of its final states.
     """
     if not isinstance(final, FinalState):
-        return
-    ends = [state for state in vertices(container) if isinstance(state, FinalState)]
-    for owner in walk(machine):
-        if not isinstance(owner, (State, Parallel)) or owner not in reached:
-            continue
-        for transition in owner.items:
-            for trigger in transition.triggers if isinstance(transition, Transition) else ():
-                if not isinstance(trigger, DoneTrigger):
-                    continue
-                of = trigger.region.target if trigger.region is not None else owner
-                if trigger.final is not None:
-                    if trigger.final.target is final:
-                        yield trigger
-                elif (of is container or (container in regions(owner) and of is owner)) and not any(
-                    end in reached for end in ends
-                ):
-                    yield trigger
+        return []
+    container = outline.container[final]
+    found = [*waiting.get(final, ())]
+    if not any(isinstance(end, FinalState) and end in reached for end in vertices(container)):
+        found += waiting.get(container, ())
+        if isinstance(container, Region):
+            found += waiting.get(outline.container[container], ())
+    return sorted(found, key=lambda trigger: trigger.span.start)
 
 
-def _report(
-    container: Container, reached: set[Vertex | Region], machine: StateMachine, context: Context
-) -> None:
+def _unreached(container: Container, reached: set[Vertex | Region]) -> Iterator[Vertex]:
+    """The outermost states inside that are not reached, of those with one name the first."""
     for region in regions(container):
-        _report(region, reached, machine, context)
+        yield from _unreached(region, reached)
     names = set()
     for state in vertices(container):
         if state in reached:
             if isinstance(state, (State, Parallel)):
-                _report(state, reached, machine, context)
+                yield from _unreached(state, reached)
         elif state.name not in names:
-            waiting = _waiting(state, container, reached, machine)
-            context.report.report(
-                "unreachable-state",
-                state.name.span,
-                kind=bare(kind_of(state)),
-                name=state.name,
-                related=tuple(Label(trigger.span, "so this never happens") for trigger in waiting),
-            )
+            yield state
         names.add(state.name)

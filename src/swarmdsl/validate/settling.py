@@ -21,7 +21,7 @@ from swarmdsl.syntax import (
     Transition,
     Trigger,
     Vertex,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.conditions import always, condition_of
 from swarmdsl.validate.context import Context
@@ -37,10 +37,9 @@ def check_settling(machine: StateMachine, circles: Circles, context: Context) ->
     for state, steps in circles:
         help_ = "let one of the states on the way wait for something"
         _report("endless-steps", state, steps, help_, context)
-    for node in walk(machine):
-        if isinstance(node, (State, Parallel)):
-            _check_stays(node, context)
-    choices = [node for node in walk(machine) if isinstance(node, Choice)]
+    for state in context.outline(machine).states:
+        _check_stays(state, context)
+    choices = nodes_of(machine, Choice)
     for choice, branches in cycles(choices, lambda choice: _branches(choice, context)):
         if any(not _certain(branch, context) for branch in branches):
             help_ = "lead through a state that waits for something"
@@ -99,8 +98,7 @@ def circles_of(machine: StateMachine, context: Context) -> Circles:
             if step.target is not None and step.target.target is not None:
                 yield step, step.target.target
 
-    states = [node for node in walk(machine) if isinstance(node, Vertex)]
-    return list(cycles(states, steps))
+    return list(cycles(context.outline(machine).vertices, steps))
 
 
 def _steps(vertex: Vertex, context: Context) -> Iterator[Step]:

@@ -17,16 +17,18 @@ from swarmdsl.syntax import (
     Node,
     OutcomeTrigger,
     Parallel,
+    ResultMapping,
     Send,
     State,
+    StateMachine,
     TimeTrigger,
     Transition,
     Trigger,
     Variable,
     Vertex,
+    nodes_of,
     walk,
 )
-from swarmdsl.validate.settling import transitions_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +48,11 @@ class Write:
 
 
 Step = Read | Write
+
+
+def stores_of(machine: StateMachine) -> list[Assignment | ResultMapping]:
+    """What stores a value in a variable."""
+    return [*nodes_of(machine, Assignment), *nodes_of(machine, ResultMapping)]
 
 
 def while_active(vertex: Vertex) -> list[Step]:
@@ -75,18 +82,6 @@ def results(trigger: Trigger | None, state: State | Parallel) -> list[Step]:
         for result in item.results
         for variable in _variables(result.target.tree)
     ]
-
-
-def tests(
-    trigger: Trigger | None, transition: Transition, state: State | Parallel
-) -> Iterator[Step]:
-    """The guards that are looked at on a trigger, up to that of a transition."""
-    for other in transitions_of(state):
-        words = [each.span.text for each in other.triggers]
-        if trigger.span.text in words if trigger is not None else not words:
-            yield from reads(other.guard, test=True)
-        if other is transition:
-            return
 
 
 def on(kind: type[Entry] | type[Exit], vertex: Node) -> list[Step]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import get_args
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles, leaves_first
@@ -24,9 +25,8 @@ from swarmdsl.syntax import (
     Region,
     State,
     StateMachine,
-    Transition,
     Vertex,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.conditions import condition_of, negated, possible
 from swarmdsl.validate.context import Context
@@ -44,24 +44,21 @@ def check_structure(machine: StateMachine, context: Context) -> None:
             owner=f"state machine `{machine.name}`",
             help="add `final Done`, or write `endless statemachine` if it never ends",
         )
-    for node in walk(machine):
-        match node:
-            case StateMachine():
-                _check_initial(node, f"state machine `{node.name}`", context)
-            case Region():
-                _check_initial(node, f"region `{node.name}`", context)
-            case Parallel():
-                if not regions(node):
-                    context.report.report(
-                        "too-few-regions",
-                        node.name.span,
-                        name=node.name,
-                        help="add `region Name { ... }`; one without is a plain `state`",
-                    )
-            case State():
-                _check_state(node, context)
-            case Choice():
-                _check_choice(node, context)
+    _check_initial(machine, f"state machine `{machine.name}`", context)
+    for region in nodes_of(machine, Region):
+        _check_initial(region, f"region `{region.name}`", context)
+    for parallel in nodes_of(machine, Parallel):
+        if not regions(parallel):
+            context.report.report(
+                "too-few-regions",
+                parallel.name.span,
+                name=parallel.name,
+                help="add `region Name { ... }`; one without is a plain `state`",
+            )
+    for state in nodes_of(machine, State):
+        _check_state(state, context)
+    for choice in nodes_of(machine, Choice):
+        _check_choice(choice, context)
     _check_levels(machine, context)
 
 
@@ -94,7 +91,7 @@ def _check_growth(machines: list[StateMachine], report: Diagnostics) -> None:
         if any(inner not in sizes for _, inner in uses):
             continue
         levels[machine] = _levels(machine, levels) - 1
-        own = sum(isinstance(node, (Vertex, Region)) for node in walk(machine))
+        own = sum(len(nodes_of(machine, kind)) for kind in (*get_args(Vertex), Region))
         sizes[machine] = own + sum(sizes[inner] for _, inner in uses)
         if levels[machine] > NESTING_LIMIT:
             deepest, _ = max(uses, key=lambda use: levels[use[1]])
@@ -122,8 +119,8 @@ def _levels(state: Vertex | Container, known: Mapping[StateMachine, int]) -> int
 
 
 def _reused(machine: StateMachine) -> Iterator[tuple[Ref[StateMachine], StateMachine]]:
-    for state in walk(machine):
-        if isinstance(state, State) and state.machine is not None and state.machine.target:
+    for state in nodes_of(machine, State):
+        if state.machine is not None and state.machine.target is not None:
             yield state.machine, state.machine.target
 
 
@@ -163,30 +160,26 @@ def _check_state(state: State, context: Context) -> None:
 
 def _check_levels(machine: StateMachine, context: Context) -> None:
     """Check that an internal transition leads inward and a history has something to resume."""
-    for node in walk(machine):
-        if isinstance(node, StateMachine):
-            for state in vertices(node):
-                if isinstance(state, History):
-                    fault = "stands outside of any composite state"
-                    context.report.report(
-                        "misplaced-history",
-                        state.name.span,
-                        name=state.name,
-                        fault=fault,
-                        help="put it into the state that it leads back into",
-                    )
-        if not isinstance(node, (State, Parallel)):
-            continue
-        inside = set(walk(node)) - {node}
-        for item in node.items:
-            if not isinstance(item, Transition) or not item.internal or item.target is None:
+    for history in vertices(machine):
+        if isinstance(history, History):
+            context.report.report(
+                "misplaced-history",
+                history.name.span,
+                name=history.name,
+                fault="stands outside of any composite state",
+                help="put it into the state that it leads back into",
+            )
+    outline = context.outline(machine)
+    for state in outline.states:
+        for item in outline.transitions[state]:
+            target = item.target.target if item.target is not None else None
+            if item.target is None or target is None or not item.internal:
                 continue
-            target = item.target.target
-            if target is not None and target not in inside:
+            if state not in outline.around(target):
                 context.report.report(
                     "misplaced-internal",
                     item.target.span,
-                    state=node.name,
+                    state=state.name,
                     target=target.name,
                     help="it leads to a state inside its own, or has no target at all",
                 )
@@ -225,11 +218,9 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
 
 def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context: Context) -> None:
     """Check that a reused machine reads no param of a member: the one around has no such."""
-    own = [item for item in machine.items if isinstance(item, Param)]
-    for use in walk(machine):
-        if not isinstance(use, NameUse) or not isinstance(use.target, Param):
-            continue
-        if use.target not in own:
+    own = {item for item in machine.items if isinstance(item, Param)}
+    for use in nodes_of(machine, NameUse):
+        if isinstance(use.target, Param) and use.target not in own:
             context.report.report(
                 "missing-value",
                 ref.span,
@@ -280,6 +271,7 @@ def completes(state: Container, context: Context) -> bool:
     if isinstance(state, Parallel):
         return all(completes(region, context) for region in regions(state))
     inside = content(state)
-    if inside is None or inside in context.damaged or not all_resolved(inside):
+    if inside is None or inside in context.damaged:
         return True
-    return any(isinstance(vertex, FinalState) for vertex in vertices(inside))
+    final = any(isinstance(vertex, FinalState) for vertex in vertices(inside))
+    return final or not all_resolved(inside)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import cast
 
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.scopes import bare, kind_of
@@ -36,42 +37,41 @@ from swarmdsl.syntax import (
     walk,
 )
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.names import RESERVED_EVENTS
+from swarmdsl.validate.names import RESERVED_EVENTS, Named
 
-_CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*")
-_SNAKE = re.compile(r"[a-z][a-z0-9_]*")
-_UPPER = re.compile(r"[A-Z][A-Z0-9_]*")
 
-_Camel = (
-    *(StructType, EnumType, Event, Component, Member, StateMachine, Swarm, Environment, Fitness),
-    *(State, Parallel, Region, Choice, History, FinalState),
-)
-_Snake = (Function, Operation, Parameter, Param, Variable, Part, Port, Role)
-_Upper = (Constant, EnumValue)
+def _upper_case(name: str) -> str:
+    return snake_case(name).upper()
+
+
+# What names look like, how that is called, and how another name becomes such a one.
+_CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*"), "CamelCase", camel_case
+_SNAKE = re.compile(r"[a-z][a-z0-9_]*"), "snake_case", snake_case
+_UPPER = re.compile(r"[A-Z][A-Z0-9_]*"), "UPPER_CASE", _upper_case
+
+_STYLES = {
+    **dict.fromkeys((StructType, EnumType, Event, Component, Member, StateMachine), _CAMEL),
+    **dict.fromkeys((Swarm, Environment, Fitness), _CAMEL),
+    **dict.fromkeys((State, Parallel, Region, Choice, History, FinalState), _CAMEL),
+    **dict.fromkeys((Function, Operation, Parameter, Param, Variable, Part, Port, Role), _SNAKE),
+    **dict.fromkeys((Constant, EnumValue), _UPPER),
+}
 
 
 def check_style(declaration: Declaration, context: Context) -> None:
     """Check the style of all names in a declaration but those that ROS or others have given."""
     for node in walk(declaration):
-        if isinstance(node, _Camel):
-            style, written, better = _CAMEL, "CamelCase", camel_case
-        elif isinstance(node, _Snake):
-            style, written, better = _SNAKE, "snake_case", snake_case
-        elif isinstance(node, _Upper):
-            style, written, better = _UPPER, "UPPER_CASE", _upper_case
-        else:
+        if type(node) not in _STYLES:
             continue
-        reserved = isinstance(node, Event) and node.name in RESERVED_EVENTS
-        if not style.fullmatch(node.name) and not reserved:
+        style, written, better = _STYLES[type(node)]
+        name = cast("Named", node).name
+        reserved = isinstance(node, Event) and name in RESERVED_EVENTS
+        if not style.fullmatch(name) and not reserved:
             context.report.report(
                 "naming-style",
-                node.name.span,
+                name.span,
                 kind=bare(kind_of(node)),
-                name=node.name,
+                name=name,
                 style=written,
-                help=f"write `{better(node.name)}`",
+                help=f"write `{better(name)}`",
             )
-
-
-def _upper_case(name: str) -> str:
-    return snake_case(name).upper()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from swarmdsl.diagnostics import Label, listed
 from swarmdsl.link_machines import regions
 from swarmdsl.scopes import bare, kind_of
@@ -9,7 +11,6 @@ from swarmdsl.syntax import (
     Activity,
     Branch,
     Choice,
-    Container,
     DoneTrigger,
     OutcomeTrigger,
     Parallel,
@@ -19,23 +20,21 @@ from swarmdsl.syntax import (
     Transition,
     Trigger,
     Vertex,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.outline import Outline
 from swarmdsl.validate.structure import completes
 
 
 def check_transitions(machine: StateMachine, context: Context) -> None:
     """Check the transitions of all states of a machine."""
-    for node in walk(machine):
-        match node:
-            case State() | Parallel():
-                transitions = [item for item in node.items if isinstance(item, Transition)]
-                for transition in transitions:
-                    for trigger in transition.triggers:
-                        _check_trigger(trigger, node, context)
-                if isinstance(node, State):
-                    _check_outcomes(node, transitions, context)
+    for state, transitions in context.outline(machine).transitions.items():
+        for transition in transitions:
+            for trigger in transition.triggers:
+                _check_trigger(trigger, state, context)
+        if isinstance(state, State):
+            _check_outcomes(state, transitions, context)
     _check_targets(machine, context)
 
 
@@ -82,7 +81,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
     )
 
 
-def _check_outcomes(state: State, transitions: list[Transition], context: Context) -> None:
+def _check_outcomes(state: State, transitions: Sequence[Transition], context: Context) -> None:
     """Each end of the activity needs a transition that is taken without condition."""
     unhandled: list[str] = []
     guarded: list[Transition] = []
@@ -115,46 +114,33 @@ def _check_outcomes(state: State, transitions: list[Transition], context: Contex
 
 def _check_targets(machine: StateMachine, context: Context) -> None:
     """A transition cannot lead from one region into another of the same parallel state."""
-    homes: dict[Vertex, tuple[Region, ...]] = {}
-    arrows: list[tuple[Transition | Branch, tuple[Region, ...]]] = []
-
-    def visit(container: Container, inside: tuple[Region, ...]) -> None:
-        for item in container.items:
-            match item:
-                case Region():
-                    visit(item, (*inside, item))
-                case State() | Parallel():
-                    homes[item] = inside
-                    visit(item, inside)
-                case Transition():
-                    arrows.append((item, inside))
-                case Choice():
-                    homes[item] = inside
-                    arrows.extend((branch, inside) for branch in item.branches)
-                case _ if isinstance(item, Vertex):
-                    homes[item] = inside
-
-    visit(machine, ())
-    siblings = {
-        region: parallel
-        for parallel in walk(machine)
-        if isinstance(parallel, Parallel)
-        for region in regions(parallel)
-    }
-    for transition, source in arrows:
-        target = transition.target.target if transition.target is not None else None
-        if target is None:
+    if not nodes_of(machine, Parallel):
+        return
+    outline = context.outline(machine)
+    arrows: list[tuple[Vertex, Transition | Branch]] = [
+        (state, transition) for state, all_ in outline.transitions.items() for transition in all_
+    ]
+    choices = nodes_of(machine, Choice)
+    arrows += [(choice, branch) for choice in choices for branch in choice.branches]
+    for source, arrow in arrows:
+        target = arrow.target.target if arrow.target is not None else None
+        if arrow.target is None or target is None:
             continue
-        assert transition.target is not None
-        for here, there in zip(source, homes[target], strict=False):
-            if here is not there and siblings[here] is siblings[there]:
+        ways = zip(_regions_around(source, outline), _regions_around(target, outline), strict=False)
+        for here, there in ways:
+            if here is not there and outline.container[here] is outline.container[there]:
                 context.report.report(
                     "target-outside",
-                    transition.target.span,
-                    target=transition.target.name,
+                    arrow.target.span,
+                    target=arrow.target.name,
                     reason=f"it is in region `{there.name}`, the transition in `{here.name}`",
                     related=(Label(target.name.span, "declared here"),),
                 )
+
+
+def _regions_around(vertex: Vertex, outline: Outline) -> list[Region]:
+    """The regions that a state is in, the outermost first."""
+    return [each for each in outline.around(vertex) if isinstance(each, Region)][::-1]
 
 
 def _activities(state: State | Parallel | Region) -> list[Activity]:

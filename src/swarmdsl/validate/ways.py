@@ -20,6 +20,7 @@ from swarmdsl.syntax import (
     DoneTrigger,
     Entry,
     Exit,
+    Expression,
     FinalState,
     History,
     Initial,
@@ -30,10 +31,12 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Trigger,
+    Variable,
     Vertex,
 )
-from swarmdsl.validate.settling import at_once, transitions_of
-from swarmdsl.validate.steps import Step, Write, in_order, on, reads, results, tests, while_active
+from swarmdsl.validate.outline import Outline
+from swarmdsl.validate.settling import at_once
+from swarmdsl.validate.steps import Step, Write, in_order, on, reads, results, while_active
 
 
 @dataclass(slots=True, eq=False)
@@ -52,51 +55,47 @@ class Point:
 class Ways:
     """The points of a machine whose names are all resolved; `start` is where it begins."""
 
-    def __init__(self, machine: StateMachine) -> None:
-        self._around: dict[Vertex | Region, Container] = {}
-        self._active: dict[Vertex, Point] = {}
-        self._find(machine)
-        self._exits = {state: self._path(state) for state in self._active if on(Exit, state)}
-        self.start = self._enter(machine, [], None)
+    def __init__(self, outline: Outline) -> None:
+        self._outline = outline
+        self._active = {vertex: Point(while_active(vertex)) for vertex in outline.vertices}
+        self._exits: dict[Vertex | Container, list[tuple[Vertex, list[Write]]]] = {}
+        for state in outline.states:
+            writes = [step for step in on(Exit, state) if isinstance(step, Write)]
+            for outer in outline.around(state) if writes else ():
+                self._exits.setdefault(outer, []).append((state, writes))
+        self._left = {
+            state
+            for state, transitions in outline.transitions.items()
+            if any(transition.target is not None for transition in transitions)
+        }
+        self.start = self._enter(outline.machine, [], None)
         for vertex in self._active:
             self._leave(vertex)
-
-    def _find(self, container: Container) -> None:
-        for region in regions(container):
-            self._around[region] = container
-            self._find(region)
-        for inside in vertices(container):
-            self._around[inside] = container
-            self._active[inside] = Point(while_active(inside))
-            if isinstance(inside, (State, Parallel)):
-                self._find(inside)
-
-    def _path(self, vertex: Vertex | Region) -> list[Vertex | Container]:
-        """What a state is in, from the machine to the state itself."""
-        path: list[Vertex | Container] = [vertex]
-        while not isinstance(path[-1], StateMachine):
-            path.append(self._around[path[-1]])
-        return path[::-1]
 
     def _leave(self, vertex: Vertex) -> None:
         """Add what follows from being in a state, and the ways out of it."""
         here = self._active[vertex]
-        outer = [each for each in self._path(vertex)[:-1] if isinstance(each, (State, Parallel))]
-        if outer and not _is_passed(vertex):
-            here.leads_to.append(self._active[outer[-1]])
+        around = self._outline.around(vertex)
+        outer = [each for each in around if isinstance(each, (State, Parallel))]
+        if outer and not self._is_passed(vertex):
+            here.leads_to.append(self._active[outer[0]])
         match vertex:
             case Choice(branches=branches):
-                tested: list[Step] = []
+                tested: dict[Variable, Step] = {}
                 for branch in branches:
-                    tested += reads(branch.guard, test=True)
-                    self._follow(here, [*tested], branch, vertex)
+                    _add_test(branch.guard, tested)
+                    self._follow(here, list(tested.values()), branch, vertex)
             case State() | Parallel():
-                if any(t.target is not None for each in outer for t in transitions_of(each)):
+                if not self._left.isdisjoint(outer):
                     here.leads_to.append(Point(on(Exit, vertex)))
-                for transition in transitions_of(vertex):
+                by_trigger: dict[str, dict[Variable, Step]] = {}
+                for transition in self._outline.transitions[vertex]:
                     triggers: list[Trigger | None] = [*transition.triggers]
-                    for trigger in triggers or [None]:
-                        first = [*results(trigger, vertex), *tests(trigger, transition, vertex)]
+                    words = [trigger.span.text for trigger in transition.triggers] or [""]
+                    for word in set(words):
+                        _add_test(transition.guard, by_trigger.setdefault(word, {}))
+                    for trigger, word in zip(triggers or [None], words, strict=True):
+                        first = [*results(trigger, vertex), *by_trigger[word].values()]
                         for origin in self._origins(trigger, vertex):
                             self._follow(origin, first, transition, vertex)
 
@@ -135,7 +134,7 @@ class Ways:
         if target is None:
             origin.leads_to.append(Point([*first, *effects]))
             return
-        sources, path = self._path(source), self._path(target)
+        sources, path = self._outline.path(source), self._outline.path(target)
         inward = isinstance(arrow, Transition) and arrow.internal and isinstance(source, State)
         # The innermost around both that is not left: no parallel state is that (SCXML 3.13).
         stays: Container = [
@@ -149,10 +148,9 @@ class Ways:
         around = left[0] if left else source
         exits: list[Step] = [
             step
-            for state, within in self._exits.items()
-            if around in within and state not in (*left, source)
-            for step in on(Exit, state)
-            if isinstance(step, Write)
+            for state, writes in self._exits.get(around, ())
+            if state not in (*left, source)
+            for step in writes
         ]
         for outer in reversed(left):
             exits += on(Exit, outer)
@@ -169,7 +167,8 @@ class Ways:
             point.steps += on(Entry, vertex)
             if isinstance(vertex, History) and not isinstance(vertex.target.target, History):
                 # Where it leads back to has been reached before, with less that was written.
-                inside(self._around[vertex], self._below(self._around[vertex], vertex.target))
+                container = self._outline.container[vertex]
+                inside(container, self._below(container, vertex.target))
             elif isinstance(vertex, Parallel) or (
                 isinstance(vertex, State) and any(vertices(vertex))
             ):
@@ -192,18 +191,24 @@ class Ways:
         inside(container, path)
         return point
 
+    def _is_passed(self, vertex: Vertex) -> bool:
+        """Whether a vertex is left before anything around it reacts to an event."""
+        return isinstance(vertex, (Choice, History)) or (
+            isinstance(vertex, State)
+            and any(
+                transition.guard is None
+                and any(at_once(each, vertex) for each in transition.triggers)
+                for transition in self._outline.transitions[vertex]
+            )
+        )
+
     def _below(self, container: Container, ref: Ref[Vertex]) -> Sequence[Vertex | Container]:
         """The path from a container to a state in it."""
-        path = self._path(ref.target) if ref.target is not None else []
+        path = self._outline.path(ref.target) if ref.target is not None else []
         return path[path.index(container) + 1 :] if container in path else []
 
 
-def _is_passed(vertex: Vertex) -> bool:
-    """Whether a vertex is left before anything around it reacts to an event."""
-    return isinstance(vertex, (Choice, History)) or (
-        isinstance(vertex, State)
-        and any(
-            transition.guard is None and any(at_once(each, vertex) for each in transition.triggers)
-            for transition in transitions_of(vertex)
-        )
-    )
+def _add_test(guard: Expression | None, tested: dict[Variable, Step]) -> None:
+    """Add what a guard reads; what counts is the first read of each variable."""
+    for read in reads(guard, test=True):
+        tested.setdefault(read.variable, read)
