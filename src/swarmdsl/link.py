@@ -18,6 +18,7 @@ from swarmdsl.link_types import TypeLinker
 from swarmdsl.link_values import ValueLinker, Values
 from swarmdsl.load import File, Project
 from swarmdsl.scopes import FileScope, Scopes, bare, kind_of, report_unresolved
+from swarmdsl.suggest import closest
 from swarmdsl.syntax import (
     Activity,
     BehaviorUse,
@@ -194,7 +195,9 @@ def _link_activities(
         places = parts.get(before, [])
         node.owner = places[0] if places else scope.one(before, Component)
         if node.owner is None:
-            ref.target = scope.resolve(ref.name, ref.span, Function, report)
+            part = closest(before, parts)
+            similar = [f"{part}.{name}"] if part else []
+            ref.target = scope.resolve(ref.name, ref.span, Function, report, built_in=similar)
             continue
         components = [part.component.target for part in places]
         if isinstance(node.owner, Component):

@@ -104,6 +104,9 @@ class Typing:
             help_ = None
             if wanted == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
+            enum = self.interfaces.get(wanted) if isinstance(wanted, Named) else None
+            if isinstance(enum, EnumType) and enum.values and is_number(found):
+                help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
             self.report.report(
                 "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
             )

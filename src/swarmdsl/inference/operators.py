@@ -9,7 +9,7 @@ from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.inference.fitting import fits, is_float, is_number, is_text
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type
 from swarmdsl.scopes import report_unresolved
-from swarmdsl.syntax import Call, OperatorUse
+from swarmdsl.syntax import Call, OperatorUse, Value
 
 _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
 
@@ -55,7 +55,7 @@ class Operation:
             return FLOAT
         if self._durations():
             return DURATION
-        return self._widest() if self._require(is_number) else None
+        return self._widest() if self._require(is_number, self._unit()) else None
 
     def _sign(self, operator: str, operand: Type | None) -> Type | None:
         if operator == "not":
@@ -69,11 +69,16 @@ class Operation:
             return BOOL
         if operator in ("==", "!="):
             if not self._comparable(left, right):
-                self._report_operands("compare their fields" if self._messages() else None)
+                advice = "compare their fields" if self._messages() else self._unit()
+                self._report_operands(advice)
             return BOOL
         if operator in ("<", "<=", ">", ">="):
             if not self._durations():
-                self._require(is_number)
+                enums = [t for t in self.types if isinstance(t, Named) and self.is_enum(t)]
+                advice = (
+                    "values of enums have no order: use `==` or `!=`" if enums else self._unit()
+                )
+                self._require(is_number, advice)
             return BOOL
         if left is None or right is None:
             return None
@@ -87,7 +92,7 @@ class Operation:
             return DURATION
         if operator == "/" and self._durations():
             return FLOAT
-        if not self._require(is_number):
+        if not self._require(is_number, self._unit() if operator in ("+", "-") else None):
             return None
         return FLOAT if operator == "/" else self._widest()
 
@@ -114,11 +119,23 @@ class Operation:
             return None
         return FLOAT if any(map(is_float, self.types)) else INT
 
-    def _require(self, test: Callable[[Type], bool]) -> bool:
+    def _unit(self) -> str | None:
+        """What to write for a number that stands beside a duration."""
+        if DURATION not in self.types:
+            return None
+        operands = self.tree.arguments if isinstance(self.tree, Call) else self.tree.operands
+        numbers = [
+            tree.span.text
+            for tree, known in zip(operands, self.types, strict=True)
+            if isinstance(tree, Value) and is_number(known)
+        ]
+        return f"give it a unit: `{numbers[0]} s`" if numbers else None
+
+    def _require(self, test: Callable[[Type], bool], advice: str | None = None) -> bool:
         """Report operands that are not of the right type; return whether all are."""
         fine = all(known is None or test(known) for known in self.types)
         if not fine:
-            self._report_operands()
+            self._report_operands(advice)
         return fine
 
     def _report_operands(self, advice: str | None = None) -> None:
