@@ -35,7 +35,9 @@ NO_MODEL = {
 }
 # Of SCXML documents, not of models; `tests/scxml` has them and their pages.
 OF_DOCUMENTS = {name for name, entry in CODES.items() if "SW08" < entry.code < "SW09"}
-NO_MODEL |= OF_DOCUMENTS
+# Of what is simulated; `tests/simulate` has them.
+OF_RUNS = {name for name, entry in CODES.items() if entry.code > "SW10"}
+NO_MODEL |= OF_DOCUMENTS | OF_RUNS
 # Found before there is a model, and not by its text.
 UNTEXTUAL = {
     *OF_DOCUMENTS,

@@ -8,6 +8,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     02xx  names                  06xx  functions and interfaces
     03xx  swarm composition      07xx  expressions
     08xx  SCXML documents        09xx  generators and output
+    10xx  simulation
 """
 
 from __future__ import annotations
@@ -183,4 +184,13 @@ CODES: dict[str, Code] = {
     "value-not-a-number": Code(
         "SW0915", "warning", "the CPSwarm code generator cannot read the value of {item}"
     ),
+    # ---- simulation
+    "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
+    "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),
+    "bad-event-line": Code("SW1003", "error", "this line is no event: {reason}"),
+    "unheard-event": Code("SW1004", "warning", "no state waits for event `{name}`"),
+    "no-param-value": Code("SW1005", "error", "param `{name}` of `{machine}` has no value"),
+    "never-settles": Code("SW1006", "error", "{who} does not come to rest at {time}"),
+    "failed-expression": Code("SW1007", "warning", "a value in `{machine}` failed: {reason}"),
+    "missing-key": Code("SW1008", "error", "this needs `{name}`"),
 }

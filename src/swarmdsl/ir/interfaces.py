@@ -102,13 +102,18 @@ def incoming_topic(topic: str, swarm: bool) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Param:
-    """A ROS parameter; `default` is None where a value must be given at start."""
+    """A ROS parameter; `default` is None where a value must be given at start.
+
+    That of a state machine is the value on which those agree who behave so; `declared` is the
+    one that the machine says itself, for whoever gives it none.
+    """
 
     name: str
     type: Type
     default: Expression | None
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    declared: Expression | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -231,7 +231,7 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
     ):
         values = [params.get(param.name, param.default) for params in given] or [param.default]
         agreed = values[0] if all(value == values[0] for value in values) else None
-        found.append(replace(param, default=agreed))
+        found.append(replace(param, default=agreed, declared=param.default))
     return tuple(found)
 
 

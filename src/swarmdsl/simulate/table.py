@@ -60,16 +60,21 @@ def first_data(
     for param in machine.params:
         if param.name in params:
             data[param.name] = deepcopy(params[param.name])
-        elif param.default is not None:
-            data[param.name] = _stored(param.default)(data, None)
+        elif (default := first_value(param)) is not None:
+            data[param.name] = stored(default)(data, None)
         else:
             raise ValueError(f"param `{param.name}` of `{machine.name}` has no value")
     for variable in machine.variables:
         if variable.initial is not None:
-            data[variable.name] = _stored(variable.initial)(data, None)
+            data[variable.name] = stored(variable.initial)(data, None)
         else:
             data[variable.name] = default_value(variable.type, system)
     return data
+
+
+def first_value(param: ir.Param) -> Expression | None:
+    """The default of a param; that of the machine where those who behave so do not agree."""
+    return param.default if param.default is not None else param.declared
 
 
 class _Maker:
@@ -140,7 +145,7 @@ class _Maker:
 
     def activity(self, state: ir.State, activity: ir.Activity) -> Activity:
         """What a state does; what callbacks fill in is left out."""
-        goal = [(name, _stored(value)) for name, value in activity.arguments]
+        goal = [(name, stored(value)) for name, value in activity.arguments]
 
         def make_goal(instance: Instance) -> dict[str, Any]:
             return {name: value(instance.data, None) for name, value in goal}
@@ -169,7 +174,7 @@ class _Maker:
         """One effect."""
         match effect:
             case Assignment(variable=variable, path=path, value=expression):
-                value = _stored(expression)
+                value = stored(expression)
 
                 def assign(instance: Instance, event: Event) -> None:
                     _store(instance.data, variable, path, value(instance.data, event.data))
@@ -177,7 +182,7 @@ class _Maker:
                 return assign
             case Send(event=name, arguments=arguments):
                 type_ = self.system.event(name).type
-                fields = [(field, _stored(value)) for field, value in arguments]
+                fields = [(field, stored(value)) for field, value in arguments]
 
                 def send(instance: Instance, event: Event) -> None:
                     message = default_value(type_, self.system)
@@ -199,7 +204,7 @@ def _guard(expression: Expression | None) -> Guard | None:
     return lambda instance, event: value(instance.data, event.data)
 
 
-def _stored(expression: Expression) -> Value:
+def stored(expression: Expression) -> Value:
     """A value that is kept or sent: a copy, as ROS has it, and durations in whole nanoseconds."""
     value = function_of(expression)
     if expression.type == DURATION:
