@@ -79,12 +79,36 @@ class Project:
                 yield file, optimization
 
 
-def load(paths: Iterable[Path], report: Diagnostics, libraries: Sequence[Path] = ()) -> Project:
+class Reader:
+    """Brings files into memory; None for one that cannot be read, which is reported at `at`."""
+
+    def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
+        """Read and parse a .swarm file."""
+        source = read_source(path, at, report)
+        return _parsed(source, report) if source is not None else None
+
+    def interface(
+        self, interface: InterfacePath, at: Span | None, report: Diagnostics
+    ) -> File | None:
+        """Read a ROS interface file as a file with one declaration."""
+        source = read_source(interface.path, at, report)
+        return File(source, parsed_interface(interface, source, report)) if source else None
+
+
+_READER = Reader()
+
+
+def load(
+    paths: Iterable[Path],
+    report: Diagnostics,
+    libraries: Sequence[Path] = (),
+    reader: Reader = _READER,
+) -> Project:
     """Read the files, those in the folders, and everything they import.
 
     `libraries` are folders where packages are looked for, before the installed ones.
     """
-    return _Loader(report, Libraries(libraries, report)).load(paths)
+    return _Loader(report, Libraries(libraries, report), reader).load(paths)
 
 
 @dataclass
@@ -110,8 +134,9 @@ class _Step:
 
 
 class _Loader:
-    def __init__(self, report: Diagnostics, libraries: Libraries) -> None:
+    def __init__(self, report: Diagnostics, libraries: Libraries, reader: Reader) -> None:
         self._report = report
+        self._reader = reader
         self._libraries = libraries
         self._known: dict[str, File | None] = {}
         self._work: deque[_Step] = deque()
@@ -135,9 +160,9 @@ class _Loader:
         identity = os.path.realpath(step.path)
         if identity not in self._known:
             if step.interface is not None:
-                file = _read_interface(step.interface, step.place, self._report)
+                file = self._reader.interface(step.interface, step.place, self._report)
             else:
-                file = _read(step.path, step.place, self._report)
+                file = self._reader.model(step.path, step.place, self._report)
             self._known[identity] = file
             if file is not None:
                 file.library = step.library
@@ -228,40 +253,43 @@ def _relative(folder: Path, wanted: str) -> Path:
     return Path(os.path.normpath(folder / wanted))
 
 
-def _read_interface(interface: InterfacePath, at: Span | None, report: Diagnostics) -> File | None:
-    """Read a ROS interface file as a file with one declaration."""
-    source = read_source(interface.path, at, report)
-    if source is None:
-        return None
+def parsed_interface(interface: InterfacePath, source: Source, report: Diagnostics) -> Parsed:
+    """Parse a ROS interface file."""
     read = parse_interface(source, interface.package, interface.name, interface.kind, report)
     whole = Span(source, 0, len(source.text))
     parsed = Parsed(Model(whole, None, [], [read.declaration], []))
     if read.damaged:
         parsed.damaged.add(read.declaration)
+    return parsed
+
+
+def _parsed(source: Source, report: Diagnostics) -> File:
+    """Parse a .swarm file."""
+    before = len(report)
+    source = without_control_characters(source, report)
+    parsed = parse(source, report)
+    if len(report) == before:
+        report_empty(source, parsed.model, report)
     return File(source, parsed)
 
 
-def _read(path: Path, at: Span | None, report: Diagnostics) -> File | None:
-    """Read and parse a file; None when it cannot be read, which is reported at `at`."""
-    source = read_source(path, at, report)
-    if source is None:
-        return None
-    before = len(report)
-    for found in _CONTROL.finditer(source.text):
-        place = Span(source, found.start(), found.end())
-        report.report("control-character", place, code=f"U+{ord(found[0]):04X}", help="remove it")
-    if len(report) > before:  # reported once: the parser sees spaces in their place
-        source = replace(source, text=_CONTROL.sub(" ", source.text))
-    parsed = parse(source, report)
-    model = parsed.model
-    something = model.declarations or model.imports or model.optimizations
-    if not something and len(report) == before:
+def without_control_characters(source: Source, report: Diagnostics) -> Source:
+    """The source with spaces in place of characters that no format can carry, once reported."""
+    found = list(_CONTROL.finditer(source.text))
+    for each in found:
+        place = Span(source, each.start(), each.end())
+        report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
+    return replace(source, text=_CONTROL.sub(" ", source.text)) if found else source
+
+
+def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
+    """Report a file without a mistake that has nothing in it."""
+    if not (model.declarations or model.imports or model.optimizations):
         report.report(
             "empty-file",
             Span(source, 0, 0),
             help="declare something, `event Start : ...` for instance",
         )
-    return File(source, parsed)
 
 
 def read_source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:

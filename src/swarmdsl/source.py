@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -47,6 +47,25 @@ class Source:
         return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
 
 
+@dataclass(eq=False)
+class Piece(Source):
+    """A part of a file's text that is read on its own, and the place in the file where it begins.
+
+    Places in it stay what they are when the text before it changes; only `whole` and `base` do.
+    """
+
+    whole: Source = field(kw_only=True)
+    base: int = field(default=0, kw_only=True)
+
+    def line_column(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, in the file."""
+        return self.whole.line_column(self.base + offset)
+
+    def line_text(self, line: int) -> str:
+        """The text of a line of the file."""
+        return self.whole.line_text(line)
+
+
 class Span(NamedTuple):
     """A piece of a source: offsets in characters, `end` exclusive."""
 
@@ -58,6 +77,14 @@ class Span(NamedTuple):
     def text(self) -> str:
         """The piece itself."""
         return self.source.text[self.start : self.end]
+
+    @property
+    def absolute(self) -> Span:
+        """The same place as one in the file."""
+        source, start, end = self
+        if not isinstance(source, Piece):
+            return self
+        return Span(source.whole, source.base + start, source.base + end)
 
     @property
     def on_command_line(self) -> bool:

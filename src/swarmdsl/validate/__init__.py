@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.libraries import SUFFIX
-from swarmdsl.load import Project
+from swarmdsl.load import File, Project
 from swarmdsl.syntax import (
     Component,
     Constant,
@@ -34,7 +34,7 @@ from swarmdsl.validate.enums import check_enum
 from swarmdsl.validate.events import check_events
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
-from swarmdsl.validate.initialization import check_initialization
+from swarmdsl.validate.initialization import check_initialization, reused_machines
 from swarmdsl.validate.interfaces import (
     check_event,
     check_function,
@@ -43,7 +43,7 @@ from swarmdsl.validate.interfaces import (
     check_topics,
     check_values,
 )
-from swarmdsl.validate.names import check_names
+from swarmdsl.validate.names import check_names, check_names_inside
 from swarmdsl.validate.optimization import (
     check_constant,
     check_fitness,
@@ -60,26 +60,49 @@ from swarmdsl.validate.transitions import check_transitions
 def validate(project: Project, report: Diagnostics) -> None:
     """Run all rules."""
     context = make_context(project, report)
-    check_names(project, report)
-    check_submachines(project, report)
-    check_inheritance(project, report)
-    check_message_cycles(context)
-    used = used_declarations(project)
-    check_topics(used, report)
-    in_libraries = Diagnostics()
+    check_together(project, context)
+    reused = reused_machines(project)
     for file, declaration in project.declarations():
-        if declaration not in file.parsed.damaged:
-            found = in_libraries if file.library else report
-            _check(declaration, context.reporting_to(found))
-            # The files that `import ros` reads are mostly those of the same people.
-            if file.library and not file.source.name.endswith(SUFFIX):
-                check_known(declaration, context)
-    # Whoever uses a library cannot mend what is only a warning there.
-    report.include(found for found in in_libraries if found.severity is Severity.ERROR)
-    check_events([node for _, node in used], context)
-    check_initialization(project, context)
+        check_alone(file, declaration, context, reused=declaration in reused)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
+
+
+def check_together(project: Project, context: Context) -> None:
+    """Run the rules about all declarations together."""
+    check_names(project, context.report)
+    check_submachines(project, context.report)
+    check_inheritance(project, context.report)
+    check_message_cycles(context)
+    used = used_declarations(project)
+    check_topics(used, context.report)
+    check_events([node for _, node in used], context)
+
+
+def check_alone(file: File, declaration: Declaration, context: Context, *, reused: bool) -> None:
+    """Run the rules about one declaration and what it leads to.
+
+    Of a machine it must be known whether another one reuses it.
+    """
+    check_names_inside(declaration, context.report)
+    if declaration in file.parsed.damaged:
+        return
+    if file.library:
+        _check_in_library(file, declaration, context)
+        return
+    _check(declaration, context)
+    if isinstance(declaration, StateMachine):
+        check_initialization(declaration, context, reused=reused)
+
+
+def _check_in_library(file: File, declaration: Declaration, context: Context) -> None:
+    """Report errors only: whoever uses a library cannot mend what is a warning there."""
+    found = Diagnostics()
+    _check(declaration, context.reporting_to(found))
+    # The files that `import ros` reads are mostly those of the same people.
+    if not file.source.name.endswith(SUFFIX):
+        check_known(declaration, context)
+    context.report.include(one for one in found if one.severity is Severity.ERROR)
 
 
 def _check(declaration: Declaration, context: Context) -> None:
@@ -123,4 +146,11 @@ def _check(declaration: Declaration, context: Context) -> None:
             check_environment(declaration, context)
 
 
-__all__ = ["validate"]
+__all__ = [
+    "check_alone",
+    "check_optimization",
+    "check_together",
+    "make_context",
+    "reused_machines",
+    "validate",
+]

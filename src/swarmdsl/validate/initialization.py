@@ -23,31 +23,30 @@ from swarmdsl.validate.steps import Read, stores_of
 from swarmdsl.validate.ways import Point, Ways
 
 
-def check_initialization(project: Project, context: Context) -> None:
+def reused_machines(project: Project) -> set[StateMachine | None]:
+    """The machines that states of others stand for."""
+    return {
+        state.machine.target
+        for _, machine in project.declarations()
+        if isinstance(machine, StateMachine)
+        for state in nodes_of(machine, State)
+        if state.machine is not None
+    }
+
+
+def check_initialization(machine: StateMachine, context: Context, *, reused: bool) -> None:
     """Report variables without a first value that some way leads to a read of, unwritten.
 
     Guards are taken to be possible, as is any order of events. What can have no first value, a
     message, may be tested for what it holds; so may whatever a reused machine keeps between visits.
     """
-    machines = [
-        (file, node)
-        for file, node in project.declarations()
-        if isinstance(node, StateMachine) and node not in context.damaged and all_resolved(node)
-    ]
-    reused = {
-        state.machine.target
-        for _, machine in machines
-        for state in nodes_of(machine, State)
-        if state.machine is not None
-    }
-    for file, machine in machines:
-        variables = _unset(machine, context)
-        if file.library or not variables or _has_unknown(machine):
-            continue
-        start = Ways(context.outline(machine)).start
-        for variable in variables:
-            settable = machine not in reused and _has_literals(variable.type.type, context)
-            _check(variable, start, settable, context)
+    variables = _unset(machine, context)
+    if not variables or _has_unknown(machine) or not all_resolved(machine):
+        return
+    start = Ways(context.outline(machine)).start
+    for variable in variables:
+        settable = not reused and _has_literals(variable.type.type, context)
+        _check(variable, start, settable, context)
 
 
 def _has_unknown(machine: StateMachine) -> bool:

@@ -69,7 +69,7 @@ RESERVED_EVENTS = ("error",)
 
 
 def check_names(project: Project, report: Diagnostics) -> None:
-    """Check top-level names across files and all names inside declarations."""
+    """Check top-level names across files."""
     top_level: dict[Hashable, Declaration] = {}
     for file, declaration in project.declarations():
         name = str(declaration.name)
@@ -77,18 +77,22 @@ def check_names(project: Project, report: Diagnostics) -> None:
         if isinstance(declaration, Interface):
             # `Pose` of package `geo` and `geo/Pose` are one interface.
             _check_first(interface_name(file, name), declaration, top_level, report)
-        if isinstance(declaration, Event) and name in RESERVED_EVENTS:
-            report.report(
-                "reserved-event-name",
-                declaration.name.span,
-                name=name,
-                help="SCXML keeps it for errors of its own",
-            )
-        for node in walk(declaration):
-            for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
-                seen: dict[Hashable, Named] = {}
-                for named in names:
-                    _check_first(str(named.name), named, seen, report)
+
+
+def check_names_inside(declaration: Declaration, report: Diagnostics) -> None:
+    """Check all names inside a declaration, and that its own may be used."""
+    if isinstance(declaration, Event) and declaration.name in RESERVED_EVENTS:
+        report.report(
+            "reserved-event-name",
+            declaration.name.span,
+            name=declaration.name,
+            help="SCXML keeps it for errors of its own",
+        )
+    for node in walk(declaration):
+        for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
+            seen: dict[Hashable, Named] = {}
+            for named in names:
+                _check_first(str(named.name), named, seen, report)
 
 
 _WITH_NAMES = frozenset(
