@@ -54,6 +54,14 @@ class Typing:
     event: Type | None = None
     folding: Folding = field(default_factory=Folding)
 
+    def on_event(self, type_: Type | None, *, known: bool = True) -> Typing:
+        """The same where `event` is a message of that type, if it is known which event it is."""
+        return Typing(self.interfaces, self.report, known, type_, self.folding)
+
+    def silent(self) -> Typing:
+        """The same, and what is wrong is not reported."""
+        return Typing(self.interfaces, Diagnostics(), self.has_event, self.event, self.folding)
+
     def infer(self, tree: ExpressionTree) -> Type | None:
         """The type of an expression; what is wrong in it is reported."""
         match tree:

@@ -94,7 +94,7 @@ class Context:
 
     def with_event(self, type_: ir.Type) -> Context:
         """The same, where `event` is a message of that type."""
-        return replace(self, typing=replace(self.typing, has_event=True, event=type_))
+        return replace(self, typing=self.typing.on_event(type_))
 
     def type_of(self, ref: TypeRef) -> ir.Type:
         """The type a resolved type reference means, an enum's being that of its numbers."""

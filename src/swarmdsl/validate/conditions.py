@@ -9,9 +9,8 @@ What comes out is certain: where it would take too long, values are said to exis
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference import Typing
 from swarmdsl.ir.types import INTEGERS, Named, Primitive, Type
@@ -100,7 +99,7 @@ def _condition_of(item: Transition | Branch, guard: Expression, context: Context
     events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
     typing = context.with_event(events) if events else context.typing
     tree = guard.tree
-    holds = condition(tree, replace(typing, report=Diagnostics()))
+    holds = condition(tree, typing.silent())
     if not any(_may_fail(part, typing.folding) for part in walk(tree)):
         return holds
     # A guard that has no result does not hold.
@@ -119,14 +118,17 @@ def _may_fail(part: Node, folding: Folding) -> bool:
     return False
 
 
-def always(some: Condition) -> bool:
-    """Whether a condition holds for all values."""
-    return not possible([negated(some)])
-
-
-def never(some: Condition) -> bool:
-    """Whether a condition holds for no values."""
-    return not possible([some])
+def certain(item: Transition | Branch, context: Context) -> bool | None:
+    """Whether the guard holds for all values, or for none; None where it depends on them."""
+    if item.guard is None:
+        return True
+    if item not in context.certain:
+        holds = condition_of(item, context)
+        if not possible([holds]):
+            context.certain[item] = False
+        else:
+            context.certain[item] = None if possible([negated(holds)]) else True
+    return context.certain[item]
 
 
 def possible(conditions: Iterable[Condition]) -> bool:

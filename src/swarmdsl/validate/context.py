@@ -43,8 +43,8 @@ class Context:
     """Passed to every rule.
 
     `damaged` are the declarations with a piece that could not be parsed: of what they seem
-    to lack nothing can be said. `conditions` are those of the guards that were looked at,
-    `outlines` those of the machines.
+    to lack nothing can be said. What was found of guards and machines is kept: `conditions`,
+    which of them are `certain`, `outlines`.
     """
 
     report: Diagnostics
@@ -52,6 +52,7 @@ class Context:
     typing: Typing
     damaged: set[Declaration]
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
+    certain: dict[Transition | Branch, bool | None] = field(default_factory=dict)
     outlines: dict[StateMachine, Outline] = field(default_factory=dict)
 
     def reporting_to(self, report: Diagnostics) -> Context:
@@ -137,7 +138,7 @@ class Context:
         """Typing where `event` is the message of any of these triggers."""
         types = [_message(trigger) for trigger in triggers]
         alike = all(known == types[0] for known in types)
-        return replace(self.typing, has_event=alike, event=types[0])
+        return self.typing.on_event(types[0], known=alike)
 
 
 def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:

@@ -11,6 +11,7 @@ from swarmdsl.syntax import (
     Entry,
     EventTrigger,
     Exit,
+    Expression,
     ExpressionTree,
     MessageType,
     MonitorTrigger,
@@ -21,7 +22,7 @@ from swarmdsl.syntax import (
     TimeTrigger,
     Transition,
     Variable,
-    walk,
+    nodes_of,
 )
 from swarmdsl.validate.activities import check_arguments
 from swarmdsl.validate.context import Context
@@ -31,37 +32,42 @@ from swarmdsl.validate.interfaces import check_graph_name
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
     """Check every expression of a machine but those of activities."""
-    for node in walk(machine):
-        match node:
-            case Param():
-                context.check_default(node, node.default)
-            case Variable():
-                context.check_default(node, node.initial)
-                check_first_value(node, context)
-            case TimeTrigger():
-                context.expect(node.delay, DURATION, context.typing)
-                if node.delay.tree is not None and _negative(node.delay.tree, context.typing):
-                    context.report.report("negative-delay", node.delay.span)
-                elif node.delay.tree is not None and _zero(node.delay.tree, context.typing):
-                    context.report.report(
-                        "zero-delay",
-                        node.delay.span,
-                        help="give it a length; `on done` of a state that does nothing is at once",
-                    )
-            case Transition():
-                events = [t for t in node.triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
-                all_events = events and len(events) == len(node.triggers)
-                typing = context.with_event(events) if all_events else context.typing
-                context.expect(node.guard, BOOL, typing)
-                _check_effects(node.effects, typing, context)
-            case MonitorTrigger():
-                check_graph_name(node.topic, "a topic", context)
-                context.check_kind(node.type, MessageType)
-            case Entry() | Exit():
-                _check_effects(node.effects, context.typing, context)
-            case Branch():
-                context.expect(node.guard, BOOL, context.typing)
-                _check_effects(node.effects, context.typing, context)
+    for param in nodes_of(machine, Param):
+        context.check_default(param, param.default)
+    for variable in nodes_of(machine, Variable):
+        context.check_default(variable, variable.initial)
+        check_first_value(variable, context)
+    for time in nodes_of(machine, TimeTrigger):
+        _check_delay(time.delay, context)
+    for monitor in nodes_of(machine, MonitorTrigger):
+        check_graph_name(monitor.topic, "a topic", context)
+        context.check_kind(monitor.type, MessageType)
+    for transition in nodes_of(machine, Transition):
+        triggers = transition.triggers
+        events = [t for t in triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
+        all_events = events and len(events) == len(triggers)
+        typing = context.with_event(events) if all_events else context.typing
+        context.expect(transition.guard, BOOL, typing)
+        _check_effects(transition.effects, typing, context)
+    for branch in nodes_of(machine, Branch):
+        context.expect(branch.guard, BOOL, context.typing)
+        _check_effects(branch.effects, context.typing, context)
+    for entry in nodes_of(machine, Entry):
+        _check_effects(entry.effects, context.typing, context)
+    for exit_ in nodes_of(machine, Exit):
+        _check_effects(exit_.effects, context.typing, context)
+
+
+def _check_delay(delay: Expression, context: Context) -> None:
+    context.expect(delay, DURATION, context.typing)
+    if delay.tree is not None and _negative(delay.tree, context.typing):
+        context.report.report("negative-delay", delay.span)
+    elif delay.tree is not None and _zero(delay.tree, context.typing):
+        context.report.report(
+            "zero-delay",
+            delay.span,
+            help="give it a length; `on done` of a state that does nothing is at once",
+        )
 
 
 def _negative(delay: ExpressionTree, typing: Typing) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
-from swarmdsl.validate.conditions import always, condition_of, never
+from swarmdsl.validate.conditions import certain
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.settling import Circles, endless, is_idle
 
@@ -28,13 +28,10 @@ def _check(item: Transition | Branch, advice: str, context: Context) -> None:
     guard = item.guard
     if guard is None or guard.tree is None:
         return
-    holds = condition_of(item, context)
-    if never(holds):
-        held, help_ = "never", "remove the transition"
-    elif always(holds):
-        held, help_ = "always", advice
-    else:
+    holds = certain(item, context)
+    if holds is None:
         return
+    held, help_ = ("always", advice) if holds else ("never", "remove the transition")
     known = context.typing.folding.value(guard.tree) is not None
     context.report.report(
         "constant-guard",

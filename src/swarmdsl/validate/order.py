@@ -27,7 +27,7 @@ from swarmdsl.syntax import (
     nodes_of,
 )
 from swarmdsl.topics import awaited, heard_on
-from swarmdsl.validate.conditions import always, condition_of, negated, never, possible
+from swarmdsl.validate.conditions import certain, condition_of, negated, possible
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate
 
@@ -118,8 +118,7 @@ def _check_branches(choice: Choice, context: Context) -> None:
 
 def _decided(item: Transition | Branch, context: Context) -> bool:
     """Whether its guard decides nothing, which is reported as such."""
-    holds = condition_of(item, context)
-    return item.guard is not None and (always(holds) or never(holds))
+    return item.guard is not None and certain(item, context) is not None
 
 
 def _covering(
@@ -132,9 +131,9 @@ def _covering(
     plain = [before for before in earlier if before.guard is None and isinstance(item, Transition)]
     if plain or item.guard is None:
         return list(plain[:1])
-    holds = condition_of(item, context)
-    if never(holds):
+    if certain(item, context) is False:
         return []
+    holds = condition_of(item, context)
     passed = {before: negated(condition_of(before, context)) for before in earlier}
     for before, condition in passed.items():
         if not possible([holds, condition]):

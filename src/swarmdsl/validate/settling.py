@@ -23,7 +23,7 @@ from swarmdsl.syntax import (
     Vertex,
     nodes_of,
 )
-from swarmdsl.validate.conditions import always, condition_of
+from swarmdsl.validate.conditions import certain
 from swarmdsl.validate.context import Context
 
 # What leads on to another state without waiting.
@@ -66,9 +66,8 @@ def endless(circles: Circles) -> set[Step]:
 def immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
     """Whether a transition is taken as soon as its state is entered, whatever happens."""
     triggers = transition.triggers
-    return (not triggers or any(at_once(trigger, state) for trigger in triggers)) and always(
-        condition_of(transition, context)
-    )
+    at_entry = not triggers or any(at_once(trigger, state) for trigger in triggers)
+    return at_entry and certain(transition, context) is True
 
 
 def at_once(trigger: Trigger, state: State | Parallel) -> bool:
@@ -124,7 +123,7 @@ def _branches(choice: Choice, context: Context) -> Iterator[tuple[Branch, Choice
 
 
 def _certain(branch: Branch, context: Context) -> bool:
-    return bool(branch.otherwise) or always(condition_of(branch, context))
+    return bool(branch.otherwise) or certain(branch, context) is True
 
 
 def _report(name: str, at: Vertex, steps: Sequence[Step], help_: str, context: Context) -> None:
