@@ -8,7 +8,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     02xx  names                  06xx  functions and interfaces
     03xx  swarm composition      07xx  expressions
     08xx  SCXML documents        09xx  generators and output
-    10xx  simulation
+    10xx  simulation             11xx  tests
 """
 
 from __future__ import annotations
@@ -193,4 +193,13 @@ CODES: dict[str, Code] = {
     "never-settles": Code("SW1006", "error", "{who} does not come to rest at {time}"),
     "failed-expression": Code("SW1007", "warning", "a value in `{machine}` failed: {reason}"),
     "missing-key": Code("SW1008", "error", "this needs `{name}`"),
+    # ---- tests
+    "failed-expectation": Code("SW1101", "error", "expected {expected}"),
+    "no-tests": Code("SW1102", "error", "no test in `{path}`"),
+    "impossible-step": Code("SW1103", "error", "{reason}"),
+    "low-coverage": Code(
+        "SW1104",
+        "error",
+        "the tests reach {reached} % of all states and transitions, not {wanted} %",
+    ),
 }

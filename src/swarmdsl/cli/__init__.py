@@ -24,7 +24,7 @@ from swarmdsl.cli import options
 from swarmdsl.cli.outcome import ERRORS, INTERNAL, OK
 
 # The names of the commands are those of their modules, and of the functions in them.
-COMMANDS = ("build", "check", "explain", "fmt", "simulate", "targets")
+COMMANDS = ("build", "check", "explain", "fmt", "simulate", "targets", "test")
 
 # As a shell reports it for a program that a signal ended.
 _INTERRUPTED = 128 + signal.SIGINT

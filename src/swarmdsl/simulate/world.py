@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from swarmdsl.defaults import default_fields
@@ -14,6 +15,18 @@ from swarmdsl.simulate.chance import Chance
 from swarmdsl.simulate.clock import Alarm, Clock
 from swarmdsl.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario, meant
 from swarmdsl.simulate.trace import Line, Trace
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A swarm event on its way from one robot to another one, and whether it arrives."""
+
+    event: str
+    source: Robot
+    target: Robot
+    sent: int
+    due: int
+    arrives: bool
 
 
 class World:
@@ -40,6 +53,8 @@ class World:
         self.heard: Counter[str] = Counter()
         self.lost: Counter[str] = Counter()
         """How many copies of swarm events arrived at another robot, and how many did not."""
+        self.crossed: Callable[[Crossing], None] | None = None
+        """Is told of swarm events on their way to another robot."""
         self._system = system
         self._scenario = scenario
         self._chance = Chance(seed)
@@ -112,6 +127,10 @@ class World:
                 instance.receive(Event(event, data))
             self.trace.flush()
 
+    def runs(self, actor: Actor) -> list[Run]:
+        """The activities that a machine has going on."""
+        return [run for run in self._ends if run.instance is self._instances[actor]]
+
     def listeners(self, event: str, robot: Robot) -> list[Actor]:
         """The machines of a robot that wait for an event in some state."""
         found = self._listeners.get((event, robot))
@@ -180,11 +199,16 @@ class World:
             self._crossings[robot.name, other.name] += 1
             count = self._crossings[robot.name, other.name]
             chance = self._chance.about(robot.name, "to", other.name, count)
-            if chance.random() < self._scenario.loss or other in self._gone:
+            arrives = chance.random() >= self._scenario.loss and other not in self._gone
+            delay = self._scenario.latency.draw(chance)
+            if self.crossed is not None:
+                now = self.clock.now
+                self.crossed(Crossing(event.name, robot, other, now, now + delay, arrives))
+            if not arrives:
                 self.lost[event.name] += 1
                 continue
             self.heard[event.name] += 1
-            self._later(self._scenario.latency.draw(chance), event.name, event.data, other)
+            self._later(delay, event.name, event.data, other)
 
     def failed(self, instance: Instance, error: Exception) -> None:
         """Count it."""
@@ -231,7 +255,7 @@ class World:
     def _fault(self, fault: Fault, robot: Robot) -> Callable[[], None]:
         def strike() -> None:
             if fault.function is None:
-                self._lose(robot)
+                self.lose(robot)
                 return
             self._silent.add((robot, fault.function))
             for run, alarm in self._ends.items():
@@ -247,7 +271,7 @@ class World:
 
         return strike
 
-    def _lose(self, robot: Robot) -> None:
+    def lose(self, robot: Robot) -> None:
         """Let a robot be gone: it does nothing any more, and nothing is done on leaving."""
         self._gone.add(robot)
         for actor, instance in self._instances.items():

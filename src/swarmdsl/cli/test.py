@@ -1,0 +1,59 @@
+"""`swarmc test`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import ERRORS, OK
+
+
+@click.command(epilog="Example: swarmc test examples/search_and_rescue -k abort --trace")
+@options.files
+@click.option(
+    "-k", "pattern", metavar="TEXT", help="Run the tests with this in their name or file."
+)
+@click.option(
+    "--seed",
+    type=int,
+    metavar="N",
+    help="Run each test with this seed alone, to see it fail again.",
+)
+@click.option("--trace", is_flag=True, help="Show all that happens in the tests.")
+@click.option("--coverage", is_flag=True, help="Show which states and transitions are not tested.")
+@click.option(
+    "--fail-under",
+    type=click.FloatRange(0, 100),
+    metavar="PERCENT",
+    help="Fail when fewer of all states and transitions are tested.",
+)
+@click.option(
+    "--junit",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write the results as JUnit XML, for CI.",
+)
+@options.diagnostics_format
+@options.debug
+def test(
+    paths: tuple[Path, ...],
+    pattern: str | None,
+    seed: int | None,
+    trace: bool,
+    coverage: bool,
+    fail_under: float | None,
+    junit: Path | None,
+    format_: str,
+) -> int:
+    """Run the behaviour tests of models.
+
+    Tests are in files called NAME.swarmtest.toml; a FOLDER stands for all of these below it,
+    nothing for the current folder.
+    """
+    from swarmdsl.testing import command
+
+    request = command.Request(paths, pattern, seed, junit, trace, coverage, fail_under, format_)
+    return OK if command.run(request, sys.stdout, sys.stderr) else ERRORS

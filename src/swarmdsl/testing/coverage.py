@@ -1,0 +1,148 @@
+"""Which states the tests enter, and which transitions they take.
+
+What is counted is the text of the models: a machine that is reused in states of others is one
+machine, wherever a test runs it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from swarmdsl.ir import State as ModelState
+from swarmdsl.runtime import Kind, Machine, Transition
+from swarmdsl.simulate.subject import Subject
+from swarmdsl.simulate.trace import Line
+from swarmdsl.source import Span
+
+_HISTORIES = (Kind.HISTORY, Kind.DEEP_HISTORY)
+_Key = tuple[str, int]
+"""The name of a source, and where in it something begins; of a document its name and a number."""
+
+
+@dataclass
+class MachineCoverage:
+    """The states and transitions of a machine, in words, and which the tests have reached."""
+
+    name: str
+    states: dict[_Key, str] = field(default_factory=dict)
+    transitions: dict[_Key, str] = field(default_factory=dict)
+    entered: set[_Key] = field(default_factory=set)
+    taken: set[_Key] = field(default_factory=set)
+
+    @property
+    def missed(self) -> Iterator[str]:
+        """What no test has reached."""
+        for key, words in self.states.items():
+            if key not in self.entered:
+                yield f"never entered: {words}"
+        for key, words in self.transitions.items():
+            if key not in self.taken:
+                yield f"never taken: {words}"
+
+
+@dataclass
+class _Known:
+    """What the states and transitions of a table are in the text."""
+
+    states: dict[str, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
+    transitions: dict[int, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
+
+
+class Coverage:
+    """Listens to the tests."""
+
+    def __init__(self) -> None:
+        self._machines: dict[tuple[str, str], MachineCoverage] = {}
+        self._known: dict[Machine, _Known] = {}
+
+    def expect(self, subject: Subject) -> None:
+        """Count all machines that some robot of the model runs, whether a test runs them or not."""
+        if subject.document is not None:
+            self._of(subject.document.machine)
+        system = subject.system
+        if system is None:
+            return
+        behaviours = {member.behavior for member in system.members}
+        behaviours |= {component.behavior for component in system.components}
+        if subject.machine is not None:
+            behaviours.add(subject.machine.name)
+        for machine in system.machines:
+            if machine.name in behaviours:
+                self._of(subject.table(machine))
+
+    def see(self, line: Line) -> None:
+        """Take in a line."""
+        known = self._of(line.actor.machine)
+        for state in line.entered:
+            if state in known.states:
+                machine, key = known.states[state]
+                machine.entered.add(key)
+        for transition in line.taken:
+            if _identity(transition) in known.transitions:
+                machine, key = known.transitions[_identity(transition)]
+                machine.taken.add(key)
+
+    @property
+    def machines(self) -> list[MachineCoverage]:
+        """The machines, in the order in which they were met."""
+        return list(self._machines.values())
+
+    @property
+    def percentage(self) -> float:
+        """How many of a hundred states and transitions of all machines; 100 of none."""
+        there = sum(len(each.states) + len(each.transitions) for each in self.machines)
+        reached = sum(len(each.entered) + len(each.taken) for each in self.machines)
+        return 100 * reached / there if there else 100.0
+
+    def _of(self, machine: Machine) -> _Known:
+        known = self._known.get(machine)
+        if known is None:
+            known = self._known[machine] = _Known()
+            self._add(machine, known)
+        return known
+
+    def _add(self, machine: Machine, known: _Known) -> None:
+        owners = {0: (machine.name, "")}
+        for number, state in enumerate(machine.states[1:], 1):
+            owner, prefix = owners[machine.parents[number]]
+            origin = state.origin
+            owners[number] = owner, prefix
+            if isinstance(origin, ModelState) and origin.submachine is not None:
+                owners[number] = origin.submachine, f"{state.id}."
+            if state.kind in _HISTORIES:
+                continue
+            key = _key(origin, machine, number)
+            name = state.id.removeprefix(prefix)
+            row = self._machines.setdefault((key[0], owner), MachineCoverage(owner))
+            row.states.setdefault(key, name)
+            known.states[state.id] = row, key
+            for transition in state.transitions:
+                # That of a parallel state may be in its regions as well.
+                if _identity(transition) not in known.transitions:
+                    key = _key(transition.origin, machine, len(known.transitions))
+                    row.transitions.setdefault(key, f"{name}: {_words(transition)}")
+                    known.transitions[_identity(transition)] = row, key
+
+
+def _identity(transition: Transition) -> int:
+    """What tells transitions of the model apart, however many the engine has for one."""
+    return id(transition if transition.origin is None else transition.origin)
+
+
+def _place(origin: object) -> Span | None:
+    """Where something stands in the text of the model."""
+    place = origin if isinstance(origin, Span) else getattr(origin, "origin", None)
+    return place if isinstance(place, Span) else None
+
+
+def _key(origin: object, machine: Machine, number: int) -> _Key:
+    place = _place(origin)
+    return (machine.name, number) if place is None else (place.source.name, place.start)
+
+
+def _words(transition: Transition) -> str:
+    place = _place(transition.origin)
+    if place is not None:
+        return " ".join(place.text.split())
+    return " ".join([*transition.events, "->", *transition.targets])

@@ -1,0 +1,48 @@
+"""Where test files lie."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics
+
+SUFFIX = ".swarmtest.toml"
+
+
+def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
+    """The test files named and those in the folders named; where there is none, that is reported.
+
+    Folders whose names begin with a dot are passed over.
+    """
+    found: dict[str, Path] = {}
+    for path in paths:
+        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+            if path.name.endswith(".toml") or not os.path.lexists(path):
+                found.setdefault(os.path.realpath(path), path)
+            else:
+                report.report(
+                    "not-a-file",
+                    path=path,
+                    actual=f"a {path.suffix or 'nameless'} file",
+                    expected=f"a test file, *{SUFFIX}",
+                    help="name its folder: the tests lie beside the model",
+                )
+            continue
+        inside = [each for each in sorted(path.rglob(f"*{SUFFIX}")) if not _hidden(each, path)]
+        if not inside:
+            help_ = f"tests are in files called `NAME{SUFFIX}`"
+            report.report("no-tests", path=path, help=help_)
+        for each in inside:
+            found.setdefault(os.path.realpath(each), each)
+    return list(found.values())
+
+
+def _hidden(path: Path, above: Path) -> bool:
+    return any(part.startswith(".") for part in path.relative_to(above).parts)
+
+
+def selected(name: str, pattern: str | None) -> bool:
+    """Whether a test, with its file, has the pattern in its name."""
+    return pattern is None or pattern.lower() in name.lower()

@@ -1,0 +1,28 @@
+"""What came of a test file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostic
+from swarmdsl.testing.verdict import Verdict
+
+
+@dataclass
+class FileOutcome:
+    """The verdicts on the tests of a file, each with what is said of it.
+
+    `problems` are mistakes in the file or its model; where it could not be `read` for them,
+    there are no verdicts. Those of a model are told with the first file that is about it.
+    """
+
+    path: Path
+    read: bool = True
+    problems: tuple[Diagnostic, ...] = ()
+    verdicts: list[tuple[Verdict, tuple[Diagnostic, ...]]] = field(default_factory=list)
+
+    @property
+    def seconds(self) -> float:
+        """How long the tests took."""
+        return sum(verdict.seconds for verdict, _ in self.verdicts)

@@ -1,0 +1,113 @@
+"""What is seen of a run, and whether what is claimed of it is so."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Sequence
+
+from swarmdsl.diagnostics import listed
+from swarmdsl.simulate.actors import Actor
+from swarmdsl.simulate.trace import Line
+from swarmdsl.simulate.world import LOST
+from swarmdsl.testing.case import Claim, Deed
+
+_REMEMBERED = 8
+"""How many of the last lines are shown with a failure."""
+_SHOWN = 4
+"""How many groups of members a sentence tells apart."""
+
+
+class Witness:
+    """Sees the lines of a trace, and knows by them where the machines are and what they did."""
+
+    def __init__(self, cast: Sequence[Actor]) -> None:
+        self._cast = cast
+        self._numbers = {actor: number for number, actor in enumerate(cast)}
+        self._states: list[list[str]] = [[] for _ in cast]
+        self._lost: set[int] = set()
+        self._done: dict[Deed, list[set[str]]] = {}
+        self.last: deque[Line] = deque(maxlen=_REMEMBERED)
+        self.mark()
+
+    def see(self, line: Line) -> None:
+        """Take in a line."""
+        self.last.append(line)
+        number = self._numbers[line.actor]
+        self._states[number] = line.configuration
+        if line.event == LOST:
+            self._lost.add(number)
+        self._done["sends"][number].update(line.sent)
+        self._done["starts"][number].update(line.started)
+        self._done["cancels"][number].update(line.cancelled)
+
+    def mark(self) -> None:
+        """Forget what was done until now."""
+        for deed in ("sends", "starts", "cancels"):
+            self._done[deed] = [set() for _ in self._cast]
+
+    def innermost(self, number: int) -> list[str]:
+        """The innermost states that a machine is in; none of one that is lost."""
+        return [] if number in self._lost else self._states[number]
+
+    def active(self, number: int) -> set[str]:
+        """All states that a machine is in."""
+        machine = self._cast[number].machine
+        found: set[str] = set()
+        for state in self.innermost(number):
+            place = machine.numbers[state]
+            found.update(machine.states[each].id for each in (place, *machine.ancestors(place)))
+        return found
+
+    def holds(self, claim: Claim) -> bool:
+        """Whether a claim is true now."""
+        return claim.quantity.holds(
+            sum(self._is_so(claim, n) for n in claim.who), self._left(claim)
+        )
+
+    def _left(self, claim: Claim) -> int:
+        """How many of those that are meant there still are; what was done counts all the same."""
+        gone = self._lost if claim.deed is None else set()
+        return len(set(claim.who) - gone)
+
+    def _is_so(self, claim: Claim, number: int) -> bool:
+        if claim.deed is not None:
+            return claim.name in self._done[claim.deed][number]
+        return self.active(number).issuperset(claim.states[number])
+
+    # ---- in words
+
+    def told(self, claim: Claim) -> str:
+        """What is so instead of a claim."""
+        groups: dict[str, list[str]] = {}
+        for number in claim.who:
+            groups.setdefault(self._what(claim, number), []).append(self._cast[number].name or "")
+        if len(groups) > _SHOWN:
+            kept = list(groups)[: _SHOWN - 1]
+            rest = [name for what, names in groups.items() if what not in kept for name in names]
+            groups = {**{what: groups[what] for what in kept}, "are elsewhere": rest}
+        return ", ".join(_sentence(names, what) for what, names in groups.items())
+
+    def _what(self, claim: Claim, number: int) -> str:
+        if number in self._lost and claim.deed is None:
+            return "is lost"
+        if claim.deed is None:
+            return f"is in {listed(self._states[number], 'and')}"
+        done = sorted(self._done[claim.deed][number])
+        return f"{claim.deed} {listed(done, 'and') or 'nothing'}"
+
+
+def _sentence(names: Sequence[str], what: str) -> str:
+    verb, _, rest = what.partition(" ")
+    if names == [""]:
+        return what
+    if len(names) > 1:
+        verb = {"is": "are"}.get(verb, verb.removesuffix("s"))
+    shown = [*names[:_SHOWN], *([f"{len(names) - _SHOWN} more"] if len(names) > _SHOWN else [])]
+    return f"{_names(shown, len(names) > _SHOWN)} {verb} {rest}"
+
+
+def _names(names: Iterable[str], more: bool) -> str:
+    *first, last = names
+    if not more:
+        return listed([*first, last], "and")
+    return f"{', '.join(f'`{name}`' for name in first)} and {last}"
