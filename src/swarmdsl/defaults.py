@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
+from swarmdsl.interfaces import Interfaces
+from swarmdsl.ir import Array, Field, Message, Named, Primitive, System, Type
 
 
 def default_value(type_: Type, system: System) -> Any:
@@ -19,6 +20,14 @@ def default_value(type_: Type, system: System) -> Any:
             return 0
         case Array(element=element, size=size, bounded=bounded):
             return [] if bounded else [default_value(element, system) for _ in range(size or 0)]
+        case Named() if system.interface(type_) is None:
+            # What ROS itself comes with is described nowhere in the model.
+            fields = Interfaces(()).fields(type_) or ()
+            return {
+                str(field.name): default_value(field.type.type, system)
+                for field in fields
+                if field.type.type is not None
+            }
     described = system.interface(type_)
     return default_fields(described.fields, system) if isinstance(described, Message) else {}
 

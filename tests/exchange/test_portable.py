@@ -66,7 +66,7 @@ def test_data_have_the_first_values_that_ros_gives_them(parsed: Any) -> None:
         param limit : int32
         param pause : duration = 1 min
         var a : int32  var b : bool  var c : string = "x"  var d : Report  var e : float64[2]
-        var f : geometry_msgs/Pose
+        var f : geometry_msgs/Vector3  var g : uav_msgs/Unheard
         initial A state A { on Start -> A }
         """,
         "",
@@ -83,7 +83,8 @@ def test_data_have_the_first_values_that_ros_gives_them(parsed: Any) -> None:
         "c": '"x"',
         "d": '({"id": "", "level": 0})',
         "e": "[0, 0]",
-        "f": "({})",
+        "f": '({"x": 0, "y": 0, "z": 0})',
+        "g": "({})",
     }
 
 

@@ -189,6 +189,22 @@ def test_a_value_that_fails_is_told_with_how_often(simulate: Simulate) -> None:
     assert "2 times" in ran.err
 
 
+def test_messages_of_ros_begin_with_all_their_fields(simulate: Simulate) -> None:
+    text = """
+      statemachine M {
+        var target : geometry_msgs/PoseStamped
+        initial A
+        state A { on Start [target.pose.position.x < 1.0] / target.pose.position.y = 3.0 -> B }
+        state B { on Stop [target.pose.position.y > 2.0] -> End }
+        final End
+      }
+    """
+    ran = simulate(text, events=[{"event": "Start"}, {"event": "Stop"}])
+
+    assert [line["configuration"] for line in ran.trace] == [["A"], ["B"], ["End"]]
+    assert ran.err.count("SW1007") == 0
+
+
 def test_what_is_simulated(simulate: Simulate) -> None:
     one = "endless statemachine %s { initial A state A { on Start -> A } }"
     two = one % "M" + one % "N"
