@@ -135,6 +135,11 @@ def steps(*each: str) -> str:
                 '{ who = "lamp[1].eye", in = "Off", within = "54 s" }'
             ),
         ),
+        (
+            f'{{ lose = "lamp[2]" }}, {_START}',
+            '{ all = "lamp", starts = "blink" }',
+            '{ who = "lamp[2]", starts = "blink" }',
+        ),
         # Lost robots are nowhere, and are not counted.
         (
             f'{{ lose = "lamp[2]" }}, {_START}',

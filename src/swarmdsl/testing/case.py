@@ -25,7 +25,7 @@ class Quantity:
     most: int | None = None
 
     def holds(self, count: int, of: int) -> bool:
-        """Whether so many are enough, and not too many."""
+        """Whether so many of so many are enough, and not too many."""
         if self.least is None and self.most is None:
             return count == of > 0
         return count >= (self.least or 0) and (self.most is None or count <= self.most)

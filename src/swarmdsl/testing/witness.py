@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Iterable, Sequence
 
 from swarmdsl.diagnostics import listed
+from swarmdsl.runtime import Machine
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.trace import Line
 from swarmdsl.simulate.world import LOST
@@ -17,6 +18,18 @@ _SHOWN = 4
 """How many groups of members a sentence tells apart."""
 
 
+class _Marks(dict[int, bool]):
+    """Numbers that are marked or not; `count` is how many are."""
+
+    def __init__(self, marks: dict[int, bool]) -> None:
+        super().__init__(marks)
+        self.count = sum(marks.values())
+
+    def __setitem__(self, number: int, mark: bool) -> None:
+        self.count += mark - self[number]
+        super().__setitem__(number, mark)
+
+
 class Witness:
     """Sees the lines of a trace, and knows by them where the machines are and what they did."""
 
@@ -25,6 +38,9 @@ class Witness:
         self._numbers = {actor: number for number, actor in enumerate(cast)}
         self._states: list[list[str]] = [[] for _ in cast]
         self._lost: set[int] = set()
+        self._so: dict[int, tuple[Claim, _Marks]] = {}
+        """For which machines the claims are so that were asked for since the last mark."""
+        self._known: dict[tuple[Machine, tuple[str, ...]], frozenset[str]] = {}
         self._done: dict[Deed, list[set[str]]] = {}
         self.last: deque[Line] = deque(maxlen=_REMEMBERED)
         self.mark()
@@ -39,40 +55,40 @@ class Witness:
         self._done["sends"][number].update(line.sent)
         self._done["starts"][number].update(line.started)
         self._done["cancels"][number].update(line.cancelled)
+        for claim, so in self._so.values():
+            if number in so:
+                so[number] = self._is_so(claim, number)
 
     def mark(self) -> None:
         """Forget what was done until now."""
         for deed in ("sends", "starts", "cancels"):
             self._done[deed] = [set() for _ in self._cast]
-
-    def innermost(self, number: int) -> list[str]:
-        """The innermost states that a machine is in; none of one that is lost."""
-        return [] if number in self._lost else self._states[number]
-
-    def active(self, number: int) -> set[str]:
-        """All states that a machine is in."""
-        machine = self._cast[number].machine
-        found: set[str] = set()
-        for state in self.innermost(number):
-            place = machine.numbers[state]
-            found.update(machine.states[each].id for each in (place, *machine.ancestors(place)))
-        return found
+        self._so.clear()
 
     def holds(self, claim: Claim) -> bool:
-        """Whether a claim is true now."""
-        return claim.quantity.holds(
-            sum(self._is_so(claim, n) for n in claim.who), self._left(claim)
-        )
-
-    def _left(self, claim: Claim) -> int:
-        """How many of those that are meant there still are; what was done counts all the same."""
-        gone = self._lost if claim.deed is None else set()
-        return len(set(claim.who) - gone)
+        """Whether a claim is true now; who is lost counts only for what it has done before."""
+        if id(claim) not in self._so:
+            # Asked after every line, of whom only one machine has changed.
+            self._so[id(claim)] = claim, _Marks({n: self._is_so(claim, n) for n in claim.who})
+        so = self._so[id(claim)][1]
+        gone = sum(not so.get(number, True) for number in self._lost)
+        return claim.quantity.holds(so.count, len(so) - gone)
 
     def _is_so(self, claim: Claim, number: int) -> bool:
         if claim.deed is not None:
             return claim.name in self._done[claim.deed][number]
-        return self.active(number).issuperset(claim.states[number])
+        return number not in self._lost and self._active(number).issuperset(claim.states[number])
+
+    def _active(self, number: int) -> frozenset[str]:
+        """All states that a machine is in."""
+        machine, innermost = self._cast[number].machine, tuple(self._states[number])
+        found = self._known.get((machine, innermost))
+        if found is None:
+            places = [machine.numbers[state] for state in innermost]
+            around = {each for place in places for each in (place, *machine.ancestors(place))}
+            found = frozenset(machine.states[each].id for each in around)
+            self._known[machine, innermost] = found
+        return found
 
     # ---- in words
 
