@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from dataclasses import field as dataclass_field
-
+from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import field as dataclass_field
 from swarmdsl.ir.types import DURATION, Type
 from swarmdsl.source import Span
 

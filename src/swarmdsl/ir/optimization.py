@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import Literal
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Field, Param

@@ -7,10 +7,10 @@ are in place: a state that reuses another machine is a composite state that says
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from dataclasses import field as dataclass_field
 from enum import Enum
 
+from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import field as dataclass_field
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
 from swarmdsl.ir.interfaces import Event, Function, Interface
 from swarmdsl.ir.optimization import Fitness, Optimization

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.syntax.nodes import Documented, Node, TopLevel
 
 if TYPE_CHECKING:

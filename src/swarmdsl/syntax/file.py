@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.syntax.architecture import Component, Member
 from swarmdsl.syntax.behaviour import StateMachine
 from swarmdsl.syntax.composition import Environment, Fitness, Swarm

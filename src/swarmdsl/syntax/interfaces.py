@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.types import Named
 from swarmdsl.syntax.nodes import Documented, TopLevel
 

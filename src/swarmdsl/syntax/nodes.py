@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Generic, TypeVar
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.types import Type
 from swarmdsl.source import Span
 

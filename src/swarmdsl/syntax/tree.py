@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import fields
 from types import UnionType
 from typing import Any, TypeVar, cast, get_args
 
+from swarmdsl.dataclass import described
 from swarmdsl.syntax import architecture, behaviour, composition, file, interfaces, nodes
 from swarmdsl.syntax.nodes import Documented, Node, Ref, TopLevel
 
@@ -33,9 +33,9 @@ _NO_PARTS = re.compile(r"(?:Ref|Literal)\[[^\]]*\]")
 def _parts(cls: type[Node]) -> tuple[tuple[str, bool], ...]:
     """The attributes that hold parts of a node, and whether they hold many, last ones first."""
     annotations = {
-        part.name: _NO_PARTS.sub("", str(part.type))
-        for part in fields(cls)
-        if "elsewhere" not in part.metadata
+        name: _NO_PARTS.sub("", annotation)
+        for name, annotation, about in described(cls)
+        if "elsewhere" not in about.get("metadata", ())
     }
     return tuple(
         (name, annotation.startswith(("list", "tuple")))
@@ -46,7 +46,7 @@ def _parts(cls: type[Node]) -> tuple[tuple[str, bool], ...]:
 
 _PARTS = {cls: _parts(cls) for cls in NODES.values()}
 _REFERENCES = {
-    cls: tuple(part.name for part in fields(cls) if str(part.type).startswith("Ref["))
+    cls: tuple(name for name, annotation, _ in described(cls) if annotation.startswith("Ref["))
     for cls in NODES.values()
 }
 

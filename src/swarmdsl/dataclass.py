@@ -1,0 +1,186 @@
+"""Data classes that cost little to define.
+
+Python writes and compiles the methods of a data class when it is defined, which takes half
+a millisecond: for all classes longer than to check a model. Here methods are closures, and
+`__init__`, which has to be quick, is compiled for the first instance; most classes never
+have one. Type checkers see `dataclasses.dataclass`, of which this is the part that is used,
+and all that `dataclasses` does with instances, `replace` and `fields` for instance, it does
+with these.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from operator import attrgetter
+from reprlib import recursive_repr
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dataclasses import Field as PythonField
+    from dataclasses import dataclass, field
+else:
+
+    def dataclass(cls=None, /, *, eq=True, frozen=False, slots=False):
+        """Make a data class, as `dataclasses.dataclass` does."""
+        if cls is None:
+            return lambda cls: _define(cls, eq, frozen, slots)
+        return _define(cls, eq, frozen, slots)
+
+    def field(**about):
+        """Say more of a field than its default, as with `dataclasses.field`."""
+        return _Field(about)
+
+
+class _Field(dict[str, Any]):
+    """What is said of a field: the arguments of `dataclasses.field`."""
+
+
+def described(cls: type[Any]) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
+    """The fields of a class: name, annotation and what is said of it."""
+    annotations: dict[str, str] = {}
+    for base in reversed(cls.__mro__):
+        annotations |= vars(base).get("__annotations__", {})
+    for name, about in cls.__parts__.items():
+        yield name, annotations[name], about
+
+
+def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
+    body = {name: of for name, of in vars(cls).items() if name not in _MADE_WITH_A_CLASS}
+    inherited: dict[str, _Field] = getattr(cls, "__parts__", {})
+    own = {name: _about(body.pop(name, _Field())) for name in body.get("__annotations__", {})}
+    parts = inherited | own
+    methods: dict[str, Any] = {
+        "__parts__": parts,
+        "__dataclass_fields__": _FieldsOfPython(),
+        "__match_args__": tuple(
+            name for name, about in parts.items() if about.get("init", True) and not _named(about)
+        ),
+        "__repr__": _repr,
+    }
+    if eq:
+        methods["__eq__"], methods["__hash__"] = _comparison(parts)
+        if not frozen:
+            methods["__hash__"] = None
+    if frozen:
+        methods |= {"__setattr__": _refuse, "__delattr__": _refuse, "__setstate__": _set_state}
+    if slots:
+        # They cannot be added to a class.
+        methods["__slots__"] = tuple(name for name in own if name not in inherited)
+        made = type(cls)(cls.__name__, cls.__bases__, methods | body)
+    else:
+        made = cls
+        for name, about in own.items():
+            if "default" in about:
+                methods[name] = about["default"]
+            elif name in vars(cls):
+                delattr(cls, name)
+        for name, value in methods.items():
+            if name not in body:
+                setattr(cls, name, value)
+
+    def first(self: object, *arguments: object, **named: object) -> None:
+        init = _init(made, parts, frozen)
+        made.__init__ = init  # type: ignore[misc]
+        init(self, *arguments, **named)
+
+    made.__init__ = first  # type: ignore[misc]
+    return made
+
+
+_MADE_WITH_A_CLASS = ("__dict__", "__weakref__")
+
+
+def _about(given: Any) -> _Field:
+    return given if isinstance(given, _Field) else _Field(default=given)
+
+
+def _named(about: _Field) -> bool:
+    return bool(about.get("kw_only", False))
+
+
+def _init(cls: type, parts: dict[str, _Field], frozen: bool) -> Callable[..., None]:
+    """What sets the fields of a new instance, made as Python makes it."""
+    anew = object()
+    known: dict[str, Any] = {"anew": anew, "setattr": object.__setattr__}
+    parameters: dict[bool, list[str]] = {False: ["self"], True: []}
+    lines = ["pass"]
+    for name, about in parts.items():
+        parameter, value = name, name
+        if "default" in about:
+            known[f"default_{name}"] = about["default"]
+            parameter = f"{name}=default_{name}"
+        elif "default_factory" in about:
+            known[f"make_{name}"] = about["default_factory"]
+            parameter = f"{name}=anew"
+            value = f"make_{name}() if {name} is anew else {name}"
+        if about.get("init", True):
+            parameters[_named(about)].append(parameter)
+        elif "default" in about:
+            value = f"default_{name}"
+        elif "default_factory" in about:
+            value = f"make_{name}()"
+        else:
+            continue
+        lines.append(f"setattr(self, {name!r}, {value})" if frozen else f"self.{name} = {value}")
+    if parameters[True]:
+        parameters[True].insert(0, "*")
+    head = ", ".join(parameters[False] + parameters[True])
+    exec("\n ".join([f"def __init__({head}):", *lines]), known)
+    init: Callable[..., None] = known["__init__"]
+    init.__qualname__ = f"{cls.__qualname__}.__init__"
+    return init
+
+
+def _comparison(parts: dict[str, _Field]) -> tuple[Callable[..., Any], Callable[..., Any]]:
+    compared = [name for name, about in parts.items() if about.get("compare", True)]
+    values = attrgetter(*compared) if compared else type
+
+    def equal(self: object, other: object) -> bool:
+        return values(self) == values(other) if type(other) is type(self) else NotImplemented
+
+    def hashed(self: object) -> int:
+        return hash(values(self))
+
+    return equal, hashed
+
+
+@recursive_repr()
+def _repr(self: Any) -> str:
+    shown = ", ".join(
+        f"{name}={getattr(self, name)!r}"
+        for name, about in self.__parts__.items()
+        if about.get("repr", True)
+    )
+    return f"{type(self).__qualname__}({shown})"
+
+
+def _refuse(_self: object, name: str, *_value: object) -> None:
+    from dataclasses import FrozenInstanceError
+
+    raise FrozenInstanceError(f"`{name}` is of a frozen data class")
+
+
+def _set_state(self: object, state: Any) -> None:
+    """Restore a copy, whose attributes cannot be set otherwise."""
+    for values in state if isinstance(state, tuple) else (state,):
+        for name, value in (values or {}).items():
+            object.__setattr__(self, name, value)
+
+
+class _FieldsOfPython:
+    """The attribute by which `dataclasses` knows its classes, made when it asks."""
+
+    def __get__(self, _instance: object, owner: type[Any]) -> dict[str, PythonField[Any]]:
+        import dataclasses
+
+        fields = [
+            (name, annotation, dataclasses.field(**about))
+            for name, annotation, about in described(owner)
+        ]
+        of_python = dataclasses.make_dataclass(owner.__name__, fields, init=False, eq=False)
+        found = {part.name: part for part in dataclasses.fields(of_python)}
+        owner.__dataclass_fields__ = found
+        return found
+
+
+__all__ = ["dataclass", "described", "field"]
