@@ -39,7 +39,6 @@ from swarmdsl.syntax import (
     Part,
     Port,
     PortRef,
-    Ref,
     Role,
     State,
     StateMachine,
@@ -267,9 +266,14 @@ def _link_port(
     report: Diagnostics,
 ) -> None:
     if end.part is None:
-        end.port.target = own.get(end.port.name)
-        if end.port.target is None and end.port.name not in scope.lost:
-            _report_missing_port(end.port, f"member `{member.name}`", own, report)
+        name = end.port.name
+        end.port.target = own.get(name)
+        kind = f"port of member `{member.name}`"
+        if end.port.target is None and name in parts:
+            help_ = f"it is a part: name one of its ports, `{name}.port`"
+            report.report("unresolved-name", end.port.span, kind=kind, name=name, help=help_)
+        elif end.port.target is None and name not in scope.lost:
+            report_unresolved(kind, name, end.port.span, own, None, report)
         return
     end.part.target = parts.get(end.part.name)
     if end.part.target is None:
@@ -282,11 +286,5 @@ def _link_port(
     ports = _named(all_items(component, Port), Port)
     end.port.target = ports.get(end.port.name)
     if end.port.target is None and end.port.name not in scope.lost:
-        owner = f"{bare(kind_of(component))} `{component.name}`"
-        _report_missing_port(end.port, owner, ports, report)
-
-
-def _report_missing_port(
-    port: Ref[Port], owner: str, ports: Mapping[str, Port], report: Diagnostics
-) -> None:
-    report_unresolved(f"port of {owner}", port.name, port.span, ports, None, report)
+        kind = f"port of {bare(kind_of(component))} `{component.name}`"
+        report_unresolved(kind, end.port.name, end.port.span, ports, None, report)

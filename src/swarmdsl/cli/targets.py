@@ -23,7 +23,7 @@ from swarmdsl.render import render
 )
 @options.debug
 def targets(name: str | None, format_: str) -> int:
-    """List the targets, or say what one of them takes and what it cannot express."""
+    """List the targets, or say what one takes and cannot express."""
     from swarmdsl import targets as known
     from swarmdsl.diagnostics import Diagnostics
 
