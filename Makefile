@@ -14,9 +14,11 @@ SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
 .PHONY: demo test test-editor check fmt bench fuzz bless parser dist vsix clean
 
-demo: $(READY) ## Compile an example and show what was made.
+demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
 	find out -type f | LC_ALL=C sort
+	$(BIN)/swarmc simulate examples/search_and_rescue \
+		--scenario examples/search_and_rescue/mission.toml --trace none --timeline out/mission.svg
 
 test: $(READY) ## Run the tests.
 	$(BIN)/pytest

@@ -24,7 +24,10 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     return length
 
 
-@click.command(epilog="Example: swarmc simulate examples/search_and_rescue --seed 3")
+@click.command(
+    epilog="Example: swarmc simulate examples/search_and_rescue "
+    "--scenario examples/search_and_rescue/mission.toml --timeline mission.svg"
+)
 @options.files
 @click.option("--machine", metavar="NAME", help="Run this state machine alone.")
 @click.option("--swarm", metavar="NAME", help="Run this swarm.")
@@ -45,6 +48,7 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     "which shows a table]",
 )
 @click.option("--trace-file", type=click.Path(path_type=Path), help="Write that to a file.")
+@click.option("--timeline", type=click.Path(path_type=Path), help="Draw who was where, as SVG.")
 @click.option("--seed", type=int, help="Another course of chance.  [default: the scenario's, or 0]")
 @click.option(
     "--until",
@@ -64,6 +68,7 @@ def simulate(
     scenario: Path | None,
     trace: str | None,
     trace_file: Path | None,
+    timeline: Path | None,
     seed: int | None,
     until: int | None,
     real_time: bool,
@@ -81,7 +86,7 @@ def simulate(
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` are not given together")
     request = Request(
-        paths, machine, swarm, events, scenario, trace, trace_file, seed, until, real_time
+        paths, machine, swarm, events, scenario, trace, trace_file, timeline, seed, until, real_time
     )
     well = simulate_(request, lambda report: render(report, format_, sys.stderr))
     return _INTERRUPTED if well is None else OK if well else ERRORS

@@ -13,6 +13,8 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TextIO
 
+import click
+
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.ir import System
@@ -24,15 +26,22 @@ from swarmdsl.scxml import read as read_scxml
 from swarmdsl.simulate.actors import Actor, actors
 from swarmdsl.simulate.durations import shown
 from swarmdsl.simulate.inputs import STDIN, Input, Reader, lines_of
-from swarmdsl.simulate.run import Pace, run, run_live
+from swarmdsl.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.scenario_file import read_scenario
 from swarmdsl.simulate.subject import Document, Subject, choose
+from swarmdsl.simulate.summary import Summary
+from swarmdsl.simulate.timeline import Timeline
 from swarmdsl.simulate.trace import Line, as_json, as_text
 from swarmdsl.simulate.world import World
 
 Tell = Callable[[Diagnostics], None]
 _STDIN = "-"
+_ENDINGS: dict[Ending, str] = {
+    "ended": "until all machines had ended",
+    "quiet": "until nothing was left to happen",
+    "stopped": "until the time was over",
+}
 _STANDARD_INPUT = 0
 _MOST_SHOWN = 5
 """How many states of a circle are named."""
@@ -49,6 +58,7 @@ class Request:
     scenario: Path | None = None
     trace: str | None = None
     trace_file: Path | None = None
+    timeline: Path | None = None
     seed: int | None = None
     until: int | None = None
     real_time: bool = False
@@ -146,35 +156,59 @@ class _Play:
         gc.enable()
         report = Diagnostics()
         interrupted = False
+        ending = "until it did not come to rest"
+        summary = Summary(self._subject, self._cast)
+        self._listeners.append(summary.note)
         with ExitStack() as stack:
             stream = self._stream(stack, report)
+            picture = self._picture(stack, report)
             if report.has_errors:
                 tell(report)
                 return False
             if stream is not None:
                 self._listeners.append(self._writer(stream))
+            if stream is None or not stream.isatty():
+                self._show_board(stack)
             try:
-                self._run(tell)
+                ending = _ENDINGS[self._run(tell)]
             except LoopError as error:
                 self._report_loop(error, report)
             except KeyboardInterrupt:
-                interrupted = True
+                interrupted, ending = True, "until it was interrupted"
+            sys.stdout.flush()
+            if picture is not None:
+                picture()
         for (machine, reason), count in self._world.failures.items():
             times = "once" if count == 1 else f"{count} times"
             report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
         tell(report)
+        for line in summary.text(self._world, ending):
+            click.echo(line, err=True)
         return None if interrupted else not (report.has_errors or self._wrong)
 
-    def _run(self, tell: Tell) -> None:
+    def _run(self, tell: Tell) -> Ending:
         pace = Pace() if self._request.real_time else None
         if self._request.events != _STDIN:
-            run(self._world, self._inputs, self._until, pace)
-        elif pace is None:
-            run(self._world, self._typed(tell), self._until)
-        else:
-            arrivals: SimpleQueue[Input | None] = SimpleQueue()
-            Thread(target=self._queue, args=(tell, arrivals), daemon=True).start()
-            run_live(self._world, arrivals, self._until, pace)
+            return run(self._world, self._inputs, self._until, pace)
+        if pace is None:
+            return run(self._world, self._typed(tell), self._until)
+        arrivals: SimpleQueue[Input | None] = SimpleQueue()
+        Thread(target=self._queue, args=(tell, arrivals), daemon=True).start()
+        return run_live(self._world, arrivals, self._until, pace)
+
+    def _show_board(self, stack: ExitStack) -> None:
+        """Show who is where, on a terminal on which nothing else is written or typed."""
+        if not sys.stderr.isatty() or self._request.events == _STDIN:
+            return
+        from rich.console import Console
+
+        from swarmdsl.simulate.live import Board
+
+        last = sum(each.after for each in self._inputs)
+        until = self._until if self._until is not None else last + DEFAULT_UNTIL
+        board = Board(self._cast, self._world.clock, until, Console(stderr=True))
+        self._listeners.append(board.note)
+        stack.enter_context(board.shown())
 
     def _typed(self, tell: Tell) -> Iterator[Input | None]:
         """The events on standard input; what is wrong with a line is told at once."""
@@ -205,8 +239,22 @@ class _Play:
         if self._request.trace == "none":
             return None
         if path is None:
-            return sys.stdout
+            # A person watches the board instead, and types where there is something to type.
+            watched = sys.stdout.isatty() and self._request.events != _STDIN
+            return None if watched and self._request.trace is None else sys.stdout
         return _write_to(path, stack, report)
+
+    def _picture(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
+        """Draws the timeline, if one is wanted."""
+        if self._request.timeline is None:
+            return None
+        stream = _write_to(self._request.timeline, stack, report)
+        if stream is None:
+            return None
+        timeline = Timeline(self._subject.name, self._cast)
+        self._listeners.append(timeline.note)
+        self._world.crossed = timeline.crossed
+        return lambda: stream.write(timeline.svg(self._world.clock.now))
 
     def _writer(self, stream: TextIO) -> Callable[[Line], None]:
         kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")

@@ -1,0 +1,221 @@
+"""What is told of a run beside its trace: the summary, the timeline, the board."""
+
+from __future__ import annotations
+
+import re
+from io import StringIO
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from rich.console import Console
+
+from swarmdsl.runtime import Machine, State
+from swarmdsl.simulate.actors import Actor
+from swarmdsl.simulate.clock import Clock
+from swarmdsl.simulate.durations import SECOND, duration, shown
+from swarmdsl.simulate.live import Board
+from swarmdsl.simulate.scenario import Robot
+from swarmdsl.simulate.timeline import Timeline
+from swarmdsl.simulate.trace import Line
+
+from .conftest import Simulate
+
+SVG = "{http://www.w3.org/2000/svg}"
+SWARM = """
+statemachine Work {
+  initial Wait
+  state Wait { on Start -> Busy on Stop -> End }
+  parallel state Busy {
+    region Do {
+      initial Go
+      state Go { do go(speed = 1.0) on succeeded -> Tell on aborted -> Rest }
+      state Rest { after 2 s -> Go }
+      state Tell { entry / send Found }
+    }
+    region Hear {
+      initial Quiet
+      state Quiet { on Found -> Loud }
+      state Loud  { on Stop -> Quiet }
+    }
+  }
+  final End
+}
+member Uav { behavior Work }
+swarm S { uav : Uav[2] }
+"""
+SCENARIO = """
+until = "10 s"
+[functions.go]
+of."uav[0]".duration = "4 s"
+of."uav[1]".duration = "8 s"
+[[messages]]
+event = "Start"
+at    = "2 s"
+[[messages]]
+event = "Stop"
+at    = "30 s"
+[[faults]]
+at   = "9 s"
+lost = "uav[1]"
+"""
+
+
+def test_the_summary(simulate: Simulate) -> None:
+    ran = simulate(SWARM, "--trace", "none", scenario=SCENARIO)
+
+    assert (ran.code, ran.out) == (0, "")
+    lines = [line.rstrip() for line in ran.err.splitlines()]
+    assert lines[0] == "S, 2 members: 10 s of virtual time, until the time was over"
+    assert lines[2:5] == [
+        "member  in the end                     since",
+        "uav[0]  Busy.Do.Tell, Busy.Hear.Quiet    6 s",
+        "uav[1]  lost                             9 s",
+    ]
+    rows = {line.split("  ")[0]: line.split()[-1] for line in lines if line}
+    shares = dict(re.findall(r"Work: (\S+) +([\d.]+) %", ran.err))
+    # Of 10 s and 9 s: both wait for 2 s, go for 4 s and 7 s, and hear after 6 s.
+    seconds = {
+        "Wait": 2 + 2,
+        "Busy.Do.Go": 4 + 7,
+        "Busy.Do.Tell": 4,
+        "Busy.Hear.Quiet": 8 + 4,
+        "Busy.Hear.Loud": 3,
+    }
+    assert shares == {state: f"{100 * time / 19:.1f}" for state, time in seconds.items()}
+    assert rows["Work: Wait"] == "2"
+    assert "go             2          1        -          -          -" in lines
+    assert "Found     1      1     -" in lines
+
+
+def test_coverage_names_what_was_never_seen(simulate: Simulate) -> None:
+    ran = simulate(SWARM, scenario=SCENARIO)
+
+    never = re.findall(r"model\.swarm:(\d+): (.*) is never (entered|taken)", ran.err)
+    text = Path("model.swarm").read_text(encoding="utf-8").splitlines()
+    assert [words for _, words, how in never if how == "entered"] == [
+        "`Busy.Do.Rest`",
+        "`End`",
+    ]
+    assert ("`Wait -> End` on Stop", "taken") in [(words, how) for _, words, how in never]
+    assert all("final End" in text[int(n) - 1] for n, words, _ in never if words == "`End`")
+    # Of 10 states 8 were entered, and of 7 transitions those on Start, succeeded and Found taken.
+    assert f"coverage: {100 * 11 // 17} % of 10 states and 7 transitions\n" in ran.err
+
+
+def test_nothing_is_missing_when_all_was_seen(simulate: Simulate) -> None:
+    text = "statemachine M { initial A state A { after 1 s -> B } final B }"
+
+    ran = simulate(text, "--trace", "none")
+    assert ran.err.splitlines()[-1] == "coverage: 100 % of 2 states and 1 transition"
+    assert ran.err.startswith("M, one machine: 1 s of virtual time, until all machines had ended\n")
+
+
+def bars(svg: str) -> list[tuple[str, float, float]]:
+    """What the bars say, where they begin, and how wide they are."""
+    root = ElementTree.fromstring(svg)
+    return [
+        (bar.findtext(f"{SVG}title") or "", float(bar.attrib["x"]), float(bar.attrib["width"]))
+        for bar in root.iter(f"{SVG}rect")
+        if bar.get("class") == "bar"
+    ]
+
+
+def test_the_timeline(simulate: Simulate) -> None:
+    simulate(SWARM, "--timeline", "a.svg", scenario=SCENARIO)
+    simulate(SWARM, "--timeline", "b.svg", scenario=SCENARIO)
+    svg = Path("a.svg").read_text(encoding="utf-8")
+
+    assert svg == Path("b.svg").read_text(encoding="utf-8")
+    of_first = [bar for bar in bars(svg) if bar[0].startswith("uav[0]: ")]
+    assert [title.split("\n") for title, _, _ in of_first] == [
+        ["uav[0]: Wait", "0 ms to 2 s: 2 s"],
+        ["uav[0]: Busy.Do.Go", "2 s to 6 s: 4 s"],
+        ["uav[0]: Busy.Do.Tell", "6 s to 10 s: 4 s"],
+        ["uav[0]: Busy.Hear.Quiet", "2 s to 10 s: 8 s"],
+    ]
+    assert [round(width) for _, _, width in of_first] == [240, 480, 480, 960]
+    assert [t for t, _, _ in bars(svg) if t.startswith("uav[1]: lost")] == [
+        "uav[1]: lost\n9 s to 10 s: 1 s"
+    ]
+    arrows = [line for line in ElementTree.fromstring(svg).iter(f"{SVG}line") if line[:]]
+    assert [arrow[0].text for arrow in arrows] == ["Found: uav[0] -> uav[1], 6 s"]
+
+
+def test_names_in_a_timeline_are_text_and_nothing_else() -> None:
+    name = "<script>&\"'\x00\ufffe</script>"
+    actor = Actor(name, Robot(name), Machine("M<", [State("a>b")]))
+    timeline = Timeline(name, [actor])
+    timeline.note(Line(0, actor, None, ["a>b"]))
+    root = ElementTree.fromstring(timeline.svg(SECOND))
+
+    assert not [element for element in root.iter() if "script" in str(element.tag)]
+    assert "<script>&\"'\N{REPLACEMENT CHARACTER}" in (root.findtext(f"{SVG}text") or "")
+
+
+def test_stays_too_short_to_be_seen_are_drawn_together() -> None:
+    actor = Actor(None, Robot(), Machine("M", [State("a"), State("b")]))
+    timeline = Timeline("M", [actor])
+    for number in range(50_000):
+        timeline.note(Line(number * SECOND // 100, actor, "x", ["ab"[number % 2]]))
+    svg = timeline.svg(1000 * SECOND)
+
+    assert len(svg) < 200_000
+    found = bars(svg)
+    assert sum("short stays" in title for title, _, _ in found) > 400
+    assert found[-3][0] == "M: b\n8 min 20 s to 16 min 40 s: 8 min 20 s"
+
+
+def test_a_timeline_that_cannot_be_written(simulate: Simulate) -> None:
+    for option in ("--timeline", "--trace-file"):
+        ran = simulate(SWARM, option, "none/a.svg", scenario=SCENARIO)
+        assert (ran.code, ran.out) == (1, "")
+        assert "error[SW0909]: cannot write `none/a.svg`: no such file or directory" in ran.err
+
+
+def test_a_trace_in_a_file(simulate: Simulate) -> None:
+    to_stdout = simulate(SWARM, scenario=SCENARIO)
+    to_file = simulate(SWARM, "--trace-file", "trace", scenario=SCENARIO)
+
+    assert (to_file.out, Path("trace").read_text(encoding="utf-8")) == ("", to_stdout.out)
+
+
+def test_the_board() -> None:
+    stream = StringIO()
+    console = Console(file=stream, force_terminal=True, width=80, height=12, color_system=None)
+    actors = [
+        Actor(f"uav[{n}]", Robot(f"uav[{n}]", "uav", "Uav"), Machine("M", [State("a")]))
+        for n in range(20)
+    ]
+    clock = Clock()
+    board = Board(actors, clock, 60 * SECOND, console)
+    board.note(Line(SECOND, actors[1], "x", ["a", "[red]b"]))
+    clock.advance(30 * SECOND)
+    console.print(board.drawn())
+    lines = [line.rstrip() for line in stream.getvalue().splitlines()]
+
+    assert lines[0].split() == ["member", "is", "in", "since"]
+    assert lines[2].split() == ["uav[1]", "a,", "[red]b", "1", "s"]
+    assert "and 13 more" in lines[8]
+    assert lines[-1].endswith(" 30 s of 1 min 0 s")
+
+
+@pytest.mark.parametrize(
+    ("written", "length", "again"),
+    [
+        ("850ms", 850_000_000, "850 ms"),
+        ("12.5 s", 12_500_000_000, "12.5 s"),
+        ("4 min", 240 * SECOND, "4 min 0 s"),
+        ("1.5h", 5400 * SECOND, "1 h 30 min"),
+        ("59.9999 s", 59_999_900_000, "60 s"),
+        ("3", None, ""),
+        ("-3 s", None, ""),
+        ("1e9 s", None, ""),
+        (f"{10**30} s", None, ""),
+        ("99999999999 h", None, ""),
+    ],
+)
+def test_durations(written: str, length: int | None, again: str) -> None:
+    assert duration(written) == length
+    if length is not None:
+        assert shown(length) == again
