@@ -12,7 +12,7 @@ VSIX_DIR := dist
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-editor check fmt bench fuzz bless parser dist vsix clean
+.PHONY: demo test test-editor agreement check fmt bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -30,6 +30,10 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff format --check
 	$(BIN)/ruff check
 	$(BIN)/mypy
+
+agreement: $(READY) ## Run state machines in engines of others too, and show how far they agree.
+	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[agreement]'
+	$(BIN)/pytest tests/agreement --agreement
 
 fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format

@@ -18,6 +18,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         help="take today's output as what the golden tests expect",
     )
     parser.addoption(
+        "--agreement",
+        action="store_true",
+        help="print how far the engines of state machines agree, machine by machine",
+    )
+    parser.addoption(
         "--mutants", type=int, default=400, help="how many models with random mistakes are checked"
     )
 

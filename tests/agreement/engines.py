@@ -1,0 +1,240 @@
+"""Engines that run one machine: ours, over a model and over a document, and those of others.
+
+Each says after every step which states are active, by their ids in the document; of a machine
+that has ended, the final state in which it has.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import SimpleNamespace
+from typing import Any, Protocol
+
+from lxml import etree
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.scxml.portable import SEND_TYPE
+from swarmdsl.runtime import Event, Instance, Machine, Run
+from swarmdsl.scxml import read
+from swarmdsl.source import Source
+
+from ..runtime.world import StillWorld
+
+try:
+    from PySide6.QtCore import QBuffer, QByteArray, QCoreApplication, QIODevice
+    from PySide6.QtScxml import QScxmlStateMachine
+except ImportError:
+    QCoreApplication = None
+
+S = "{http://www.w3.org/2005/07/scxml}"
+
+
+@dataclass(frozen=True)
+class Step:
+    """Something that happens to a machine: an event, by its name in the document.
+
+    `run` is the state and outcome of the activity that it is the end of; `time` says that it
+    comes when the next delay has passed.
+    """
+
+    event: str
+    data: Any = None
+    run: tuple[str, str] | None = None
+    time: bool = False
+
+
+class Engine(Protocol):
+    """A machine that runs in some engine."""
+
+    @property
+    def active(self) -> frozenset[str]:
+        """The active states."""
+
+    def take(self, step: Step) -> None:
+        """Let it happen."""
+
+
+class World(StillWorld):
+    """Remembers the runs that go on; those that are cancelled stop at once."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.going: list[Run] = []
+
+    def start(self, run: Run) -> None:
+        self.going.append(run)
+
+    def cancel(self, run: Run) -> None:
+        self.going.remove(run)
+        run.end("preempted")
+
+
+class Ours:
+    """The engine of `swarmdsl.runtime`."""
+
+    def __init__(self, machine: Machine, data: Any = None, observer: Any = None) -> None:
+        self.world = World()
+        self.instance = Instance(machine, self.world, data=data, observer=observer)
+        self.instance.start()
+
+    @property
+    def active(self) -> frozenset[str]:
+        if self.instance.final is not None:
+            return frozenset([self.instance.final])
+        return frozenset(self.instance.configuration.ids)
+
+    def take(self, step: Step) -> None:
+        if step.time:
+            self.world.clock.step()
+        else:
+            self.instance.receive(Event(step.event, step.data))
+
+
+class Document(Ours):
+    """Ours, over a document."""
+
+    def __init__(self, text: bytes) -> None:
+        report = Diagnostics()
+        machine = read(Source("document.scxml", text.decode()), report)
+        assert machine is not None, [found.message for found in report]
+        super().__init__(machine)
+
+
+def with_values(text: str, given: Mapping[str, Any]) -> bytes:
+    """A document with other first values of some data."""
+    root = etree.fromstring(text.encode())
+    for data in root.iter(f"{S}data"):
+        if data.get("id") in given:
+            data.set("expr", json.dumps(given[data.get("id")]))
+    return etree.tostring(root)
+
+
+def alone(text: bytes) -> bytes:
+    """A document for an engine without a world around: as it is, but for two things.
+
+    Delays are taken out, their events come as steps; so are events for others, whose type an
+    engine need not know.
+    """
+    root = etree.fromstring(text)
+    for send in [*root.iter(f"{S}send")]:
+        if send.get("type") == SEND_TYPE or send.get("delay") or send.get("delayexpr"):
+            send.getparent().remove(send)
+    for cancel in [*root.iter(f"{S}cancel")]:
+        cancel.getparent().remove(cancel)
+    return etree.tostring(root)
+
+
+# ---- python-statemachine
+
+
+class _Object(SimpleNamespace):
+    """An object of ECMAScript in Python."""
+
+
+class _List(list[Any]):
+    """A list of ECMAScript in Python."""
+
+    @property
+    def length(self) -> int:
+        return len(self)
+
+
+def _of(value: Any) -> Any:
+    if isinstance(value, dict):
+        return _Object(**{key: _of(each) for key, each in value.items()})
+    if isinstance(value, _Object):
+        return _of(vars(value))
+    return _List(map(_of, value)) if isinstance(value, list) else value
+
+
+_ECMASCRIPT = {
+    "as_object": _of,
+    "Math": SimpleNamespace(abs=abs, ceil=math.ceil, max=max, min=min, sqrt=math.sqrt),
+    "JSON": SimpleNamespace(parse=_of, stringify=_of),
+    "modulo": lambda left, right: left % right,
+    "true": True,
+    "false": False,
+}
+_WORDS = {"&&": " and ", "||": " or ", "!": " not "}
+_PYTHON = re.compile(
+    r"""(?P<kept>"(?:[^"\\]|\\.)*"|!=)|(?P<word>&&|\|\||!)"""
+    r"|(?P<modulo>\(function \(a, b\) \{ return \(\(a % b\) \+ b\) % b; \}\))"
+)
+
+
+def in_python(document: bytes) -> str:
+    """A document whose expressions python-statemachine can evaluate: it does so as Python."""
+
+    def word(found: re.Match[str]) -> str:
+        if found["kept"]:
+            return found["kept"]
+        return "modulo" if found["modulo"] else _WORDS[found["word"]]
+
+    root = etree.fromstring(document)
+    for element in root.iter():
+        for attribute in ("cond", "expr"):
+            if element.get(attribute) is not None:
+                written = _PYTHON.sub(word, element.get(attribute)).strip()
+                element.set(attribute, f"as_object({written})")
+    return etree.tostring(root).decode()
+
+
+class PythonStateMachine:
+    """python-statemachine, which knows the time of the clock on the wall only."""
+
+    def __init__(self, text: str) -> None:
+        from statemachine.io import load
+
+        model = SimpleNamespace(**_ECMASCRIPT)
+        self.machine = load(text, format="scxml", trusted=True)(model=model)
+
+    @property
+    def active(self) -> frozenset[str]:
+        return frozenset(state.id for state in self.machine.configuration)
+
+    def take(self, step: Step) -> None:
+        given = () if step.data is None else (_of(step.data),)
+        self.machine.send(step.event, *given)
+
+
+# ---- Qt
+
+
+class Qt:
+    """QtScxml, whose machines run in the event loop of the application."""
+
+    application: Any = None
+
+    def __init__(self, text: bytes) -> None:
+        if Qt.application is None:
+            Qt.application = QCoreApplication.instance() or QCoreApplication([])
+        buffer = QBuffer()
+        buffer.setData(QByteArray(text))
+        buffer.open(QIODevice.OpenModeFlag.ReadOnly)
+        self.machine = QScxmlStateMachine.fromData(buffer, "document.scxml")
+        errors = [error.description() for error in self.machine.parseErrors()]
+        assert not errors, errors
+        self.machine.init()
+        self.machine.start()
+        Qt.application.processEvents()
+
+    @property
+    def active(self) -> frozenset[str]:
+        return frozenset(self.machine.activeStateNames(False))
+
+    def take(self, step: Step) -> None:
+        given = () if step.data is None else (step.data,)
+        self.machine.submitEvent(step.event, *given)
+        Qt.application.processEvents()
+
+
+ENGINES: Mapping[str, Callable[[bytes], Engine]] = {
+    "document": Document,
+    "python-statemachine": lambda text: PythonStateMachine(in_python(alone(text))),
+    "QtScxml": lambda text: Qt(alone(text)),
+}
+"""The engines that are compared with what ours does with a model."""

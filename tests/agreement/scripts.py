@@ -1,0 +1,257 @@
+"""Scripts of events that take every transition of a machine, found by trying.
+
+The engine over the tables of the model makes them: what it does after each step is what the
+others are compared with.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+from collections import deque
+from dataclasses import dataclass
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.exchange.scxml.events import Events, delays
+from swarmdsl.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.ir import EventTrigger, StateKind, System
+from swarmdsl.ir.types import DURATION
+from swarmdsl.runtime import Event, Instance, LoopError, Observer, Transition
+from swarmdsl.simulate.table import OUTCOMES, first_data, table
+
+from .engines import Ours, Step
+from .values import Values
+
+DRAWS = 10
+"""How many messages of an event, and results of an activity, are tried."""
+SITUATIONS = 400
+"""How many situations of a machine are gone on from."""
+WALKS, STEPS = 10, 40
+"""How many walks by chance there are, and how long they are."""
+
+APART = 50_000_000
+"""How far delays end from each other, in nanoseconds: those of documents are in milliseconds."""
+
+
+@dataclass(frozen=True)
+class Script:
+    """Steps, and the active states before the first one and after each."""
+
+    steps: tuple[Step, ...]
+    expected: tuple[frozenset[str], ...]
+
+
+class Subject:
+    """A machine of a model, what its params are, and what can happen to it."""
+
+    def __init__(self, machine: ir.StateMachine, system: System) -> None:
+        values = Values(machine, system)
+        self.machine = machine
+        self.system = system
+        self.table = table(machine, system)
+        self.params = {
+            # Whatever is counted up to a param is over soon.
+            p.name: values.value(p.type) if p.default is None else 2
+            for p in machine.params
+            if p.default is None or re.fullmatch("u?int[0-9]+", str(p.type))
+        }
+        names = data_ids(machine)
+        self.given = {
+            names[p.name]: self.params[p.name] // 1_000_000
+            if p.type == DURATION  # milliseconds in a document
+            else self.params[p.name]
+            for p in machine.params
+            if p.name in self.params
+        }
+        self.ids = state_ids(machine, set(names.values()))
+        there = Events(machine, {state: state for state in self.ids})
+        here = Events(machine, self.ids)
+        self.timers = {
+            there.timer(state, delay): here.timer(state, delay)
+            for state in machine.walk()
+            for delay in delays(state)
+        }
+        heard = {
+            trigger.event
+            for state in machine.walk()
+            for transition in state.transitions
+            for trigger in transition.triggers
+            if isinstance(trigger, EventTrigger)
+        }
+        self.events: list[Step] = []
+        for event in [each for each in system.events if each.name in heard]:
+            steps = [Step(event.name, values.message(event)) for _ in range(DRAWS)]
+            self.events += [step for i, step in enumerate(steps) if step not in steps[:i]]
+        self.ends: dict[str, list[Step]] = {}
+        for state in machine.walk():
+            if state.activity is not None:
+                results = [values.result(state.activity) for _ in range(DRAWS)]
+                ways = [("succeeded", each) for each in results]
+                ways += [(outcome, {}) for outcome in OUTCOMES[1:]]
+                self.ends[state.id] = [
+                    Step(here.outcome(state, outcome), data, (state.id, outcome))
+                    for i, (outcome, data) in enumerate(ways)
+                    if (outcome, data) not in ways[:i]
+                ]
+
+    @property
+    def transitions(self) -> dict[int, ir.Transition]:
+        """Those that states and choices have, by identity: some are equal."""
+        return {
+            id(transition): transition
+            for state in self.machine.walk()
+            if state.kind is not StateKind.HISTORY
+            for transition in state.transitions
+        }
+
+    def scripts(self) -> tuple[list[Script], list[ir.Transition]]:
+        """Scripts that take every transition that can be taken, and the transitions left over.
+
+        Raises LoopError for a machine that does not come to rest at first.
+        """
+        missing = self.transitions
+        found: list[tuple[Step, ...]] = []
+
+        def note(model: Model, steps: tuple[Step, ...]) -> None:
+            new = missing.keys() & model.seen
+            for each in new:
+                del missing[each]
+            if new:
+                found.append(steps)
+
+        walks = self.walks()
+        for steps in walks:
+            note(self.after(steps), steps)
+        found.clear()
+        known = {Model(self).situation}
+        waiting: deque[tuple[Step, ...]] = deque([()])
+        while waiting and missing:
+            before = waiting.popleft()
+            for choice in self.after(before).choices:
+                model = self.after(before)
+                try:
+                    steps = (*before, model.happen(choice))
+                except LoopError:
+                    continue
+                if model.world.errors:
+                    continue
+                note(model, steps)
+                if model.situation not in known and len(known) < SITUATIONS:
+                    known.add(model.situation)
+                    waiting.append(steps)
+        whole = [s for s in found if not any(o != s and o[: len(s)] == s for o in found)]
+        return [self.script(steps) for steps in (*whole, *walks)], list(missing.values())
+
+    def after(self, steps: tuple[Step, ...]) -> Model:
+        """The model after some steps."""
+        model = Model(self)
+        for step in steps:
+            model.take(step)
+        return model
+
+    def walks(self) -> list[tuple[Step, ...]]:
+        """Some walks by chance; the same each time."""
+        return [self.walk(random.Random(seed)) for seed in range(WALKS)]
+
+    def walk(self, dice: random.Random) -> tuple[Step, ...]:
+        """Things that happen by chance.
+
+        Up to where the machine would not come to rest, or an expression would have no value:
+        ECMAScript has values there, such as `Infinity`.
+        """
+        model = Model(self)
+        steps: tuple[Step, ...] = ()
+        while len(steps) < STEPS and (choices := model.choices):
+            try:
+                step = model.happen(dice.choice(choices))
+            except LoopError:
+                break
+            if model.world.errors:
+                break
+            steps += (step,)
+        return steps
+
+    def script(self, steps: tuple[Step, ...]) -> Script:
+        """The script of these steps."""
+        model = Model(self)
+        expected = [model.active]
+        for step in steps:
+            model.take(step)
+            expected.append(model.active)
+        return Script(steps, tuple(expected))
+
+
+class Watch(Observer):
+    """Notes the transitions that are taken, and the events that are looked at."""
+
+    def __init__(self) -> None:
+        self.transitions: set[int] = set()
+        self.events: list[str] = []
+
+    def taken(self, instance: Instance, transition: Transition) -> None:
+        self.transitions.add(id(transition.origin))
+
+    def received(self, instance: Instance, event: Event) -> None:
+        self.events.append(event.name)
+
+
+class Model(Ours):
+    """Our engine over the table of a model; ids and events are those of the document."""
+
+    def __init__(self, subject: Subject) -> None:
+        self.subject = subject
+        self.watch = Watch()
+        data = first_data(subject.machine, subject.system, subject.params)
+        super().__init__(subject.table, data, self.watch)
+
+    @property
+    def active(self) -> frozenset[str]:
+        return frozenset(self.subject.ids[state] for state in super().active)
+
+    @property
+    def seen(self) -> set[int]:
+        """The transitions that were taken, by identity."""
+        return self.watch.transitions
+
+    def take(self, step: Step) -> None:
+        if step.run is None:
+            super().take(step)
+            return
+        state, outcome = step.run
+        number = self.subject.table.numbers[state]
+        (run,) = [each for each in self.world.going if each.state == number]
+        self.world.going.remove(run)
+        run.end(outcome, step.data)
+
+    @property
+    def choices(self) -> list[Step]:
+        """What can happen now."""
+        if not self.instance.running:
+            return []
+        found = list(self.subject.events)
+        for run in self.world.going:
+            found += self.subject.ends[self.subject.table.states[run.state].id]
+        due = sorted(each.handle.time for each in self.instance._timers or ())
+        if due and not 0 < due[min(1, len(due) - 1)] - due[0] < APART:
+            found.append(Step("", time=True))
+        return found
+
+    def happen(self, step: Step) -> Step:
+        """Take a step; the same step, with the name of the event if time brings it."""
+        self.watch.events.clear()
+        self.take(step)
+        return Step(self.subject.timers[self.watch.events[0]], time=True) if step.time else step
+
+    @property
+    def situation(self) -> Any:
+        """All that decides about what comes next."""
+        now = self.world.clock.now
+        timers = self.instance._timers or ()
+        return (
+            self.active,
+            self.instance.configuration.histories,
+            repr(self.instance.data),
+            tuple(sorted((each.event.name, each.handle.time - now) for each in timers)),
+            tuple(run.state for run in self.world.going),
+        )

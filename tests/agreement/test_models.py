@@ -1,0 +1,77 @@
+"""Whatever happens to a model, the document made of it does the same in every engine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import scxml
+
+from .engines import ENGINES, with_values
+from .known import MODELS
+from .replay import difference, engines
+from .scripts import Script, Subject
+
+ROOT = Path(__file__).resolve().parents[2]
+FILES = [
+    ROOT / "tests" / "agreement" / "machines.swarm",
+    *sorted(path.parent for path in (ROOT / "examples").glob("*/README.md")),
+    *sorted((ROOT / "tests" / "golden").glob("*/model.swarm")),
+]
+# Transitions that no script takes, because they cannot be.
+NEVER = {
+    ("everything", "Work"): ["on done -> Stop"],
+    ("language", "B"): ["[n > 3] -> A"],
+}
+
+
+@cache
+def subjects(path: Path) -> dict[str, tuple[Subject, str]]:
+    """The machines of a model, and their documents."""
+    system = compiler.check([path]).system
+    assert system is not None
+    files = {f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())}
+    return {m.name: (Subject(m, system), files[f"{m.name}.scxml"]) for m in system.machines}
+
+
+@cache
+def scripts(path: Path, name: str) -> tuple[list[Script], list[str]]:
+    """The scripts of a machine, and the transitions that none of them takes."""
+    found, missing = subjects(path)[name][0].scripts()
+    return found, [each.origin.text for each in missing if each.origin is not None]
+
+
+def titled(path: Path) -> str:
+    return (path.parent if path.suffix else path).name
+
+
+MACHINES = [pytest.param(path, id=titled(path)) for path in FILES]
+
+
+@pytest.mark.parametrize("path", MACHINES)
+def test_scripts_take_every_transition(path: Path) -> None:
+    for name in subjects(path):
+        _, missing = scripts(path, name)
+        assert missing == NEVER.get((titled(path), name), [])
+
+
+@pytest.mark.parametrize("engine", engines())
+@pytest.mark.parametrize("path", MACHINES)
+def test_engines_agree(path: Path, engine: str, agree: Callable[..., None]) -> None:
+    differences = {}
+    for name, (subject, text) in subjects(path).items():
+        document = with_values(text, subject.given)
+        found = [difference(ENGINES[engine], document, each) for each in scripts(path, name)[0]]
+        agree(f"{titled(path)}: {name}", engine, len(found), found.count(None))
+        cause = MODELS.get((name, engine))
+        known = [each for each in found if each is not None]
+        if cause is None and known:
+            differences[name] = known[0]
+        if cause is not None:
+            assert known, f"{name} does not show any more: {cause.reason}"
+    assert not differences

@@ -1,0 +1,57 @@
+"""Machines made by chance do the same in every engine."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import scxml
+from swarmdsl.ir import System
+from swarmdsl.runtime import LoopError
+
+from ..printer.systems import systems
+from .engines import ENGINES, with_values
+from .known import expected
+from .replay import difference, installed
+from .scripts import Subject
+
+SYSTEMS = 80
+
+
+@pytest.mark.filterwarnings("ignore:Generating overly large repr")
+def test_engines_agree_about_models(agree: Callable[..., None]) -> None:
+    scripts: Counter[str] = Counter()
+
+    @settings(
+        max_examples=SYSTEMS,
+        derandomize=True,
+        database=None,
+        deadline=None,
+        phases=[Phase.generate],
+        suppress_health_check=[HealthCheck.too_slow],
+    )
+    @given(systems())
+    def run(system: System) -> None:
+        files = {
+            f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())
+        }
+        for machine in system.machines:
+            try:
+                subject = Subject(machine, system)
+                made = [subject.script(steps) for steps in subject.walks()]
+            except LoopError:
+                continue
+            document = with_values(files[f"{machine.name}.scxml"], subject.given)
+            for engine in installed():
+                if expected(machine, engine) is None:
+                    found = [difference(ENGINES[engine], document, script) for script in made]
+                    assert found == [None] * len(found), (engine, document.decode())
+                    scripts[engine] += len(found)
+
+    run()
+    for engine, number in scripts.items():
+        agree("models made by chance", engine, number, number)
