@@ -91,14 +91,11 @@ def test_the_summary(simulate: Simulate) -> None:
 def test_coverage_names_what_was_never_seen(simulate: Simulate) -> None:
     ran = simulate(SWARM, scenario=SCENARIO)
 
-    never = re.findall(r"model\.swarm:(\d+): (.*) is never (entered|taken)", ran.err)
+    never = re.findall(r"model\.swarm:(\d+): never (entered|taken): (.*)", ran.err)
     text = Path("model.swarm").read_text(encoding="utf-8").splitlines()
-    assert [words for _, words, how in never if how == "entered"] == [
-        "`Busy.Do.Rest`",
-        "`End`",
-    ]
-    assert ("`Wait -> End` on Stop", "taken") in [(words, how) for _, words, how in never]
-    assert all("final End" in text[int(n) - 1] for n, words, _ in never if words == "`End`")
+    assert [words for _, how, words in never if how == "entered"] == ["Busy.Do.Rest", "End"]
+    assert ("taken", "Wait: on Stop -> End") in [(how, words) for _, how, words in never]
+    assert ["final End" in text[int(n) - 1] for n, _, words in never if words == "End"] == [True]
     # Of 10 states 8 were entered, and of 7 transitions those on Start, succeeded and Found taken.
     assert f"coverage: {100 * 11 // 17} % of 10 states and 7 transitions\n" in ran.err
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from swarmdsl import ir
 from swarmdsl.render import counted
 from swarmdsl.render.printable import printable
-from swarmdsl.runtime import Kind, Machine, Transition
+from swarmdsl.runtime import Kind, Machine
 from swarmdsl.simulate.actors import Actor
+from swarmdsl.simulate.coverage import Coverage
 from swarmdsl.simulate.durations import shown
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.simulate.trace import Line
@@ -32,7 +32,9 @@ class Summary:
         self._running: Counter[Machine] = Counter()
         self._times: Counter[tuple[Machine, str]] = Counter()
         self._entered: Counter[tuple[Machine, str]] = Counter()
-        self._taken: dict[Machine, set[int]] = defaultdict(set)
+        self._coverage = Coverage()
+        for machine in self._machines:
+            self._coverage.count(machine)
         self._called: Counter[str] = Counter()
         self._sent: Counter[str] = Counter()
 
@@ -47,8 +49,7 @@ class Summary:
             self._since[actor] = line.time
         for state in line.entered:
             self._entered[actor.machine, state] += 1
-        if line.taken:
-            self._taken[actor.machine].update(map(_identity, line.taken))
+        self._coverage.see(line)
         self._called.update(line.started)
         self._sent.update(line.sent)
 
@@ -70,7 +71,7 @@ class Summary:
         yield from _table(("state", "time", "entered"), self._states())
         yield from _table(("function", "called", *_OUTCOMES), self._functions(world))
         yield from _table(("event", "sent", "heard", "lost"), self._events(world))
-        yield from self._coverage()
+        yield from self._unseen()
 
     def _members(self) -> Iterator[Row]:
         lines = list(self._last.values())
@@ -100,67 +101,19 @@ class Summary:
             counts = (sent, world.heard[event], world.lost[event])
             yield event, *(str(count or "-") for count in counts)
 
-    def _coverage(self) -> Iterator[str]:
-        unseen: list[tuple[str, object]] = []
-        states = transitions = seen = 0
-        for machine in self._machines:
-            for state in machine.states[1:]:
-                if state.kind in (Kind.HISTORY, Kind.DEEP_HISTORY):
-                    continue
-                states += 1
-                if self._entered[machine, state.id]:
-                    seen += 1
-                else:
-                    unseen.append((f"`{state.id}` is never entered", state.origin))
-            for words, transition in _transitions(machine).values():
-                transitions += 1
-                if _identity(transition) in self._taken[machine]:
-                    seen += 1
-                else:
-                    unseen.append((f"{words} is never taken", transition.origin))
-        of = f"{counted(states, 'state')} and {counted(transitions, 'transition')}"
-        yield f"coverage: {100 * seen // (states + transitions)} % of {of}"
-        for what, origin in unseen[:_MOST]:
+    def _unseen(self) -> Iterator[str]:
+        """How much was seen, and what was not."""
+        machines = self._coverage.machines
+        states = counted(sum(len(each.states) for each in machines), "state")
+        transitions = counted(sum(len(each.transitions) for each in machines), "transition")
+        yield f"coverage: {int(self._coverage.percentage)} % of {states} and {transitions}"
+        unseen = [found for machine in machines for found in machine.unreached]
+        for origin, words in unseen[:_MOST]:
             place = self._subject.place(origin)
             where = f"{place.source.name}:{place.line}: " if place is not None else ""
-            yield f"  {printable(where)}{what}"
+            yield f"  {printable(f'{where}{words}')}"
         if len(unseen) > _MOST:
             yield f"  and {len(unseen) - _MOST} more"
-
-
-def _transitions(machine: Machine) -> dict[int, tuple[str, Transition]]:
-    """The transitions of a machine, each once, with how a person calls them."""
-    found: dict[int, tuple[str, Transition]] = {}
-    for number, edges in enumerate(machine.edges):
-        for edge in edges:
-            origin = edge.table.origin
-            targets, triggers = edge.table.targets, edge.table.events
-            if isinstance(origin, ir.Transition):
-                targets = (origin.target,) if origin.target is not None else ()
-                triggers = tuple(map(_word, origin.triggers))
-            on = f" on {', '.join(triggers)}" if triggers else ""
-            to = f" -> {', '.join(targets)}" if targets else ""
-            words = f"`{machine.states[number].id}{to}`{on}"
-            found.setdefault(_identity(edge.table), (words, edge.table))
-    return found
-
-
-def _word(trigger: ir.Trigger) -> str:
-    match trigger:
-        case ir.EventTrigger(event=event):
-            return event
-        case ir.OutcomeTrigger(outcome=outcome):
-            return outcome
-        case ir.DoneTrigger():
-            return "done"
-        case ir.TimeTrigger():
-            return "a delay"
-
-
-def _identity(transition: Transition) -> int:
-    """The same for all that one transition of a model has become."""
-    modelled = isinstance(transition.origin, ir.Transition)
-    return id(transition.origin) if modelled else id(transition)
 
 
 def _is_over(line: Line) -> bool:

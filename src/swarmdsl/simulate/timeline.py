@@ -121,6 +121,8 @@ class _Picture:
             words.append(f"{len(self.robots)} members")
         if self.crossings:
             words.append("arrows are swarm events, crosses those that were lost on the way")
+        if len(self.crossings) > _MOST_ARROWS:
+            words.append(f"the first {_MOST_ARROWS} of {len(self.crossings)} are drawn")
         drawing.text(16, 44, ", ".join(words), "note")
         self.axis(drawing)
         for actor in self.lines:

@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TextIO
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.simulate.coverage import Coverage
 from swarmdsl.simulate.trace import Line
 from swarmdsl.testing.console import Console
-from swarmdsl.testing.coverage import Coverage
 from swarmdsl.testing.discovery import selected, test_files
 from swarmdsl.testing.junit import junit
 from swarmdsl.testing.models import Models

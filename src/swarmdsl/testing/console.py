@@ -11,8 +11,8 @@ import click
 from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.render import counted, render
 from swarmdsl.render.printable import printable
+from swarmdsl.simulate.coverage import Coverage, MachineCoverage
 from swarmdsl.simulate.trace import Line, as_text
-from swarmdsl.testing.coverage import Coverage, MachineCoverage
 from swarmdsl.testing.outcome import FileOutcome
 from swarmdsl.testing.verdict import Verdict
 

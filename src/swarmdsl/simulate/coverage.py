@@ -1,7 +1,7 @@
-"""Which states the tests enter, and which transitions they take.
+"""Which states are entered in runs, and which transitions are taken.
 
 What is counted is the text of the models: a machine that is reused in states of others is one
-machine, wherever a test runs it.
+machine, wherever it runs.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from swarmdsl.ir import State as ModelState
+from swarmdsl.ir import Transition as ModelTransition
 from swarmdsl.runtime import Kind, Machine, Transition
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.simulate.trace import Line
@@ -22,23 +23,30 @@ _Key = tuple[str, int]
 
 @dataclass
 class MachineCoverage:
-    """The states and transitions of a machine, in words, and which the tests have reached."""
+    """The states and transitions of a machine, in words, and which were reached."""
 
     name: str
     states: dict[_Key, str] = field(default_factory=dict)
     transitions: dict[_Key, str] = field(default_factory=dict)
+    origins: dict[_Key, object] = field(default_factory=dict)
     entered: set[_Key] = field(default_factory=set)
     taken: set[_Key] = field(default_factory=set)
 
     @property
     def missed(self) -> Iterator[str]:
-        """What no test has reached."""
+        """What was not reached."""
+        for _, words in self.unreached:
+            yield words
+
+    @property
+    def unreached(self) -> Iterator[tuple[object, str]]:
+        """The same, with the origins."""
         for key, words in self.states.items():
             if key not in self.entered:
-                yield f"never entered: {words}"
+                yield self.origins[key], f"never entered: {words}"
         for key, words in self.transitions.items():
             if key not in self.taken:
-                yield f"never taken: {words}"
+                yield self.origins[key], f"never taken: {words}"
 
 
 @dataclass
@@ -50,16 +58,16 @@ class _Known:
 
 
 class Coverage:
-    """Listens to the tests."""
+    """Listens to runs."""
 
     def __init__(self) -> None:
         self._machines: dict[tuple[str, str], MachineCoverage] = {}
         self._known: dict[Machine, _Known] = {}
 
     def expect(self, subject: Subject) -> None:
-        """Count all machines that some robot of the model runs, whether a test runs them or not."""
+        """Count all machines that some robot of the model runs, whether they run now or not."""
         if subject.document is not None:
-            self._of(subject.document.machine)
+            self.count(subject.document.machine)
         system = subject.system
         if system is None:
             return
@@ -69,7 +77,11 @@ class Coverage:
             behaviours.add(subject.machine.name)
         for machine in system.machines:
             if machine.name in behaviours:
-                self._of(subject.table(machine))
+                self.count(subject.table(machine))
+
+    def count(self, machine: Machine) -> None:
+        """Count a machine, whether it does something or not."""
+        self._of(machine)
 
     def see(self, line: Line) -> None:
         """Take in a line."""
@@ -116,18 +128,22 @@ class Coverage:
             name = state.id.removeprefix(prefix)
             row = self._machines.setdefault((key[0], owner), MachineCoverage(owner))
             row.states.setdefault(key, name)
+            row.origins.setdefault(key, origin)
             known.states[state.id] = row, key
             for transition in state.transitions:
                 # That of a parallel state may be in its regions as well.
                 if _identity(transition) not in known.transitions:
-                    key = _key(transition.origin, machine, len(known.transitions))
+                    number = len(machine.states) + len(known.transitions)
+                    key = _key(transition.origin, machine, number)
                     row.transitions.setdefault(key, f"{name}: {_words(transition)}")
+                    row.origins.setdefault(key, transition.origin)
                     known.transitions[_identity(transition)] = row, key
 
 
 def _identity(transition: Transition) -> int:
     """What tells transitions of the model apart, however many the engine has for one."""
-    return id(transition if transition.origin is None else transition.origin)
+    modelled = isinstance(transition.origin, ModelTransition)
+    return id(transition.origin if modelled else transition)
 
 
 def _place(origin: object) -> Span | None:
