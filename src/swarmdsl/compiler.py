@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request, emit
-from swarmdsl.ir import System
 from swarmdsl.link import link
 from swarmdsl.load import Project, load
-from swarmdsl.lower import lower
-from swarmdsl.output import Written, write
 from swarmdsl.project.settings import Settings
 from swarmdsl.validate import validate
+
+# A check needs no more; the other phases are imported where they begin.
+if TYPE_CHECKING:
+    from swarmdsl.emit import Request
+    from swarmdsl.ir import System
+    from swarmdsl.output import Written
 
 _DEFAULTS = Settings()
 
@@ -36,6 +40,8 @@ class Result:
     @cached_property
     def system(self) -> System | None:
         """The model as a generator sees it, made when it is asked for; None if it has errors."""
+        from swarmdsl.lower import lower
+
         return lower(self.valid, self.name) if self.valid is not None else None
 
 
@@ -61,6 +67,9 @@ def build(
     force: bool = False,
 ) -> Result:
     """Check the model and write what the requested targets make of it below `out`."""
+    from swarmdsl.emit import emit
+    from swarmdsl.output import write
+
     checked = check(paths, settings)
     if checked.system is None:
         return checked

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeVar
@@ -10,6 +9,7 @@ from typing import TypeVar
 from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
 from swarmdsl.features import unsupported
+from swarmdsl.foreign import failure
 from swarmdsl.generator import Generator, OutputFile
 from swarmdsl.ir import System
 from swarmdsl.options import parse_options
@@ -24,8 +24,6 @@ Output = dict[str, list[OutputFile]]
 """The files of each target, in the order of the requests."""
 
 _Made = TypeVar("_Made")
-
-_LOG = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
@@ -124,8 +122,8 @@ def _run(
         return list(make())
     # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
     except (Exception, SystemExit) as error:
-        _LOG.debug("running the generator of target %s", generator.target, exc_info=True)
-        _report_broken(generator.target, plugins.describe(error), report)
+        reason = failure(f"running the generator of target {generator.target}", error)
+        _report_broken(generator.target, reason, report)
         return None
 
 

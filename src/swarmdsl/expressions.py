@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from decimal import Decimal
 from math import isinf
 from typing import Any
 
@@ -60,4 +59,6 @@ def is_too_large(text: str, digits: str, unit: str) -> bool:
 
 def nanoseconds(text: str, unit: str) -> int:
     """The length of a duration, exactly as written, which a float may not be."""
+    from decimal import Decimal
+
     return round(Decimal(text.removesuffix(unit).rstrip()) * UNITS[unit])

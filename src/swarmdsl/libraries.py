@@ -5,7 +5,6 @@ A package `a.b` is the file `a/b.swarm` or the .swarm files in the folder `a/b` 
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Iterator, Sequence
 from functools import cached_property
 from importlib.util import find_spec
@@ -13,7 +12,7 @@ from pathlib import Path
 
 from swarmdsl import resources
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.plugins import describe
+from swarmdsl.foreign import failure
 from swarmdsl.source import Span
 from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import Import, ImportLibrary
@@ -21,8 +20,6 @@ from swarmdsl.syntax import Import, ImportLibrary
 SUFFIX = ".swarm"
 GROUP = "swarmdsl.libraries"
 """The entry points of packages that bring models: the module in whose folder they lie."""
-
-_LOG = logging.getLogger(__name__)
 
 
 class Libraries:
@@ -82,8 +79,8 @@ class Libraries:
                 folder = _folder_of(point.module)
             # Whatever goes wrong in the code of others is theirs alone.
             except (Exception, SystemExit) as error:
-                _LOG.debug("looking for the library %s", point.name, exc_info=True)
-                self._report.report("broken-library", name=point.name, reason=describe(error))
+                reason = failure(f"looking for the library {point.name}", error)
+                self._report.report("broken-library", name=point.name, reason=reason)
                 continue
             found[folder] = None
         return list(found)

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable, Mapping
 from dataclasses import Field, dataclass, fields
 from typing import Any, get_type_hints
 
 from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.foreign import failure
 from swarmdsl.generator import Generator
-from swarmdsl.plugins import BUILT_IN, describe
+from swarmdsl.plugins import BUILT_IN
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
-
-_LOG = logging.getLogger(__name__)
 
 _BOOLEANS = {"true": True, "false": False}
 _TAKES = {str: "text", int: "a whole number", bool: "`true` or `false`"}
@@ -110,8 +108,8 @@ def _passes(
         if generator.target in BUILT_IN:
             raise
         # A mistake in the code of others is not a bug of swarmdsl.
-        _LOG.debug("checking an option of target %s", generator.target, exc_info=True)
-        reason = f"its check of option `{option.name}` ends with {describe(error)}"
+        fault = failure(f"checking an option of target {generator.target}", error)
+        reason = f"its check of option `{option.name}` ends with {fault}"
         report.report("generator-failed", place, target=generator.target, reason=reason)
         return False
     if fault is not None:

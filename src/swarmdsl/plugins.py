@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import logging
 import re
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, get_type_hints
 
+from swarmdsl.foreign import failure
 from swarmdsl.generator import API_VERSION, Generator
 
 if TYPE_CHECKING:
@@ -22,8 +22,6 @@ BUILT_IN = {
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
-
-_LOG = logging.getLogger(__name__)
 
 # A target's name is also the name of its output folder.
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
@@ -80,8 +78,7 @@ def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
         fault = _fault(name, found)
     # Whatever goes wrong in the code of others, `sys.exit` included, is theirs alone.
     except (Exception, SystemExit) as error:
-        _LOG.debug("loading the generator of target %s", name, exc_info=True)
-        return Broken(describe(error))
+        return Broken(failure(f"loading the generator of target {name}", error))
     if fault is not None:
         return Broken(fault)
     assert isinstance(found, Generator)
@@ -104,9 +101,3 @@ def _fault(name: str, found: object) -> str | None:
         if field.default is MISSING:
             return f"its option `{field.name}` has no default"
     return None
-
-
-def describe(error: BaseException) -> str:
-    """An exception in one line, for a person."""
-    text = " ".join(str(error).split())
-    return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 from heapq import nlargest
 from itertools import pairwise
 
@@ -16,6 +15,10 @@ _COMPARED = 50
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
     """The known word most like another, None when none is that like (1 is the same)."""
     by_lower = {name.lower(): name for name in known}
+    if not by_lower:
+        return None
+    from difflib import get_close_matches
+
     word = word.lower()
     compared: Iterable[str] = by_lower
     if len(by_lower) > _COMPARED:

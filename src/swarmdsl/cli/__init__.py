@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import errno
 import gc
-import logging
 import os
 import signal
 import sys
@@ -29,8 +28,6 @@ COMMANDS = ("build", "check", "explain", "fmt", "simulate", "targets", "test")
 # As a shell reports it for a program that a signal ended.
 _INTERRUPTED = 128 + signal.SIGINT
 _TERMINATED = 128 + signal.SIGTERM
-
-_LOG = logging.getLogger(__name__)
 
 
 class _Commands(click.Group):
@@ -92,7 +89,9 @@ def run(arguments: Sequence[str]) -> int:
             _close_stdout()
             click.echo(f"swarmc: cannot write the output: {error.strerror}", err=True)
             return ERRORS
-        _LOG.debug("internal error", exc_info=True)
+        import logging
+
+        logging.getLogger(__name__).debug("internal error", exc_info=True)
         click.echo(f"swarmc: internal error: {type(error).__name__}: {error}", err=True)
         click.echo("this is a bug in swarmc; `--debug` shows where", err=True)
         return INTERNAL

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from pathlib import Path
 
 import click
@@ -40,6 +39,8 @@ deny = click.option(
 
 def _show_debug(_context: click.Context, _param: click.Parameter, debug: bool) -> None:
     if debug:
+        import logging
+
         logging.basicConfig(format="%(message)s")
         logging.getLogger("swarmdsl").setLevel(logging.DEBUG)
 

@@ -8,16 +8,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
-from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostics, Level
-from swarmdsl.emit import Request
 from swarmdsl.project import find_settings
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import COMMAND_LINE, Source, Span
+
+if TYPE_CHECKING:
+    from swarmdsl.emit import Request
 
 
 def run_settings(
@@ -35,6 +37,9 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
     An option on the command line wins over the same one in the project file.
     """
     named = list(dict.fromkeys(targets))
+    from swarmdsl import plugins
+    from swarmdsl.emit import Request
+
     # Only a target that somebody asked for must be able to express the model.
     required = bool(named or settings.targets)
     built = named or list(settings.targets) or plugins.target_names()

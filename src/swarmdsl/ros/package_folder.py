@@ -7,7 +7,6 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from xml.etree import ElementTree
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.libraries import SUFFIX
@@ -151,6 +150,8 @@ class _Finder:
         return self._manifests[manifest]
 
     def _read(self, manifest: Path) -> str | None:
+        from xml.etree import ElementTree
+
         try:
             name = ElementTree.parse(manifest).findtext("name", "").strip()
         except OSError as error:
