@@ -261,6 +261,8 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
             "2:22",
         ),
         ("[functions.go]\nresults = 3", "SW0013]: `results` takes tables", "2:11"),
+        ("[functions.go]\nresults = [3]", "SW0013]: `results` takes a table, not `3`", "2:12"),
+        ("messages = [3]", "SW0013]: `messages` takes a table, not `3`", "1:13"),
         ("[params.uva]", "SW0202]: no member called `uva`", "1:9"),
         ("[params.uav]\npuase = '1 s'", "SW0202]: no param called `puase`", "2:1"),
         ("[params.uav]\npause = 1", "SW0013]: `pause` takes a time", "2:9"),

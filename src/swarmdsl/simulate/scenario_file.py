@@ -150,7 +150,7 @@ class _Reader:
                 return value
             return fitted_fields(fields, value, system, "the result", way)
 
-        numbers = range(len(list(table.items("results"))))
+        numbers = [item.keys[-1] for item in table.items("results")]
         found = [table.fitted(fit, "results", number) for number in numbers]
         return tuple(each for each in found if each is not None)
 

@@ -49,13 +49,15 @@ class Table:
         return Table(self.document, (*self.keys, key), self.report)
 
     def items(self, key: str) -> Iterator[Table]:
-        """The tables of an array of tables."""
+        """The tables of an array of tables; what is none of these is reported and left out."""
         found = self.values.get(key, [])
         if not isinstance(found, list):
             self.wrong((key,), f"tables: `[[{key}]]`", found)
             return
-        for number in range(len(found)):
-            yield Table(self.document, (*self.keys, key, number), self.report)
+        for number, each in enumerate(found):
+            table = Table(self.document, (*self.keys, key, number), self.report)
+            if isinstance(each, dict):
+                yield table
 
     def length(self, key: str) -> Length | None:
         """A time: a fixed one, or one that chance decides."""

@@ -62,7 +62,7 @@ class _Reader:
             return []
         found = []
         names: dict[str, Span] = {}
-        for table in _items(self._top, "test"):
+        for table in self._top.items("test"):
             table.check_keys(_TEST, "a test")
             name = self._name(table, names)
             case = self._case(table, name or "", model)
@@ -97,7 +97,7 @@ class _Reader:
             return None
         reader = StepReader(Names(subject, cast, self._report), self._report)
         steps = self._steps(table, reader)
-        always = [reader.claim(each) for each in _items(table, "always")]
+        always = [reader.claim(each) for each in table.items("always")]
         if share is None:
             return None
         return Case(
@@ -120,7 +120,7 @@ class _Reader:
                 help='`steps = [{ pass = "1 min" }]` lets a minute pass',
             )
             return []
-        found = [reader.step(each) for each in _items(table, "steps")]
+        found = [reader.step(each) for each in table.items("steps")]
         return [step for step in found if step is not None]
 
     def _subject(self, table: Table, model: Model) -> Subject | None:
@@ -169,13 +169,6 @@ class _Reader:
                 table.wrong(way, "a path", each)
             else:
                 yield Path(os.path.normpath(self._path.parent / each)), table.value_place(way)
-
-
-def _items(table: Table, key: str) -> Iterator[Table]:
-    """The tables in an array; what is none has been reported."""
-    for number, item in enumerate(table.items(key)):
-        if isinstance(table.values[key][number], dict):
-            yield item
 
 
 def _part(table: Table, key: str) -> Document:
