@@ -281,3 +281,27 @@ def test_events_that_no_state_waits_for(simulate: Simulate) -> None:
     assert "warning[SW1004]: no state waits for event `gone`" in ran.err
     other = simulate(MACHINE.replace("on Stop      -> End", ""), events=[{"event": "Stop"}])
     assert (other.code, "SW1004" in other.err) == (0, True)
+
+
+def test_messages_of_which_nothing_is_known_may_hold_anything(simulate: Simulate) -> None:
+    text = """
+      event Odd : unknown_msgs/Odd
+      endless statemachine M {
+        var n    : int32 = 0
+        var last : unknown_msgs/Odd
+        initial A
+        state A {
+          on Odd [event.a < 3] -> B
+          on Odd [-event.a > 3 or max(event.a, 2) > 5] -> B
+          on Odd / last = event, last.deep.er = n -> C
+        }
+        state B { on Start / n = last.x + 1 -> A }
+        state C { on Start [n > 7] -> A }
+      }
+    """
+    ran = simulate(text, events=[{"event": "Odd", "data": {"a": "x", "deep": 3}}])
+
+    assert (ran.code, ran.trace[-1]["configuration"]) == (0, ["C"])
+    assert "`<` does not work on what a message holds" in ran.err
+    assert "`-` does not work on what a message holds" in ran.err
+    assert "`last` has no `deep.er` that could be stored" in ran.err

@@ -69,12 +69,14 @@ def function_of(expression: Expression) -> Value:
             return lambda data, message: not value(data, message)
         case Unary(operand=operand):
             value = function_of(operand)
-            return lambda data, message: -value(data, message)
+            return _checked("-", lambda data, message: -value(data, message))
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
         case Call(function=name, arguments=arguments):
             function, values = _FUNCTIONS[name], [function_of(each) for each in arguments]
-            return lambda data, message: function(*[value(data, message) for value in values])
+            return _checked(
+                name, lambda data, message: function(*[value(data, message) for value in values])
+            )
 
 
 def _binary(symbol: str, left: Value, right: Value) -> Value:
@@ -83,7 +85,21 @@ def _binary(symbol: str, left: Value, right: Value) -> Value:
     if symbol == "or":
         return lambda data, message: left(data, message) or right(data, message)
     operation = _OPERATORS[symbol]
-    return lambda data, message: operation(left(data, message), right(data, message))
+    return _checked(
+        symbol, lambda data, message: operation(left(data, message), right(data, message))
+    )
+
+
+def _checked(symbol: str, operation: Value) -> Value:
+    """Where the fields of a message are not known, anything may be in them."""
+
+    def value(data: Mapping[str, Any], message: Any) -> Any:
+        try:
+            return operation(data, message)
+        except TypeError:
+            raise ExecutionError(f"`{symbol}` does not work on what a message holds") from None
+
+    return value
 
 
 def _field(base: Value, field: str) -> Value:

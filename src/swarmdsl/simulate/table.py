@@ -220,7 +220,9 @@ def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: An
         return
     held = data[variable]
     for field in path[:-1]:
-        held = held.setdefault(field, {})
+        held = held.setdefault(field, {}) if isinstance(held, dict) else None
+    if not isinstance(held, dict):
+        raise ExecutionError(f"`{variable}` has no `{'.'.join(path)}` that could be stored")
     held[path[-1]] = value
 
 

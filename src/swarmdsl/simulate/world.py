@@ -16,6 +16,9 @@ from swarmdsl.simulate.clock import Alarm, Clock
 from swarmdsl.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario, meant
 from swarmdsl.simulate.trace import Line, Trace
 
+_OF_ACTIVITIES = "do."
+"""How the events of activities begin, in tables of models and of our SCXML."""
+
 
 @dataclass(frozen=True)
 class Crossing:
@@ -112,14 +115,8 @@ class World:
         """Bring an event from outside to machines; that of an activity ends the activity."""
         for actor in to:
             instance = self._instances[actor]
-            run = next(
-                (
-                    run
-                    for run in self._ends
-                    if run.instance is instance and event in run.activity.events.values()
-                ),
-                None,
-            )
+            going_on = self.runs(actor) if event.startswith(_OF_ACTIVITIES) else ()
+            run = next((run for run in going_on if event in run.activity.events.values()), None)
             if run is not None:
                 self._end(run, event, data)
             elif instance.running:
