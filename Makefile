@@ -6,6 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 MUTANTS ?= 10000
+BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
 VSIX_DIR := dist
@@ -39,9 +40,8 @@ fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
 
-bench: $(READY) ## Measure the phases on large models, and the engine.
-	$(BIN)/python benchmarks/bench.py
-	$(BIN)/python benchmarks/engine.py
+bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/performance.md; BENCH=cold,parse for some of it.
+	$(BIN)/python benchmarks/bench.py $(BENCH)
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
 	$(BIN)/pytest -q tests/front/test_mutations.py tests/peg --mutants $(MUTANTS)
@@ -68,6 +68,11 @@ $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	touch $@
+
+# What cannot be installed is not measured, and the page says so.
+$(BENCH_READY): pyproject.toml benchmarks/package-lock.json
+	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[bench]'
+	-cd benchmarks && npm ci && touch node_modules/.ready
 
 $(EXTENSION_READY): $(EXTENSION)/package-lock.json
 	cd $(EXTENSION) && npm ci

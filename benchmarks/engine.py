@@ -1,15 +1,18 @@
-"""Measures the engine of state machines, against python-statemachine."""
+"""Measures the engine of state machines, against those of others."""
 
 from __future__ import annotations
 
-import platform
+import json
 import tracemalloc
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
 from time import process_time
 from typing import Any
 
-from statemachine.io import load
-
+import peers
+from measure import Section, interleaved, process, spread
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.runtime import Event, Instance, Machine, Observer
 from swarmdsl.scxml import read
@@ -108,14 +111,11 @@ def instance(made: Machine, observer: Observer | None = None) -> Instance:
     return running
 
 
-def best_of(action: Callable[[], object]) -> float:
-    """The shortest time of some runs, in seconds of the processor."""
-    times = []
-    for _ in range(RUNS):
-        start = process_time()
-        action()
-        times.append(process_time() - start)
-    return min(times)
+def seconds(action: Callable[[], object]) -> float:
+    """How long it takes, by time of the processor."""
+    start = process_time()
+    action()
+    return process_time() - start
 
 
 def events_a_second(running: Instance, names: list[str]) -> float:
@@ -128,11 +128,13 @@ def events_a_second(running: Instance, names: list[str]) -> float:
                 running.receive(Event(name))
                 running.configuration  # noqa: B018
 
-    return rounds * len(names) / best_of(run)
+    return rounds * len(names) / seconds(run)
 
 
-def events_of_the_other(text: str, names: list[str]) -> float:
+def events_of_statemachine(text: str, names: list[str]) -> float:
     """The same of python-statemachine."""
+    from statemachine.io import load
+
     running = load(text, format="scxml", trusted=True)()
     rounds = EVENTS // FEWER // len(names)
 
@@ -142,7 +144,15 @@ def events_of_the_other(text: str, names: list[str]) -> float:
                 running.send(name)
                 running.configuration  # noqa: B018
 
-    return rounds * len(names) / best_of(run)
+    return rounds * len(names) / seconds(run)
+
+
+def events_of_scion(text: str, names: list[str], folder: Path) -> float:
+    """The same of SCION, in a process of its own."""
+    file = folder / "scion.json"
+    file.write_text(json.dumps([[text, names, EVENTS]]), encoding="utf-8")
+    script = str(peers.FOLDER / "scion.mjs")
+    return float(json.loads(process(["node", script, str(file)]).output)[0])
 
 
 def bytes_an_instance(made: Machine, names: list[str]) -> float:
@@ -162,23 +172,47 @@ def bytes_an_instance(made: Machine, names: list[str]) -> float:
     return size / len(running)
 
 
-def main() -> None:
-    """Print a table."""
-    print(f"Python {platform.python_version()}, {platform.machine()}, best of {RUNS} runs")
-    print(f"{'events a second':22}{'engine':>11}{'observed':>11}{'other':>9}{'times':>7}")
-    for name, (text, names) in CASES.items():
-        made = machine(text)
-        own = events_a_second(instance(made), names)
-        observed = events_a_second(instance(made, Silent()), names)
-        other = events_of_the_other(text, names)
-        print(f"{name:22}{own:11,.0f}{observed:11,.0f}{other:9,.0f}{own / other:7.0f}")
-    text, names = CASES["depth 6, two regions"]
-    print(f"{bytes_an_instance(machine(text), names):.0f} bytes an instance of {INSTANCES}")
-    text, _ = CASES["1000 states"]
-    print(
-        f"1000 states read and started in {best_of(lambda: instance(machine(text))) * 1e3:.1f} ms"
+@dataclass(frozen=True)
+class Engine:
+    """An engine, and how many events a second it takes; `peer` is what must be installed."""
+
+    name: str
+    speed: Callable[[str, list[str]], float]
+    peer: str | None = None
+
+
+def section(folder: Path) -> Section:
+    """Send events to each engine."""
+    engines = (
+        Engine("swarmdsl", lambda text, names: events_a_second(instance(machine(text)), names)),
+        Engine(
+            "swarmdsl, observed",
+            lambda text, names: events_a_second(instance(machine(text), Silent()), names),
+        ),
+        Engine("python-statemachine", events_of_statemachine, "python-statemachine"),
+        Engine(
+            "SCION",
+            lambda text, names: events_of_scion(text, names, folder),
+            "@scion-scxml/scxml",
+        ),
     )
-
-
-if __name__ == "__main__":
-    main()
+    present, absent = peers.divide(engines)
+    found = Section(
+        "Thousands of events a second that an engine takes, the active states looked at after "
+        f"each, by time of the processor (least / middle / greatest of {RUNS} rounds). All read "
+        "the same documents of SCXML.",
+        ["machine", *(peers.title(each.name, each.peer) for each in present)],
+    )
+    for name, (text, names) in CASES.items():
+        speeds = interleaved(
+            {each.name: partial(each.speed, text, names) for each in present}, RUNS
+        )
+        found.rows.append([name, *(spread(values, "{:.1f}", 1e-3) for values in speeds.values())])
+    text, names = CASES["depth 6, two regions"]
+    size = bytes_an_instance(machine(text), names)
+    found.notes.append(f"{size:.0f} bytes for each of {INSTANCES:,} instances with two regions")
+    text, _ = CASES["1000 states"]
+    starts = [seconds(lambda: instance(machine(text))) for _ in range(RUNS)]
+    found.notes.append(f"1000 states read and started in {spread(starts, '{:.1f}', 1e3)} ms")
+    found.notes += absent
+    return found

@@ -9,13 +9,15 @@ constants, components, members, machines of several shapes, and a swarm of all o
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from random import Random
 
 FILES = 334
 LINES = 300
 SEED = 7
+# Writes a machine with a name, for a package of a number, that uses what another one declares.
+Shape = Callable[[str, int, int], str]
 # How many earlier packages one imports at most.
 _IMPORTS = 3
 
@@ -68,30 +70,45 @@ def write(folder: Path, files: int = FILES, lines: int = LINES) -> int:
     folder.mkdir(parents=True, exist_ok=True)
     texts = {"interfaces": _SHARED}
     for number in range(files - 1):
-        texts[f"area{number}"] = _package(number, lines, random)
+        texts[f"area{number}"] = _package(number, lines, random, _SHAPES)
     for name, text in texts.items():
         (folder / f"{name}.swarm").write_text(text, encoding="utf-8")
     return sum(text.count("\n") for text in texts.values())
 
 
-def _package(number: int, lines: int, random: Random) -> str:
+def write_file(file: Path, lines: int, *, plain: bool = False) -> int:
+    """Write a model of about that many lines in one file and what it imports; return its lines.
+
+    A `plain` one has nothing that some target cannot express.
+    """
+    shapes = (_plain,) if plain else _SHAPES
+    text = _package(0, lines, Random(SEED), shapes)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text, encoding="utf-8")
+    (file.parent / "interfaces.swarm").write_text(_SHARED, encoding="utf-8")
+    return text.count("\n")
+
+
+def _package(number: int, lines: int, random: Random, shapes: Sequence[Shape]) -> str:
     """A package with as many machines as there are lines for, and messages in the rest."""
     earlier = sorted(random.sample(range(number), min(number, random.randrange(_IMPORTS + 1))))
     used = random.choice(earlier) if earlier else number
-    text = _head(number, earlier)
+    parts = [_head(number, earlier)]
+    left = lines - parts[0].count("\n")
     machines: list[str] = []
     while True:
-        shape = random.choice(_SHAPES)
+        shape = random.choice(shapes)
         name = f"{shape.__name__.strip('_').title()}{number}x{len(machines)}"
         machine = f"\n{shape(name, number, used)}\n{_member(name, number, used)}"
         end = _swarm(number, [*machines, name])
-        if machines and (text + machine + end).count("\n") > lines:
+        if machines and (machine + end).count("\n") > left:
             break
-        text += machine
+        parts.append(machine)
+        left -= machine.count("\n")
         machines.append(name)
-    text += _swarm(number, machines)
-    left = (lines - text.count("\n")) // _record("").count("\n")
-    return text + "".join(_record(f"{number}x{count}") for count in range(left))
+    parts.append(_swarm(number, machines))
+    records = (left - parts[-1].count("\n")) // _record("").count("\n")
+    return "".join(parts) + "".join(_record(f"{number}x{count}") for count in range(records))
 
 
 def _head(number: int, earlier: list[int]) -> str:
@@ -316,7 +333,7 @@ statemachine {name} {{
 """
 
 
-_SHAPES: tuple[Callable[[str, int, int], str], ...] = (_plain, _nested, _parallel)
+_SHAPES = (_plain, _nested, _parallel)
 
 
 def _member(name: str, number: int, used: int) -> str:

@@ -1,0 +1,100 @@
+"""Measures programs and functions that take turns, and tells it as tables of Markdown."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from statistics import median
+from time import perf_counter
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a process took: seconds of the processor and of the clock, bytes at its peak.
+
+    The bytes are no fewer than those of the process that started it.
+    """
+
+    cpu: float
+    wall: float
+    memory: int
+    output: str
+
+
+class FailedError(Exception):
+    """A program that was to be measured ended with an error; it says what the program said."""
+
+
+def process(command: Sequence[str]) -> Cost:
+    """Run a program to its end, which must be a good one.
+
+    Raises FailedError.
+    """
+    start = perf_counter()
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8"
+    ) as running:
+        assert running.stdout is not None
+        output = running.stdout.read()
+        _, status, used = os.wait4(running.pid, 0)
+        running.returncode = os.waitstatus_to_exitcode(status)
+    wall = perf_counter() - start
+    if running.returncode:
+        raise FailedError(f"{' '.join(command)}\n{output}")
+    return Cost(used.ru_utime + used.ru_stime, wall, used.ru_maxrss * 1024, output)
+
+
+def interleaved(
+    runs: Mapping[str, Callable[[], float]], rounds: int, warm_up: int = 0
+) -> dict[str, list[float]]:
+    """What each gives in each round.
+
+    They take turns, so that a machine that is slow for a while is slow for all of them.
+    """
+    found: dict[str, list[float]] = {name: [] for name in runs}
+    for number in range(-warm_up, rounds):
+        for name, run in runs.items():
+            value = run()
+            if number >= 0:
+                found[name].append(value)
+    return found
+
+
+def spread(values: Sequence[float], form: str = "{:.0f}", scale: float = 1) -> str:
+    """The least, the middle and the greatest of them."""
+    three = (min(values), median(values), max(values))
+    return " / ".join(form.format(value * scale) for value in three)
+
+
+@dataclass
+class Section:
+    """What a group of measurements found: a table, and sentences before and after it."""
+
+    intro: str
+    header: Sequence[str]
+    rows: list[Sequence[str]] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def goal(
+        self, what: str, value: float, limit: float, form: str, *, least: bool = False
+    ) -> None:
+        """Note whether a goal is reached: at most `limit`, or at least that."""
+        reached = value >= limit if least else value <= limit
+        bound = f"at {'least' if least else 'most'} {form.format(limit)}"
+        verdict = "reached" if reached else "**missed**"
+        self.notes.append(f"{what}: {form.format(value)}; goal {bound}, {verdict}")
+
+    def markdown(self) -> str:
+        """The section as Markdown."""
+        lines = [self.intro, ""]
+        if self.rows:
+            lines += [_row(self.header), _row(["---"] + ["--:"] * (len(self.header) - 1))]
+            lines += [_row(row) for row in self.rows] + [""]
+        lines += [f"- {note}" for note in self.notes]
+        return "\n".join(lines).rstrip() + "\n"
+
+
+def _row(cells: Sequence[str]) -> str:
+    return f"| {' | '.join(cells)} |"

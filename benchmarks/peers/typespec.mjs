@@ -1,0 +1,15 @@
+// Times TypeSpec: node typespec.mjs WARM_UP FILE
+// Prints the processor's seconds to compile a file without output, its checks included.
+import { compile, NodeHost } from "@typespec/compiler";
+
+async function run(file) {
+  const program = await compile(NodeHost, file, { noEmit: true, nostdlib: false });
+  if (program.hasError()) throw new Error(program.diagnostics[0].message);
+}
+
+const [warmUp, file] = process.argv.slice(2);
+for (let time = 0; time < 5; time++) await run(warmUp);
+const start = process.cpuUsage();
+await run(file);
+const { user, system } = process.cpuUsage(start);
+console.log((user + system) / 1e6);
