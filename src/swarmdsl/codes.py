@@ -193,6 +193,7 @@ CODES: dict[str, Code] = {
     "never-settles": Code("SW1006", "error", "{who} does not come to rest at {time}"),
     "failed-expression": Code("SW1007", "warning", "a value in `{machine}` failed: {reason}"),
     "missing-key": Code("SW1008", "error", "this needs `{name}`"),
+    "too-many-members": Code("SW1009", "error", "{count} members are too many to simulate"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

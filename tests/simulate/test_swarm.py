@@ -159,3 +159,12 @@ def test_members_that_talk_without_end_while_no_time_passes(simulate: Simulate) 
     assert ran.code == 1
     assert "does not come to rest at 0 ms" in ran.err
     assert "on Found / send Found -> A" in ran.err
+
+
+def test_too_many_members(simulate: Simulate) -> None:
+    text = SWARM.replace("Uav[2]", "Uav[60000]")
+
+    for ran in (simulate(text), simulate(SWARM, scenario="[count]\nrover = 1000000000\n")):
+        assert (ran.code, ran.out) == (1, "")
+        assert "error[SW1009]: " in ran.err
+    assert simulate(text, "--machine", "Helper").code == 0

@@ -11,7 +11,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import Param, StateMachine
 from swarmdsl.runtime import Machine
 from swarmdsl.simulate.scenario import Robot, Scenario
-from swarmdsl.simulate.subject import Subject
+from swarmdsl.simulate.subject import MOST_MEMBERS, Subject
 from swarmdsl.simulate.table import first_data, first_value, stored
 
 
@@ -37,6 +37,11 @@ def actors(
     subject: Subject, robots: Iterable[Robot], scenario: Scenario, report: Diagnostics
 ) -> list[Actor]:
     """All that run, in the order of the robots; a param without a value is reported."""
+    size = subject.size(scenario.counts)
+    if size > MOST_MEMBERS:
+        help_ = "give each role fewer in `[count]` of a scenario, or run one machine: `--machine`"
+        report.report("too-many-members", count=size, help=help_)
+        return []
     if subject.document is not None:
         return [Actor(None, robot, subject.document.machine) for robot in robots]
     assert subject.system is not None

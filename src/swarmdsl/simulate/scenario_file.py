@@ -9,6 +9,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import Action, Field, Service, Type
 from swarmdsl.project.toml import Document
 from swarmdsl.simulate.actors import params, words
+from swarmdsl.simulate.durations import MILLISECOND
 from swarmdsl.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Subject
@@ -200,8 +201,8 @@ class _Reader:
             return None
         at = table.length("at")
         every = table.duration("every") if "every" in table else None
-        if every == 0:
-            table.wrong(("every",), "a time of more than 0", table.values["every"])
+        if every is not None and every < MILLISECOND:
+            table.wrong(("every",), "a time of 1 ms or more", table.values["every"])
         to = table.names("to", self.members, "member") if "to" in table else None
         return Message(event, at, every, to, data) if at is not None else None
 

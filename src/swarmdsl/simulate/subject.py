@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import islice
 
 from swarmdsl import ir
 from swarmdsl.diagnostics import Diagnostics
@@ -13,6 +14,8 @@ from swarmdsl.simulate.scenario import Robot
 from swarmdsl.simulate.table import table
 from swarmdsl.source import COMMAND_LINE, Source, Span
 from swarmdsl.suggest import suggest
+
+MOST_MEMBERS = 10_000
 
 
 @dataclass(frozen=True)
@@ -40,15 +43,26 @@ class Subject:
     document: Document | None = None
     tables: dict[str, Machine] = field(default_factory=dict)
 
+    def size(self, counts: Mapping[str, int]) -> int:
+        """How many members there are: as many as there must be, if nothing else is said.
+
+        One at least of each role; counts can say that there is none.
+        """
+        return sum(self._number(role, counts) for role in self.swarm.roles) if self.swarm else 1
+
+    def _number(self, role: ir.Role, counts: Mapping[str, int]) -> int:
+        return counts.get(role.name, max(role.multiplicity.lower, 1))
+
     def crew(self, counts: Mapping[str, int]) -> list[Robot]:
-        """The members; where nothing else is said, as many as there must be, and one at least."""
+        """The members, as many as `size` says, up to MOST_MEMBERS."""
         if self.swarm is None:
             return [Robot()]
-        return [
+        members = (
             Robot(f"{role.name}[{number}]", role.name, role.member)
             for role in self.swarm.roles
-            for number in range(counts.get(role.name, max(role.multiplicity.lower, 1)))
-        ]
+            for number in range(self._number(role, counts))
+        )
+        return list(islice(members, MOST_MEMBERS))
 
     def behaviours(self, robot: Robot) -> Iterator[tuple[ir.Part | None, StateMachine]]:
         """The machines of the model that a robot runs: its own, and those of its parts."""
