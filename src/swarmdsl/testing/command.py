@@ -44,9 +44,7 @@ def run(request: Request, stdout: TextIO, stderr: TextIO) -> bool:
 class _Session:
     def __init__(self, request: Request, stdout: TextIO, stderr: TextIO) -> None:
         self._request = request
-        # Programs read the diagnostics, people all of it.
-        results = stdout if request.format == "text" else stderr
-        self._console = Console(results, stdout, request.format)
+        self._console = Console(stdout, stderr, request.format)
         self._models = Models()
         self._coverage = Coverage()
         self._outcomes: list[FileOutcome] = []

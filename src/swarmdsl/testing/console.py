@@ -20,11 +20,15 @@ _COLOURS = {"ok": "green", "FAILED": "red"}
 
 
 class Console:
-    """Writes to `results` what becomes of each test, to `stream` the failures."""
+    """Writes what becomes of each test and the failures to `stdout`, all in all to `stderr`.
 
-    def __init__(self, results: TextIO, stream: TextIO, format_: str) -> None:
-        self._results = results
-        self._stream = stream
+    Where programs read the failures, nothing else is written to `stdout`.
+    """
+
+    def __init__(self, stdout: TextIO, stderr: TextIO, format_: str) -> None:
+        self._results = stdout if format_ == "text" else stderr
+        self._stream = stdout
+        self._summary = stderr
         self._format = format_
 
     def file(self, outcome: FileOutcome) -> None:
@@ -90,7 +94,7 @@ class Console:
         parts += [f"{left_out} left out"] if left_out else []
         parts += [f"{counted(unread, 'file')} not read"] if unread else []
         self._flush()
-        click.echo(f"{', '.join(parts)} in {seconds:.2f} s", err=True)
+        self._summary.write(f"{', '.join(parts)} in {seconds:.2f} s\n")
 
     def _say(self, text: str) -> None:
         self._results.write(f"{text}\n")
