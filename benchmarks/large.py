@@ -16,7 +16,7 @@ from parsing import OURS, PROTOC
 ROUNDS = 5
 LINES_OF_A_FILE = 10_000
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
-_EDITS = str(Path(__file__).with_name("edits.py"))
+_RECHECK = str(Path(__file__).with_name("recheck.py"))
 
 
 def section(folder: Path) -> Section:
@@ -48,7 +48,7 @@ def section(folder: Path) -> Section:
         command = [*each.command, given[0], *given]
         runs[each.name] = lambda command=command: float(process(command).output.split()[-1])
     times = interleaved(runs, ROUNDS, warm_up=1)
-    edits = json.loads(process([sys.executable, _EDITS, str(models), str(single)]).output)
+    edits = json.loads(process([sys.executable, _RECHECK, str(models), str(single)]).output)
 
     found = Section(
         f"{len(files)} files with {lines:,} lines that import each other, in milliseconds "
