@@ -17,8 +17,8 @@ from swarmdsl.expressions import (
     quantity_value,
     unquoted,
 )
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
-from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
     Call,

@@ -3,7 +3,7 @@
 `swarm_parser`, which is made from the grammar, parses a file or refuses it. Then it is cut
 into pieces (`pieces`), and for those that are refused the rest comes in: a closer look
 (`scan`), a slower parser that knows where it had to stop (`peg.machine`), and what makes the
-best of it (`recovery`).
+best of it (`recovery`). All of that is imported with the first syntax error.
 """
 
 from __future__ import annotations
@@ -13,20 +13,19 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
+from typing import TYPE_CHECKING
 
 from swarmdsl import swarm_parser
 from swarmdsl.comments import DocComment, documentation
 from swarmdsl.diagnostics import Diagnostics, placed
-from swarmdsl.draft import Draft
 from swarmdsl.expression_parser import TooDeepError, report_fault
-from swarmdsl.peg.machine import mismatch
-from swarmdsl.pieces import joined, split
-from swarmdsl.recovery import Parsed, parse_with_recovery
+from swarmdsl.parsed import NESTING_LIMIT, Parsed
 from swarmdsl.resources import checkout_root, grammar_checksum
-from swarmdsl.scan import NESTING_LIMIT, scan
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Documented, Expression, Model, walk
-from swarmdsl.syntax_errors import TERMINALS, Failure
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax_errors import Failure
 
 # What is nested less than that, by itself and in expressions, has fewer brackets in each
 # other than the limit: nobody needs to count them.
@@ -46,6 +45,9 @@ def parse_piece(source: Source, report: Diagnostics) -> Parsed:
 
 
 def _parse_in_pieces(source: Source, report: Diagnostics) -> Parsed:
+    from swarmdsl.draft import Draft
+    from swarmdsl.pieces import joined, split
+
     parts = []
     for start, end in split(source.text):
         piece = Source(source.name, source.text[start:end], source.path)
@@ -87,6 +89,9 @@ def _parse_shallow(source: Source, report: Diagnostics) -> Parsed | None:
 
 
 def _parse_carefully(source: Source, report: Diagnostics) -> Parsed:
+    from swarmdsl.recovery import parse_with_recovery
+    from swarmdsl.scan import scan
+
     if checkout_root() and grammar_checksum() != swarm_parser.GRAMMAR:
         warnings.warn("grammar/*.tx has changed: run `make parser`", stacklevel=3)
     scanned = scan(source, report)
@@ -106,6 +111,9 @@ def _parse_text(source: Source) -> Model | Failure:
         model, _ = made
         model.span = Span(source, 0, len(source.text))
         return model
+    from swarmdsl.peg.machine import mismatch
+    from swarmdsl.syntax_errors import TERMINALS, Failure
+
     found = mismatch(swarm_parser.PROGRAM, swarm_parser.TERMINALS, swarm_parser.BLANK, source.text)
     assert found is not None, "the two parsers disagree"
     expected = (

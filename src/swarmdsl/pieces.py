@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from swarmdsl.brackets import outermost
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.recovery import Parsed
+from swarmdsl.parsed import Parsed
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Model, references, walk
 

@@ -13,16 +13,17 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import get_args
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.draft import Draft, untouched
+from swarmdsl.parsed import Parsed
 from swarmdsl.repairs import mend
 from swarmdsl.scan import Scan
 from swarmdsl.source import Source, Span
 from swarmdsl.statements import statement_at
-from swarmdsl.syntax import Declaration, Expression, Model, Vertex, Word, walk
+from swarmdsl.syntax import Model, Vertex, Word, walk
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
 Parser = Callable[[Source], Model | Failure]
@@ -30,24 +31,6 @@ Parser = Callable[[Source], Model | Failure]
 
 _ERRORS_PER_DECLARATION = 50
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
-
-
-@dataclass
-class Parsed:
-    """The syntax tree of a file, or a piece of one, and what could not be read of it.
-
-    `damaged` holds declarations with a piece missing: checks of what they lack would
-    mislead. `lost_names` are the words in statements that could not be parsed; whatever is
-    not found under one of these names may well be declared there. `repaired` are the
-    expressions that were read otherwise than they are written, `unnamed` the kinds of what has
-    no name that could be read.
-    """
-
-    model: Model
-    damaged: set[Declaration] = field(default_factory=set)
-    lost_names: set[str] = field(default_factory=set)
-    repaired: set[Expression] = field(default_factory=set)
-    unnamed: set[str] = field(default_factory=set)
 
 
 def parse_with_recovery(

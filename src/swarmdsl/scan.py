@@ -14,12 +14,10 @@ from dataclasses import dataclass
 from swarmdsl.brackets import CLOSER, Repair, find_faults, report_fault
 from swarmdsl.comments import Comments, DocComment
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.slips import likeness
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax_advice import strange_character
-
-# Deeper than any model a person writes, and what the parser takes without overflow.
-NESTING_LIMIT = 64
 
 _TOKEN = re.compile(
     r'(?P<text>"(?:[^"\\\n]|\\[^\n])*")'

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from swarmdsl.project.settings import Settings
 
 
-# Room for models as deep as scan.NESTING_LIMIT: textX recurses some thirty frames a level.
+# Room for models as deep as parsed.NESTING_LIMIT: textX recurses some thirty frames a level.
 _RECURSION_LIMIT = 20_000
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.scan import NESTING_LIMIT, Scan, scan
+from swarmdsl.parsed import NESTING_LIMIT
+from swarmdsl.scan import Scan, scan
 from swarmdsl.source import Source
 
 

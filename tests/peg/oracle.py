@@ -13,9 +13,9 @@ from lark.exceptions import UnexpectedInput
 from textx import TextXSyntaxError
 
 from swarmdsl.expressions import is_too_large, quantity_value, unquoted
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.peg.swarm import TARGET
 from swarmdsl.resources import grammar
-from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
     NODES,

@@ -13,8 +13,8 @@ from lark.exceptions import UnexpectedInput
 from swarmdsl import swarm_parser
 from swarmdsl.diagnostics import Diagnostic, Diagnostics
 from swarmdsl.expression_parser import ExpressionParser, report_fault
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.peg.grammar import read
-from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source, Span
 
 from ..front.test_mutations import MUTATIONS

@@ -16,10 +16,10 @@ import pytest
 
 from swarmdsl import swarm_parser
 from swarmdsl.expression_parser import TooDeepError
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.peg.grammar import Use, inside, read
 from swarmdsl.peg.machine import mismatch
 from swarmdsl.peg.swarm import PATH, TARGET, parser
-from swarmdsl.scan import NESTING_LIMIT
 from swarmdsl.source import Source
 from swarmdsl.syntax import Expression, walk
 

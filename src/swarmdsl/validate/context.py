@@ -17,7 +17,6 @@ from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Branch,
-    Declaration,
     EventTrigger,
     Expression,
     ImportRos,
@@ -27,6 +26,7 @@ from swarmdsl.syntax import (
     Param,
     StateMachine,
     StructType,
+    TopLevel,
     Transition,
     TypeRef,
     Variable,
@@ -50,7 +50,7 @@ class Context:
     report: Diagnostics
     interfaces: Interfaces
     typing: Typing
-    damaged: set[Declaration]
+    damaged: set[TopLevel]
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
     certain: dict[Transition | Branch, bool | None] = field(default_factory=dict)
     outlines: dict[StateMachine, Outline] = field(default_factory=dict)

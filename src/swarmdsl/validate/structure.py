@@ -9,7 +9,7 @@ from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles, leaves_first
 from swarmdsl.link_machines import all_resolved, content, regions, vertices
 from swarmdsl.load import Project
-from swarmdsl.scan import NESTING_LIMIT
+from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
