@@ -30,6 +30,11 @@ class Quantity:
             return count == of > 0
         return count >= (self.least or 0) and (self.most is None or count <= self.most)
 
+    @property
+    def waits(self) -> bool:
+        """Whether somebody is needed: what nobody needs to do is so from the beginning."""
+        return bool(self.least) or self == ALL
+
 
 ALL = Quantity()
 ANY = Quantity(least=1)

@@ -78,6 +78,7 @@ class _Play:
             when = f"after {shown(now)}" if now else "at the start"
             fields = {"expected": failed.expected}
             label = f"{when}: {failed.told}"
+            self._world.trace.flush()
             return self._failure("failed-expectation", failed.place, fields, label)
         except LoopError as error:
             return self._loop(error, place)
@@ -162,6 +163,7 @@ class _Play:
     # ---- failures
 
     def _loop(self, error: LoopError, place: Span) -> Failure:
+        self._world.trace.flush()
         last = self._witness.last
         who = f"`{last[-1].actor.name or self._case.subject.name}`" if last else "a machine"
         related = []
@@ -186,5 +188,4 @@ class _Play:
         label: str,
         related: tuple[Label, ...] = (),
     ) -> Failure:
-        self._world.trace.flush()
         return Failure(code, place, fields, label, related, tuple(self._witness.last))

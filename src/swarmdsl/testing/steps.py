@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics, listed
@@ -13,6 +14,7 @@ from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.table import OUTCOMES
 from swarmdsl.simulate.values import fitted, fitted_fields, kind
 from swarmdsl.source import Span
+from swarmdsl.suggest import suggest
 from swarmdsl.testing.case import (
     ALL,
     ANY,
@@ -40,6 +42,19 @@ _DEEDS: Mapping[str, Deed] = {"sends": "sends", "starts": "starts", "cancels": "
 _VERBS = ("in", *_DEEDS)
 _TIMES = ("within", "for")
 _CLAIM = (*_SUBJECTS, "count", "of", *_VERBS)
+# What other tools and languages call it.
+_OTHER_WORDS = {
+    **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
+    **dict.fromkeys(("event", "raise", "emit", "publish", "trigger"), "send"),
+    **dict.fromkeys(("finish", "complete", "outcome", "succeed", "abort"), "end"),
+    **dict.fromkeys(("kill", "lost", "crash", "fail"), "lose"),
+    **dict.fromkeys(("expect", "state", "active", "assert", "is"), "in"),
+    **dict.fromkeys(("every", "each"), "all"),
+    **dict.fromkeys(("none", "not", "never"), "no"),
+    **dict.fromkeys(("timeout", "before", "eventually"), "within"),
+    **dict.fromkeys(("during", "always", "lasting"), "for"),
+    **dict.fromkeys(("member", "by", "robot"), "who"),
+}
 _COUNT = re.compile(r"(\d{1,9})(?:\.\.(\d{1,9}|\*))?")
 
 
@@ -56,7 +71,7 @@ class StepReader:
         if not verbs:
             return self._expect(table)
         verb = verbs[0]
-        table.check_keys((verb, *_ACTIONS[verb]), f"a step with `{verb}`")
+        self._check_keys(table, (verb, *_ACTIONS[verb]), f"a step with `{verb}`")
         read: dict[str, Callable[[Table], Step | None]] = {
             "send": self._send,
             "end": self._end,
@@ -67,8 +82,18 @@ class StepReader:
 
     def claim(self, table: Table) -> Claim | None:
         """Something that must be so all the time."""
-        table.check_keys(_CLAIM, "what is always so")
+        self._check_keys(table, _CLAIM, "what is always so")
         return self._claim(table)
+
+    def _check_keys(self, table: Table, known: Iterable[str], owner: str) -> None:
+        """Report keys that mean nothing, some with what they may have been meant for."""
+        known = list(known)
+        for key in table.values:
+            if key not in known:
+                word = _OTHER_WORDS.get(key)
+                help_ = f"write `{word}`" if word in known else suggest(key, known, "keys")
+                place = table.key_place(key)
+                self._report.report("unknown-key", place, name=key, owner=owner, help=help_)
 
     # ---- what is done
 
@@ -132,7 +157,7 @@ class StepReader:
     # ---- what is expected
 
     def _expect(self, table: Table) -> Expect | None:
-        table.check_keys((*_ACTIONS, *_CLAIM, *_TIMES), "a step")
+        self._check_keys(table, (*_ACTIONS, *_CLAIM, *_TIMES), "a step")
         claim = self._claim(table)
         times = [key for key in _TIMES if key in table]
         lengths = {key: table.duration(key) for key in times}
@@ -147,8 +172,14 @@ class StepReader:
             text += f" within {shown(within)}"
         if lasting is not None:
             text += f" for {shown(lasting)}"
-        claim = Claim(**{**vars(claim), "text": text})
-        return Expect(claim.place, claim, within, lasting)
+        if within is not None and claim.deed is not None and not claim.quantity.waits:
+            reason = "nothing has to be done for this, so that `within` waits for nothing"
+            help_ = "`for` lets time pass in which it stays so"
+            self._report.report(
+                "impossible-step", table.key_place("within"), reason=reason, help=help_
+            )
+            return None
+        return Expect(claim.place, replace(claim, text=text), within, lasting)
 
     def _claim(self, table: Table) -> Claim | None:
         verb = self._only(table, _VERBS, "what is expected")
@@ -166,7 +197,7 @@ class StepReader:
         who = self._members(table, key) if key is not None else self._names.everybody()
         if verb is None or quantity is None or not who:
             return None
-        words = _words(table, key, quantity)
+        words = _words(table, key)
         word = table.values[key] if key is not None else ""
         if verb == "in":
             states = self._states(table)
@@ -246,7 +277,7 @@ class StepReader:
         self._report.report("impossible-step", table.key_place(keys[1]), reason=reason)
 
 
-def _words(table: Table, key: str | None, quantity: Quantity) -> str:
+def _words(table: Table, key: str | None) -> str:
     """Whom a claim is about, in words."""
     name = f"`{table.values[key]}` " if key is not None else ""
     if "count" in table:
