@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+import operator
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -155,14 +156,14 @@ _ECMASCRIPT = {
     "as_object": _of,
     "Math": SimpleNamespace(abs=abs, ceil=math.ceil, max=max, min=min, sqrt=math.sqrt),
     "JSON": SimpleNamespace(parse=_of, stringify=_of),
-    "modulo": lambda left, right: left % right,
+    "modulo": operator.mod,
+    "quotient": operator.truediv,
     "true": True,
     "false": False,
 }
 _WORDS = {"&&": " and ", "||": " or ", "!": " not "}
 _PYTHON = re.compile(
-    r"""(?P<kept>"(?:[^"\\]|\\.)*"|!=)|(?P<word>&&|\|\||!)"""
-    r"|(?P<modulo>\(function \(a, b\) \{ return \(\(a % b\) \+ b\) % b; \}\))"
+    r"""(?P<kept>"(?:[^"\\]|\\.)*"|!=)|(?P<word>&&|\|\||!)|(?P<function>\(function [^}]*\}\))"""
 )
 
 
@@ -170,9 +171,11 @@ def in_python(document: bytes) -> str:
     """A document whose expressions python-statemachine can evaluate: it does so as Python."""
 
     def word(found: re.Match[str]) -> str:
-        if found["kept"]:
-            return found["kept"]
-        return "modulo" if found["modulo"] else _WORDS[found["word"]]
+        if found["function"]:
+            # Those of Python have no value where these have none.
+            signs = {"sqrt": "Math.sqrt", "%": "modulo", "/": "quotient"}
+            return next(name for sign, name in signs.items() if sign in found["function"])
+        return found["kept"] or _WORDS[found["word"]]
 
     root = etree.fromstring(document)
     for element in root.iter():

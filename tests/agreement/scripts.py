@@ -134,7 +134,7 @@ class Subject:
                     steps = (*before, model.happen(choice))
                 except LoopError:
                     continue
-                if model.world.errors:
+                if model.gave_up:
                     continue
                 note(model, steps)
                 if model.situation not in known and len(known) < SITUATIONS:
@@ -157,8 +157,8 @@ class Subject:
     def walk(self, dice: random.Random) -> tuple[Step, ...]:
         """Things that happen by chance.
 
-        Up to where the machine would not come to rest, or an expression would have no value:
-        ECMAScript has values there, such as `Infinity`.
+        Up to where the machine would not come to rest, or an activity is aborted because its
+        goal has no value: to make it is the business of the host.
         """
         model = Model(self)
         steps: tuple[Step, ...] = ()
@@ -167,7 +167,7 @@ class Subject:
                 step = model.happen(dice.choice(choices))
             except LoopError:
                 break
-            if model.world.errors:
+            if model.gave_up:
                 break
             steps += (step,)
         return steps
@@ -242,6 +242,11 @@ class Model(Ours):
         self.watch.events.clear()
         self.take(step)
         return Step(self.subject.timers[self.watch.events[0]], time=True) if step.time else step
+
+    @property
+    def gave_up(self) -> bool:
+        """Whether an activity ended by itself in the last step."""
+        return any(name.startswith("do.") for name in self.watch.events[1:])
 
     @property
     def situation(self) -> Any:

@@ -104,10 +104,30 @@ def test_expressions_are_ecmascript(parsed: Any) -> None:
     (taken,) = [t for t in by_id(tree, "A").findall(f"{S}transition") if t.get("cond")]
 
     assert taken.get("cond") == (
-        "!(_event.data.level > 3 && ok) || xs.length == 2 && Math.sqrt(n) < 1.5"
+        "!(_event.data.level > 3 && ok) || xs.length == 2 && "
+        "(function (a) { return a >= 0 ? Math.sqrt(a) : null.value; })(n) < 1.5"
     )
     (assign,) = taken.findall(f"{S}assign")
     assert dict(assign.attrib) == {"location": "n", "expr": "Math.max(n, _event.data.level) - 1"}
+
+
+def test_what_has_no_value_has_none_in_ecmascript(parsed: Any) -> None:
+    tree = parsed(
+        """
+        var n : int32 = 3 var x : float64
+        initial A
+        state A { on Start / x = n / 4, x = 4 / n, n = 7 % n, n = n % 7 -> A }
+        """,
+        "",
+        "endless statemachine",
+    )
+
+    assert [assign.get("expr") for assign in tree.iter(f"{S}assign")] == [
+        "n / 4",
+        "(function (a, b) { return b != 0 ? a / b : null.value; })(4, n)",
+        "(function (a, b) { return b != 0 ? ((a % b) + b) % b : null.value; })(7, n)",
+        "((n % 7) + 7) % 7",
+    ]
 
 
 def test_names_that_ecmascript_keeps_are_changed(parsed: Any) -> None:

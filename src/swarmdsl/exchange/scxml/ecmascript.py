@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 
 from swarmdsl.defaults import default_value
 from swarmdsl.exchange.scxml.effects import effects_of
@@ -34,22 +35,45 @@ def dialect(data: Mapping[str, str]) -> Dialect:
         event="_event.data",
         operators={"and": "&&", "or": "||", "not": "!"},
         functions={
-            "sqrt": "Math.sqrt",
+            "sqrt": _root,
             "min": "Math.min",
             "max": "Math.max",
             "abs": "Math.abs",
             "len": ".length",
         },
         modulo=_modulo,
+        quotient=_quotient,
     )
+
+
+# What ECMAScript has `Infinity` or `NaN` for has no value in the language: it is an error.
+_NO_VALUE = "null.value"
+
+
+def _quotient(left: str, right: str) -> str:
+    if _is_number(right):
+        return f"{left} / {right}"
+    return f"(function (a, b) {{ return b != 0 ? a / b : {_NO_VALUE}; }})({left}, {right})"
 
 
 def _modulo(left: str, right: str) -> str:
     """The remainder with the sign of the divisor; that of `%` has the sign of the dividend."""
-    if "(" in right:
-        # Once only: the text of divisors in divisors would grow beyond all bounds.
-        return f"(function (a, b) {{ return ((a % b) + b) % b; }})({left}, {right})"
-    return f"(({left} % {right}) + {right}) % {right}"
+    if _is_number(right):
+        return f"(({left} % {right}) + {right}) % {right}"
+    result = f"b != 0 ? ((a % b) + b) % b : {_NO_VALUE}"
+    return f"(function (a, b) {{ return {result}; }})({left}, {right})"
+
+
+def _root(values: Sequence[str]) -> str:
+    (value,) = values
+    if _is_number(value):
+        return f"Math.sqrt({value})"
+    return f"(function (a) {{ return a >= 0 ? Math.sqrt(a) : {_NO_VALUE}; }})({value})"
+
+
+def _is_number(text: str) -> bool:
+    """Whether it is a literal above 0: a model in which one is 0 or less there is an error."""
+    return re.fullmatch(r"[0-9.]+(e[-+]?[0-9]+)?", text) is not None
 
 
 def stored(expression: Expression, words: Dialect) -> str:
