@@ -20,14 +20,21 @@ Item = Port | Param | Operation | Part | Connector | BehaviorUse | Communication
 Kind = TypeVar("Kind", bound=Item)
 
 
+# More than anyone writes: who extends something extends all that this extends, in turn.
+MOST_BASES = 64
+
+
 def lineage(owner: Component | Member) -> list[Component | Member]:
-    """The owner and what it extends, the nearest first; each once, also in a cycle."""
-    found: list[Component | Member] = []
+    """The owner and what it extends, the nearest first; each once, also in a cycle.
+
+    What is further away than any model needs is left out, and reported.
+    """
+    found: dict[Component | Member, None] = {}
     current: Component | Member | None = owner
-    while current is not None and current not in found:
-        found.append(current)
+    while current is not None and current not in found and len(found) <= MOST_BASES:
+        found[current] = None
         current = current.base.target if current.base is not None else None
-    return found
+    return list(found)
 
 
 def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:

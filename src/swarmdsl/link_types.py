@@ -95,7 +95,7 @@ class TypeLinker:
         """Resolve a type named in a file, and with it those that its aliases name."""
         self._report = report
         waiting: list[TypeRef] = []
-        aliases: list[AliasType] = []
+        aliases: dict[AliasType, None] = {}
         found: Type | AliasType | None = ref.type
         while ref.type is None:
             waiting.append(ref)
@@ -103,11 +103,12 @@ class TypeLinker:
             if not isinstance(found, AliasType):
                 break
             if found in aliases:
-                self._report_cycle(aliases[aliases.index(found) :])
+                way = list(aliases)
+                self._report_cycle(way[way.index(found) :])
                 self._endless.update(aliases)
             if found in self._endless:
                 break
-            aliases.append(found)
+            aliases[found] = None
             ref, file = found.type, self._homes[found]
             found = ref.type
         element = None if isinstance(found, AliasType) else found

@@ -112,9 +112,10 @@ class ValueLinker:
             package = f"{base.name}.{_words(fields[:count])}".rstrip(".")
             if package in self.scope.packages:
                 name, at = f"{package}.{field.name}", field.span
+        enums = self.scope.names(EnumType) if self.report.wants_hint("unresolved-name") else ()
         meant = [
             f"{known}.{name}"
-            for known in self.scope.names(EnumType)
+            for known in enums
             if (enum := self.scope.one(known, EnumType)) is not None
             and any(value.name == name for value in enum.values)
         ]

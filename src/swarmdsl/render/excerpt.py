@@ -11,6 +11,7 @@ WIDTH = 120
 _TAB = "    "
 _CONTEXT = 30
 _ELLIPSIS = "…"
+_NEAR = 4
 
 
 class Excerpt(NamedTuple):
@@ -31,15 +32,23 @@ def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
     text = span.source.line_text(line)
     first = min(column - 1, len(text))
     last = min(first + max(span.end - span.start, 0), len(text.rstrip()))
-    shown = [_TAB if character == "\t" else printable(character) for character in text]
-    before, marked, after = (
-        "".join(part) for part in (shown[:first], shown[first:last], shown[last:])
+    # Of a very long line only what is near can be shown: most characters take a cell or more.
+    near = _NEAR * width
+    parts = (
+        text[max(0, first - near) : first],
+        text[first : min(last, first + near)],
+        text[last : last + near],
     )
+    before, marked, after = ("".join(map(_shown, part)) for part in parts)
     if cell_len(before + marked + after) > width:
         before = _last_cells(before, max(_CONTEXT, width - cell_len(marked + after) - 1))
         marked = _first_cells(marked, width - cell_len(before))
         after = _first_cells(after, room) if (room := width - cell_len(before + marked)) else ""
     return Excerpt((before + marked + after).rstrip(), cell_len(before), max(cell_len(marked), 1))
+
+
+def _shown(character: str) -> str:
+    return _TAB if character == "\t" else printable(character)
 
 
 def cell_len(text: str) -> int:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.graph import cycles
+from swarmdsl.graph import cycles, leaves_first
 from swarmdsl.inference import fits
-from swarmdsl.inheritance import all_items
+from swarmdsl.inheritance import MOST_BASES, all_items
 from swarmdsl.ir.types import INT, STRING
 from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
@@ -62,14 +62,16 @@ def check_ports(owner: Component | Member, context: Context) -> None:
 
 
 def check_inheritance(project: Project, report: Diagnostics) -> None:
-    """No component and no member extends itself, through however many others."""
+    """No component and no member extends itself, through however many others, or very many."""
     owners = [o for _, o in project.declarations() if isinstance(o, (Component, Member))]
 
     def bases(owner: Component | Member) -> Iterator[tuple[Span, Component | Member]]:
         if owner.base is not None and owner.base.target is not None:
             yield owner.base.span, owner.base.target
 
+    endless = False
     for owner, spans in cycles(owners, bases):
+        endless = True
         *way, last = spans
         report.report(
             "inheritance-cycle",
@@ -77,6 +79,21 @@ def check_inheritance(project: Project, report: Diagnostics) -> None:
             name=owner.name,
             related=tuple(Label(span, "by way of this") for span in way),
         )
+    if not endless:
+        _check_depth(owners, report)
+
+
+def _check_depth(owners: list[Component | Member], report: Diagnostics) -> None:
+    """Check how many others are extended in turn; the first one that is too far is reported."""
+    depth: dict[Component | Member | None, int] = {None: -1}
+    for owner in leaves_first(owners, lambda o: [b for b in [_base(o)] if b is not None]):
+        depth[owner] = depth[_base(owner)] + 1
+        if depth[owner] == MOST_BASES + 1 and owner.base is not None:
+            report.report("nested-too-deeply", owner.base.span, limit=MOST_BASES)
+
+
+def _base(owner: Component | Member) -> Component | Member | None:
+    return owner.base.target if owner.base is not None else None
 
 
 def check_member(member: Member, context: Context) -> None:
@@ -110,8 +127,9 @@ def _check_connected(member: Member, context: Context) -> None:
     connected = {(end.part.target, end.port.target) for end in ends if end.part is not None}
     # Of two with one name, which are reported, connectors lead to the first.
     parts = {str(part.name): part for part in reversed(all_items(member, Part))}
+    own = {item for item in member.items if isinstance(item, Part)}
     for part in parts.values():
-        if part not in member.items or part.component.target is None:
+        if part not in own or part.component.target is None:
             continue
         ports = {str(port.name): port for port in reversed(all_items(part.component.target, Port))}
         for port in ports.values():

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference import Typing
@@ -133,32 +134,41 @@ def certain(item: Transition | Branch, context: Context) -> bool | None:
 
 def possible(conditions: Iterable[Condition]) -> bool:
     """Whether there are values for which all of the conditions hold."""
-    steps = iter(range(_MOST_STEPS))
-
-    def search(pending: list[Condition], found: dict[Hashable, Values]) -> bool:
-        if next(steps, None) is None:
-            return True
+    found: dict[Hashable, Values] = {}
+    ahead = [(list(conditions), found)]
+    for _ in range(_MOST_STEPS):
+        if not ahead:
+            return False
+        pending, found = ahead.pop()
         found = dict(found)
         forks: list[Combined] = []
-        while pending:
-            part = pending.pop()
-            if isinstance(part, Atom):
-                term = (part.term, type(part.range))
-                # Both sets are of one kind, which is a part of the name of the term.
-                left = found.get(term, part.range) & part.values  # type: ignore[operator]
-                if not left:
-                    return False
-                found[term] = left
-            elif part.every:
-                pending += part.parts
-            else:
-                forks.append(part)
-        if not forks:
-            return True
-        first, *others = forks
-        return any(search([*others, part], found) for part in first.parts)
+        if _hold(pending, found, forks):
+            if not forks:
+                return True
+            first, *others = forks
+            ahead += [([*others, part], found) for part in reversed(first.parts)]
+    return bool(ahead)
 
-    return search(list(conditions), {})
+
+def _hold(pending: list[Condition], found: dict[Hashable, Values], forks: list[Combined]) -> bool:
+    """Add the values that conditions leave to `found`; False where they leave none.
+
+    Those of which one must hold become `forks`.
+    """
+    while pending:
+        part = pending.pop()
+        if isinstance(part, Atom):
+            term = (part.term, type(part.range))
+            # Both sets are of one kind, which is a part of the name of the term.
+            left = found.get(term, part.range) & part.values  # type: ignore[operator]
+            if not left:
+                return False
+            found[term] = left
+        elif part.every:
+            pending += part.parts
+        else:
+            forks.append(part)
+    return True
 
 
 def _comparison(
@@ -196,9 +206,14 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
     if isinstance(type_, Named):
         enum = typing.interfaces.get(type_)
         if isinstance(enum, EnumType):
-            return these([0, *typing.folding.numbers(enum).values()])
+            return _enum(tuple(typing.folding.numbers(enum).values()))
     whole = isinstance(type_, Primitive) and type_.name in _WHOLE
     return all_numbers(whole=whole)
+
+
+@lru_cache(maxsize=100)
+def _enum(numbers: tuple[int, ...]) -> Numbers:
+    return these([0, *numbers])
 
 
 def _relation(

@@ -84,7 +84,7 @@ def _check(variable: Variable, start: Point, settable: bool, context: Context) -
     work = deque([start])
     while work:
         point = work.popleft()
-        step = next((step for step in point.steps if step.variable is variable), None)
+        step = point.first(variable)
         if isinstance(step, Read) and (settable or not step.test):
             _report(step, point, before, settable, context)
             return

@@ -32,6 +32,8 @@ from swarmdsl.validate.context import Context
 from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate
 
 _AT_ONCE = ("at once",)
+# More guards than people write for one event; what comes after them is not compared with more.
+_MOST_COMPARED = 50
 # A transition, and how long its trigger waits.
 _Leaving = tuple[float, Transition]
 
@@ -93,14 +95,16 @@ def _check_transitions(
             _report(transition, blockers[0], context)
         elif not _decided(transition, context):
             for key in (key for each in keys for key in each[:1]):
-                if key[0] != "after" or _leaves(transition):
-                    earlier.setdefault(key, []).append(transition)
+                found = earlier.setdefault(key, [])
+                few = len(found) < _MOST_COMPARED or transition.guard is None
+                if few and (key[0] != "after" or _leaves(transition)):
+                    found.append(transition)
 
 
 def _check_branches(choice: Choice, context: Context) -> None:
     earlier: list[Branch] = []
+    last: Branch | None = None
     for branch in choice.branches:
-        last = next((before for before in earlier if before.otherwise), None)
         if last is not None:
             context.report.report(
                 "transition-never-fires",
@@ -112,7 +116,9 @@ def _check_branches(choice: Choice, context: Context) -> None:
         blockers = _covering(branch, earlier, context)
         if blockers:
             _report(branch, blockers, context)
-        elif not _decided(branch, context):
+        elif branch.otherwise:
+            last = branch
+        elif len(earlier) < _MOST_COMPARED and not _decided(branch, context):
             earlier.append(branch)
 
 
@@ -133,16 +139,19 @@ def _covering(
         return list(plain[:1])
     if certain(item, context) is False:
         return []
+    # What holds comes last, which is looked at first: it leaves least of the values.
     holds = condition_of(item, context)
     passed = {before: negated(condition_of(before, context)) for before in earlier}
+    if not passed:
+        return []
     for before, condition in passed.items():
-        if not possible([holds, condition]):
+        if not possible([condition, holds]):
             return [before]
-    if possible([holds, *passed.values()]):
+    if possible([*passed.values(), holds]):
         return []
     for before in earlier:
         others = [condition for each, condition in passed.items() if each is not before]
-        if not possible([holds, *others]):
+        if not possible([*others, holds]):
             del passed[before]
     return list(passed)
 

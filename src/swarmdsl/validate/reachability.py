@@ -49,6 +49,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
             work.append(outer)  # to be in a state is to be in those around it
     unreached = list(_unreached(machine, reached))
     waiting = _waiting(reached, outline) if unreached else {}
+    ended = {outline.container[end] for end in reached if isinstance(end, FinalState)}
     for state in unreached:
         context.report.report(
             "unreachable-state",
@@ -57,7 +58,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
             name=state.name,
             related=tuple(
                 Label(trigger.span, "so this never happens")
-                for trigger in _in_vain(state, waiting, reached, outline)
+                for trigger in _in_vain(state, waiting, ended, outline)
             ),
         )
 
@@ -107,17 +108,18 @@ def _waiting(reached: set[Vertex | Region], outline: Outline) -> _Waiting:
 
 
 def _in_vain(
-    final: Vertex, waiting: _Waiting, reached: set[Vertex | Region], outline: Outline
+    final: Vertex, waiting: _Waiting, ended: set[Container], outline: Outline
 ) -> list[DoneTrigger]:
     """The triggers that wait for a final state, which is not reached.
 
+    `ended` is what has another one that is.
     A parallel state waits for each of its regions, each for any of its final states.
     """
     if not isinstance(final, FinalState):
         return []
     container = outline.container[final]
     found = [*waiting.get(final, ())]
-    if not any(isinstance(end, FinalState) and end in reached for end in vertices(container)):
+    if container not in ended:
         found += waiting.get(container, ())
         if isinstance(container, Region):
             found += waiting.get(outline.container[container], ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import ceil, floor, inf
@@ -32,13 +33,15 @@ class Numbers:
 
     def __and__(self, other: Numbers) -> Numbers:
         """The numbers in both sets."""
-        common = (
-            (max(low, least), min(high, most))
-            for low, high in self.intervals
-            for least, most in other.intervals
-        )
-        kept = tuple(interval for interval in common if interval[0] <= interval[1])
-        return Numbers(kept, self.nan and other.nan, self.whole)
+        few, many = sorted((self.intervals, other.intervals), key=len)
+        kept: list[Interval] = []
+        for low, high in few:
+            for index in range(bisect_left(many, low, key=lambda each: each[1]), len(many)):
+                least, most = many[index]
+                if least > high:
+                    break
+                kept.append((max(low, least), min(high, most)))
+        return Numbers(tuple(kept), self.nan and other.nan, self.whole)
 
     def __bool__(self) -> bool:
         """Whether there is a number in the set."""

@@ -50,6 +50,13 @@ class Point:
     leads_to: list[Point] = field(default_factory=list)
     after: Span | None = None
     parts: list[Point] = field(default_factory=list)
+    _first: dict[Variable, Step] | None = None
+
+    def first(self, variable: Variable) -> Step | None:
+        """What is done first with a variable; the steps are all known by then."""
+        if self._first is None:
+            self._first = {step.variable: step for step in reversed(self.steps)}
+        return self._first.get(variable)
 
 
 class Ways:

@@ -1,0 +1,178 @@
+"""Twice the model is twice the work: functions that are called are counted, not seconds."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import FrameType
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.render import FORMATS, render
+
+HEAD = "package p\nevent Go : std_msgs/Empty\nevent Num : std_msgs/Int32\n"
+FEW = 60
+
+
+def each(pattern: str) -> Callable[[int], str]:
+    """A file of that many declarations; `<i>` stands for their numbers, `<j>` for the next."""
+    return lambda count: HEAD + repeated(pattern, count)
+
+
+def machine(pattern: str, around: str = "<>", values: str = "") -> Callable[[int], str]:
+    """A machine of that many states, or of one with that many transitions."""
+
+    def text(count: int) -> str:
+        inside = around.replace("<>", repeated(pattern, count))
+        inside = inside.replace("<n>", str(count))
+        return f"{HEAD}statemachine M {{\n{values}{inside}\nfinal F\n}}\n"
+
+    return text
+
+
+def repeated(pattern: str, count: int) -> str:
+    return "".join(
+        pattern.replace("<i>", str(number)).replace("<j>", str(number + 1)) + "\n"
+        for number in range(count)
+    )
+
+
+def chain(pattern: str, last: str) -> Callable[[int], str]:
+    """Declarations each of which leads to the next."""
+    return lambda count: each(pattern)(count) + last.replace("<n>", str(count))
+
+
+ON_S = "initial S\nstate S {\n<>\non Go -> F }"
+MODELS = {
+    "declarations": each("struct S<i> { a : int32 b : string }"),
+    "functions": each('function f_<i> : abstraction { service "f_<i>" : std_srvs/Empty }'),
+    "states": machine("state S<i> { on Go -> S<j> }", "initial S0\n<> state S<n> { on Go -> F }"),
+    "effects on exit": machine(
+        "state S<i> { on Num -> S<j>\nexit / x = <i> }",
+        "initial T state T { initial S0\n<> state S<n> { on Go -> S0 }\n"
+        "on Num [x > 3] / x = event.data -> F }",
+        "var x : int32\n",
+    ),
+    "values of an enum": lambda count: (
+        each("")(count)
+        + f"enum E : uint32 {{ {repeated('V<i>', count + 1)} }}\n"
+        + "statemachine M { var e : E = E.V0\ninitial S\nstate S {\n"
+        + repeated("on Num [e == E.V<i>] / e = E.V<j> -> S", count)
+        + "on Go -> F }\nfinal F }"
+    ),
+    "transitions": machine("on Num [event.data == <i>] -> F", ON_S),
+    "guards of two terms": machine(
+        "on Num [event.data == <i> and x < <i>] / x = x + 1 -> F", ON_S, "var x : int32 = 0\n"
+    ),
+    "delays": machine("after <j> s -> F", ON_S),
+    "branches": machine(
+        "[x == <i>] -> F",
+        "initial S state S { on Num / x = event.data -> C }\nchoice C {\n<>\nelse -> F }",
+        "var x : int32 = 0\n",
+    ),
+    "final states": machine(
+        "final F<i>", "initial S state S { initial A state A { on Go -> F0 }\n<> on done -> F }"
+    ),
+    "aliases": chain("type A<i> = A<j>", "type A<n> = int32"),
+    "constants": chain("const K<i> : int32 = K<j>", "const K<n> : int32 = 1"),
+    "constants of a constant": chain("const K<i> : int32 = LAST", "const LAST : int32 = 1"),
+    "structs": chain("struct S<i> { a : S<j> }", "struct S<n> { a : int32 }"),
+    "members that extend": chain("member M<i> extends M<j> { }", "member M<n> { }"),
+    "machines that reuse": chain(
+        "statemachine M<i> { initial A state A = M<j> { on done -> F } final F }",
+        "statemachine M<n> { initial A state A { on Go -> F } final F }",
+    ),
+    "members with one machine": lambda count: (
+        each("member R<i> { behavior M }")(count)
+        + "statemachine M { initial A state A { on Go -> F } final F }"
+    ),
+    "parts": lambda count: (
+        HEAD
+        + "sensor C { out a : std_msgs/Empty }\nactuator D { in a : std_msgs/Empty }\nmember R {"
+        + repeated("c<i> : C\nd<i> : D\nconnect c<i>.a -> d<i>.a", count)
+        + "}"
+    ),
+    "unknown types": each("struct S<i> { a : Missing<i> }"),
+    "unknown states": machine("state S<i> { on Go -> T<i> }", "initial S0\n<>"),
+    "unknown values": each("const K<i> : int32 = missing<i>"),
+    "unreachable states": machine("state S<i> { on Go -> F }\nfinal F<i>", "initial F\n<>"),
+    "one name": each("struct S { a : int32 }"),
+    "names in another style": each("struct s_<i> { a : int32 }"),
+    "one line": lambda count: each("struct s_<i> { a : int32 }")(count).replace("\n", " "),
+}
+
+
+def work(action: Callable[[], object]) -> int:
+    """How many functions are called."""
+    calls = 0
+
+    def count(_frame: FrameType, event: str, _argument: object) -> None:
+        nonlocal calls
+        calls += event in ("call", "c_call")
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        action()
+    finally:
+        sys.setprofile(before)
+    return calls
+
+
+def is_proportional(works: list[int]) -> bool:
+    """Whether four times the model is twice as much more than twice the model is."""
+    once, twice, four_times = works
+    return four_times - twice < 2.4 * (twice - once)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_twice_the_model_is_twice_the_work(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "model.swarm"
+    works = []
+    for count in (1, FEW, 2 * FEW, 4 * FEW):  # the first time much is read that is kept
+        path.write_text(MODELS[name](count), encoding="utf-8")
+        works.append(work(lambda: compiler.check([path])))
+    assert is_proportional(works[1:]), works
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+@pytest.mark.parametrize("name", ["unknown types", "one line", "one name"])
+def test_twice_the_diagnostics_are_twice_the_work(name: str, kind: str, tmp_path: Path) -> None:
+    path = tmp_path / "model.swarm"
+    works = []
+    for count in (1, FEW, 2 * FEW, 4 * FEW):
+        path.write_text(MODELS[name](count), encoding="utf-8")
+        report = compiler.check([path]).report
+        with (tmp_path / "output").open("w", encoding="utf-8") as stream:
+            works.append(work(lambda: render(report, kind, stream)))  # noqa: B023
+    assert is_proportional(works[1:]), works
+
+
+def test_many_files_that_import_each_other(tmp_path: Path) -> None:
+    works = []
+    for count in (1, FEW, 2 * FEW, 4 * FEW):
+        folder = tmp_path / str(count)
+        folder.mkdir(exist_ok=True)
+        for number in range(count):
+            text = f"package p{number}\nconst K{number} : int32 = {number}\n"
+            if number + 1 < count:
+                text = text.replace("\n", f'\nimport "f{number + 1}.swarm"\n', 1)
+            (folder / f"f{number}.swarm").write_text(text, encoding="utf-8")
+        works.append(work(lambda: compiler.check([folder / "f0.swarm"])))  # noqa: B023
+    assert is_proportional(works[1:]), works
+
+
+@pytest.mark.parametrize("name", ["aliases", "constants", "structs"])
+def test_long_chains_are_valid(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "model.swarm"
+    path.write_text(MODELS[name](3_000), encoding="utf-8")
+    assert [found.message for found in compiler.check([path]).report] == []
+
+
+@pytest.mark.parametrize("name", ["members that extend", "machines that reuse"])
+def test_chains_that_are_too_long_are_told(name: str, tmp_path: Path) -> None:
+    path = tmp_path / "model.swarm"
+    path.write_text(MODELS[name](200), encoding="utf-8")
+    assert [found.name for found in compiler.check([path]).report] == ["nested-too-deeply"]
