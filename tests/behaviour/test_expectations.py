@@ -293,6 +293,29 @@ steps = [{ in = "rest" }, { send = "go" }, { in = "a" }]
     assert "it goes round in `a` and `b`" in found.out
 
 
+def test_machines_that_never_stop_answering_each_other(ran: Callable[..., Ran], folder) -> None:
+    (folder / "lamps.swarm").write_text("""swarm event Ping : std_msgs/Empty
+swarm event Pong : std_msgs/Empty
+endless statemachine A {
+  initial X
+  state X { on Ping / send Pong() }
+}
+endless statemachine B {
+  initial Y
+  state Y { on Pong / send Ping() }
+}
+member Asks { behavior A }
+member Answers { behavior B }
+swarm S { a : Asks[1]  b : Answers[1] }
+""")
+    found = ran(steps('{ send = "Ping" }, { pass = "1 s" }'))
+
+    assert found.code == 1
+    assert "error[SW1006]: `a[0]` does not come to rest at 0 ms" in found.out
+    assert '{ send = "Ping" }' in found.out
+    assert "lamps.swarm:5:9" in found.out
+
+
 def test_what_fails_in_the_model_is_told(ran: Callable[..., Ran], folder) -> None:
     model = (folder / "lamps.swarm").read_text().replace("count > 2", "1 / count > 2")
     (folder / "lamps.swarm").write_text(model)

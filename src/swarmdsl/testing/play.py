@@ -164,19 +164,17 @@ class _Play:
 
     def _loop(self, error: LoopError, place: Span) -> Failure:
         self._world.trace.flush()
-        last = self._witness.last
-        who = f"`{last[-1].actor.name or self._case.subject.name}`" if last else "a machine"
+        states = set(error.states)
+        actors = [line.actor for line in self._witness.last]
+        going = [actor for actor in actors if states <= actor.machine.numbers.keys()]
+        who = going[-1].name or self._case.subject.name if going else self._case.subject.name
         related = []
-        for state in error.states:
-            for actor in self._cast:
-                number = actor.machine.numbers.get(state)
-                origin = actor.machine.states[number].origin if number is not None else None
-                at = getattr(origin, "origin", origin)
-                if isinstance(at, Span):
-                    related.append(Label(at, f"it goes round in `{state}`"))
-                    break
-        now = shown(self._world.clock.now)
-        fields = {"who": who, "time": now}
+        for state in error.states if going else ():
+            machine = going[-1].machine
+            origin = getattr(machine.states[machine.numbers[state]].origin, "origin", None)
+            if isinstance(origin, Span):
+                related.append(Label(origin, "where it goes round"))
+        fields = {"who": f"`{who}`", "time": shown(self._world.clock.now)}
         label = f"it goes round in {listed(error.states, 'and')}"
         return self._failure("never-settles", place, fields, label, tuple(related))
 
