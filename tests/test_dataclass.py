@@ -111,6 +111,17 @@ def test_instances_are_alike(made, call):
         assert known(copied) == known(theirs)
 
 
+def test_values_can_be_replaced(made):
+    event = made[0]["Event"]("Go", "go", 3)
+    assert ours.replace(event) == event
+    other = ours.replace(event, topic=None)
+    assert (other.name, other.topic, other.origin) == ("Go", None, 3)
+    with pytest.raises(TypeError):
+        ours.replace(event, size=1)
+    counts = made[0]["Counts"](1, {}, more=2)
+    assert ours.replace(counts, files=3).more == 2
+
+
 @pytest.mark.parametrize("call", WRONG_CALLS)
 def test_calls_are_refused_alike(made, call):
     messages = []

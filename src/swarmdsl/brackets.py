@@ -9,9 +9,9 @@ outside of the block. Where that makes for more mistakes than counting, it is no
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import NamedTuple
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.source import Source, Span
 

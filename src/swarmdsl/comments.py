@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 

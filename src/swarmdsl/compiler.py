@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.link import link
 from swarmdsl.load import Project, load

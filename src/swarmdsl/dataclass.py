@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dataclasses import Field as PythonField
-    from dataclasses import dataclass, field
+    from dataclasses import dataclass, field, replace
 else:
 
     def dataclass(cls=None, /, *, eq=True, frozen=False, slots=False):
@@ -29,6 +29,15 @@ else:
     def field(**about):
         """Say more of a field than its default, as with `dataclasses.field`."""
         return _Field(about)
+
+    def replace(of, /, **changes):
+        """The same with other values, as with `dataclasses.replace`, which has to know more."""
+        kept = {
+            name: getattr(of, name)
+            for name, about in of.__parts__.items()
+            if about.get("init", True) and name not in changes
+        }
+        return type(of)(**kept, **changes)
 
 
 class _Field(dict[str, Any]):
@@ -183,4 +192,4 @@ class _FieldsOfPython:
         return found
 
 
-__all__ = ["dataclass", "described", "field"]
+__all__ = ["dataclass", "described", "field", "replace"]

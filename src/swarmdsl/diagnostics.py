@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
 from enum import Enum
 
 from swarmdsl.codes import CODES
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.source import Span
 
 

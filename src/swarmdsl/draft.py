@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
-from typing import Any
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
 
-from swarmdsl.brackets import Repair
+from swarmdsl.dataclass import dataclass
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Expression, Node, Ref, Word
+
+if TYPE_CHECKING:
+    from swarmdsl.brackets import Repair
 
 _WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 _NOTHING = re.compile(r"_\d+")

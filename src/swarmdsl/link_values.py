@@ -7,8 +7,8 @@ these have the names that types have: `Mode`, `sar.Mode`, or that of an alias.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.ir.types import Named
 from swarmdsl.scopes import FileScope

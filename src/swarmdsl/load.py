@@ -6,9 +6,9 @@ import os
 import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from swarmdsl.dataclass import dataclass, field, replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, TypeVar
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.source import Span
 from swarmdsl.syntax import ExpressionTree, OperatorUse, Word
 

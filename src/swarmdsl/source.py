@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
+
+from swarmdsl.dataclass import dataclass, field
 
 COMMAND_LINE = "<command line>"
 """The name of a source that is an argument of the command line, as compilers call it."""

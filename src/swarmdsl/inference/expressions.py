@@ -7,9 +7,9 @@ was not resolved) is None and fits everywhere: one mistake is reported once.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 from math import inf
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference.fitting import fits, is_number, range_of

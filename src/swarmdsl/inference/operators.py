@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.inference.fitting import fits, is_float, is_number, is_text
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type

@@ -6,12 +6,12 @@ What cannot be meant is a UsageError.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Level
 from swarmdsl.project import find_settings
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic

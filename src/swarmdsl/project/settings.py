@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from pathlib import Path
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Level
 
 FILE_NAME = "swarm.toml"

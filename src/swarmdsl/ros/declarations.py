@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.ros.fault import InterfaceError
 from swarmdsl.ros.values import (

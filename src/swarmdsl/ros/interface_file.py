@@ -13,9 +13,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from typing import Literal, get_args
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.ros.declarations import read_line
 from swarmdsl.ros.fault import InterfaceError

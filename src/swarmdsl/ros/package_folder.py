@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.libraries import SUFFIX
 from swarmdsl.ros.interface_file import KINDS, Kind

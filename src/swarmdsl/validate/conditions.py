@@ -9,9 +9,9 @@ What comes out is certain: where it would take too long, values are said to exis
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable
-from dataclasses import dataclass
 from functools import lru_cache
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference import Typing
 from swarmdsl.ir.types import INTEGERS, Named, Primitive, Type

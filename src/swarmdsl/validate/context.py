@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from swarmdsl.dataclass import dataclass, field, replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.inference import Typing, constant, fits, is_number
 from swarmdsl.interfaces import Interfaces

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Label, listed
 from swarmdsl.inheritance import all_items, lineage
 from swarmdsl.syntax import (

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from math import ceil, floor, inf
+
+from swarmdsl.dataclass import dataclass
 
 # A bound beside a number: below it (-1), at it (0), or above it (1).
 Bound = tuple[float, int]

@@ -9,8 +9,8 @@ left, whichever of them is active.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
