@@ -1,0 +1,27 @@
+"""The page on tests has every key and every code."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from swarmdsl.codes import CODES
+from swarmdsl.testing import reading, steps
+
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
+
+
+def test_all_keys() -> None:
+    keys = {*reading._FILE, *reading._TEST, *steps._ACTIONS, *steps._CLAIM, *steps._TIMES}
+    keys |= {key for others in steps._ACTIONS.values() for key in others}
+    code = " ".join(re.findall(r"```.*?```|`[^`]+`", PAGE, re.DOTALL))
+
+    assert {"passing", "sends", "as"} <= keys
+    assert {key for key in keys if not re.search(rf"\b{key}\b", code)} == set()
+
+
+def test_all_codes() -> None:
+    codes = {entry.code for entry in CODES.values() if "SW11" < entry.code < "SW12"}
+
+    assert codes
+    assert codes - set(re.findall(r"SW\d{4}", PAGE)) == set()
