@@ -42,6 +42,7 @@ _ENDINGS: dict[Ending, str] = {
     "quiet": "until nothing was left to happen",
     "stopped": "until the time was over",
 }
+_NO_LATENCY = ("members that answer each other at once do so for ever: a network has a latency",)
 _STANDARD_INPUT = 0
 _MOST_SHOWN = 5
 """How many states of a circle are named."""
@@ -280,6 +281,7 @@ class _Play:
             places[0] if places else None,
             label="it goes round through here",
             related=tuple(Label(place, "and here") for place in places[1:_MOST_SHOWN]),
+            notes=_NO_LATENCY if self._subject.swarm is not None else (),
             who=f"`{actor.name or machine.name}`",
             time=shown(now),
             help=f"let {listed(error.states[:_MOST_SHOWN], 'or')} wait for an event or for a time",
