@@ -186,7 +186,14 @@ class _FieldsOfPython:
             (name, annotation, dataclasses.field(**about))
             for name, annotation, about in described(owner)
         ]
-        of_python = dataclasses.make_dataclass(owner.__name__, fields, init=False, eq=False)
+        of_python = dataclasses.make_dataclass(
+            owner.__name__,
+            fields,
+            namespace={"__doc__": owner.__doc__ or owner.__name__},  # else it is worked out
+            init=False,
+            repr=False,
+            eq=False,
+        )
         found = {part.name: part for part in dataclasses.fields(of_python)}
         owner.__dataclass_fields__ = found
         return found

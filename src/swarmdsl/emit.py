@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TypeVar
 
 from swarmdsl import plugins
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
 from swarmdsl.features import unsupported
 from swarmdsl.foreign import failure

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any, cast
 
 from swarmdsl import ir
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.enums import underlying
 from swarmdsl.inference import Typing

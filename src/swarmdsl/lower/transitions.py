@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from swarmdsl import ir
+from swarmdsl.dataclass import dataclass
 from swarmdsl.lower.context import Context
 from swarmdsl.lower.expressions import lower_expression, lower_optional, lower_path
 from swarmdsl.syntax import (

@@ -29,7 +29,6 @@ from swarmdsl.syntax import (
     StateMachine,
     Swarm,
     nodes_of,
-    walk,
 )
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.context import Context
@@ -166,7 +165,10 @@ def _where(kind: str, names: list[str]) -> str:
 def _exchange(machine: StateMachine, context: Context) -> _Exchange:
     """What one machine sends and waits for."""
     found = _Exchange(machines={machine}, complete=machine not in context.damaged)
-    for node in walk(machine):
+    kinds: tuple[type[Send | EventTrigger | MonitorTrigger], ...]
+    kinds = (Send, EventTrigger, MonitorTrigger)
+    nodes = (node for kind in kinds for node in nodes_of(machine, kind))
+    for node in sorted(nodes, key=lambda node: node.span.start):
         match node:
             case Send(event=Ref(target=None)) | EventTrigger(event=Ref(target=None)):
                 found.complete = False
