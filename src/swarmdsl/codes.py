@@ -69,6 +69,9 @@ CODES: dict[str, Code] = {
     "missing-objective": Code("SW0304", "error", "fitness `{name}` has no objective"),
     "empty-range": Code("SW0305", "error", "this range {fault}"),
     "impossible-setting": Code("SW0306", "error", "`{name}` must be at least {least}"),
+    "default-outside": Code("SW0307", "warning", "the default of `{name}` is not in this range"),
+    "empty-optimization": Code("SW0308", "warning", "nothing in swarm `{name}` is varied"),
+    "missing-fitness": Code("SW0309", "error", "swarm `{name}` is optimized without a fitness"),
     # ---- components, ports, connectors
     "port-direction": Code("SW0401", "error", "{fault}"),
     "port-type-mismatch": Code(
@@ -115,6 +118,7 @@ CODES: dict[str, Code] = {
     ),
     "early-read": Code("SW0525", "warning", "variable `{name}` may be read before it is written"),
     "zero-delay": Code("SW0526", "warning", "a delay of 0 waits for nothing"),
+    "repeated-trigger": Code("SW0527", "warning", "`{trigger}` triggers this transition already"),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),

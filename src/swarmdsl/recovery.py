@@ -67,7 +67,7 @@ class _Recovery:
             if isinstance(result, Model):
                 parsed.repaired |= draft.restore(result, source)
                 if damaged:
-                    parsed.damaged.update(result.declarations)
+                    parsed.damaged.update(result.declarations, result.optimizations)
                 # What a broken import leads to is anyone's guess.
                 result.imports = [
                     one

@@ -48,6 +48,7 @@ from swarmdsl.validate.optimization import (
     check_constant,
     check_fitness,
     check_optimization,
+    check_optimizations,
 )
 from swarmdsl.validate.order import check_order
 from swarmdsl.validate.reachability import check_reachability
@@ -74,6 +75,7 @@ def check_together(project: Project, context: Context) -> None:
     check_submachines(project, context.report)
     check_inheritance(project, context.report)
     check_message_cycles(context)
+    check_optimizations(project, context)
     used = used_declarations(project)
     check_topics(used, context.report)
     check_events([node for _, node in used], context)

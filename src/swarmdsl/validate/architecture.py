@@ -247,7 +247,14 @@ def _check_connector(connector: Connector, context: Context) -> None:
         return
     if not _check_direction(connector, source, target, context):
         return
-    if not fits(source.type.type, target.type.type):
+    if source is target and connector.source.span.text == connector.target.span.text:
+        context.report.report(
+            "port-direction",
+            connector.span,
+            fault=f"this connector leads from `{connector.source.span.text}` back to itself",
+            help="name another port, or remove the connector",
+        )
+    elif not fits(source.type.type, target.type.type):
         context.report.report(
             "port-type-mismatch",
             connector.span,

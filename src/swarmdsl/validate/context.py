@@ -170,7 +170,7 @@ def _read_packages(project: Project) -> dict[str, set[str]]:
 
 def make_context(project: Project, report: Diagnostics) -> Context:
     """Gather the interfaces of all files."""
-    damaged = {node for file in project.files for node in file.parsed.damaged}
+    damaged: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
         ((file, node) for file, node in project.declarations() if node not in damaged),
         _read_packages(project),

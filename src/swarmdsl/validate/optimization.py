@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
+from swarmdsl.diagnostics import Label
 from swarmdsl.inference import is_number
 from swarmdsl.ir.types import INT, Type
+from swarmdsl.load import Project
+from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Constant,
     CountRange,
     Expression,
     Fitness,
+    FitnessUse,
     Objective,
     Optimization,
     Param,
     ParamRange,
     Setting,
+    Swarm,
 )
 from swarmdsl.validate.context import Context
 
@@ -37,8 +42,46 @@ def check_fitness(fitness: Fitness, context: Context) -> None:
                 context.check_number(item.value)
 
 
+def check_optimizations(project: Project, context: Context) -> None:
+    """A swarm is optimized in one way."""
+    places: dict[Swarm, list[Span]] = {}
+    for _, optimization in project.optimizations():
+        if optimization.swarm.target is not None:
+            places.setdefault(optimization.swarm.target, []).append(optimization.swarm.span)
+    for swarm, found in places.items():
+        context.check_single(found, f"the optimization of swarm `{swarm.name}`")
+
+
 def check_optimization(optimization: Optimization, context: Context) -> None:
-    """The ranges hold values, and each thing is varied once."""
+    """Something is varied, there is a fitness to compare by, and each is given once and right."""
+    _check_worth(optimization, context)
+    _check_settings(optimization, context)
+    _check_ranges(optimization, context)
+
+
+def _check_worth(optimization: Optimization, context: Context) -> None:
+    swarm = optimization.swarm.target
+    if swarm is None or not context.damaged.isdisjoint({swarm, optimization}):
+        return
+    at = optimization.swarm.span
+    if not any(isinstance(item, FitnessUse) for item in swarm.items):
+        context.report.report(
+            "missing-fitness",
+            at,
+            name=swarm.name,
+            related=(Label(swarm.name.span, "declared here"),),
+            help=f"add `fitness Name` to swarm `{swarm.name}`: it says which runs are better",
+        )
+    if not any(isinstance(item, (ParamRange, CountRange)) for item in optimization.items):
+        context.report.report(
+            "empty-optimization",
+            at,
+            name=swarm.name,
+            help="add `role.param in 1.0 .. 5.0` or `count of role in 1 .. 5`",
+        )
+
+
+def _check_settings(optimization: Optimization, context: Context) -> None:
     settings = [item for item in optimization.items if isinstance(item, Setting)]
     for name in ("steps", "evaluations", "seed"):
         places = [item.span for item in settings if item.name == name]
@@ -50,6 +93,9 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
             context.report.report(
                 "impossible-setting", setting.value.span, name=setting.name, least=least
             )
+
+
+def _check_ranges(optimization: Optimization, context: Context) -> None:
     varied: dict[str, list[ParamRange | CountRange]] = {}
     for item in optimization.items:
         match item:
@@ -60,6 +106,7 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
                 param = item.param.target
                 type_ = param.type.type if param is not None else None
                 _check_range(item.lower, item.upper, item.step, type_, context)
+                _check_default_inside(item, context)
             case CountRange():
                 varied.setdefault(f"the count of `{item.role.name}`", []).append(item)
                 _check_range(item.lower, item.upper, None, INT, context)
@@ -70,6 +117,24 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
 def check_constant(declared: Constant, context: Context) -> None:
     """The value of a constant is known and of its type."""
     context.check_constant(declared.value, declared.type.type)
+
+
+def _check_default_inside(item: ParamRange, context: Context) -> None:
+    """Check that what the param is without a search is one of the values that it tries."""
+    param = item.param.target
+    if param is None or param.default is None:
+        return
+    low, high = _number(item.lower, context), _number(item.upper, context)
+    default = _number(param.default, context)
+    if default is None or low is None or high is None or low > high or low <= default <= high:
+        return
+    context.report.report(
+        "default-outside",
+        Span(item.span.source, item.lower.span.start, item.upper.span.end),
+        name=f"{item.role.name}.{item.param.name}",
+        related=(Label(param.default.span, "this is the default"),),
+        help=f"let the range include {param.default.span.text}, or change the default",
+    )
 
 
 def _check_range(

@@ -86,6 +86,7 @@ def _check_transitions(
     soonest = _soonest(transitions, context)
     for transition in transitions:
         keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
+        _check_repeated(transition.triggers, keys, context)
         sooner = [_sooner(each, transition, soonest, context) for each in transition.triggers]
         blockers = [
             [first] if first is not None else _covering(transition, _all(earlier, each), context)
@@ -99,6 +100,25 @@ def _check_transitions(
                 few = len(found) < _MOST_COMPARED or transition.guard is None
                 if few and (key[0] != "after" or _leaves(transition)):
                     found.append(transition)
+
+
+def _check_repeated(
+    triggers: Sequence[Trigger], keys: Sequence[list[tuple[Hashable, ...]]], context: Context
+) -> None:
+    """Report the second of two triggers of one transition that react to the same."""
+    seen: dict[Hashable, Trigger] = {}
+    for trigger, reacts in zip(triggers, keys, strict=False):
+        first = next((seen[key] for key in reacts if key in seen), None)
+        if first is not None:
+            context.report.report(
+                "repeated-trigger",
+                trigger.span,
+                trigger=first.span.text,
+                related=(Label(first.span, "by this"),),
+                help="remove one of the two",
+            )
+        elif reacts:
+            seen[reacts[0]] = trigger
 
 
 def _check_branches(choice: Choice, context: Context) -> None:

@@ -8,6 +8,7 @@ from typing import cast
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
+    AliasType,
     Choice,
     Component,
     Constant,
@@ -50,8 +51,8 @@ _SNAKE = re.compile(r"[a-z][a-z0-9_]*"), "snake_case", snake_case
 _UPPER = re.compile(r"[A-Z][A-Z0-9_]*"), "UPPER_CASE", _upper_case
 
 _STYLES = {
-    **dict.fromkeys((StructType, EnumType, Event, Component, Member, StateMachine), _CAMEL),
-    **dict.fromkeys((Swarm, Environment, Fitness), _CAMEL),
+    **dict.fromkeys((StructType, EnumType, AliasType, Event, Component), _CAMEL),
+    **dict.fromkeys((Member, StateMachine, Swarm, Environment, Fitness), _CAMEL),
     **dict.fromkeys((State, Parallel, Region, Choice, History, FinalState), _CAMEL),
     **dict.fromkeys((Function, Operation, Parameter, Param, Variable, Part, Port, Role), _SNAKE),
     **dict.fromkeys((Constant, EnumValue), _UPPER),
