@@ -15,10 +15,13 @@ def underlying(enum: EnumType) -> Primitive:
 
 
 def numbers(enum: EnumType) -> dict[str, int]:
-    """The number of each value: as written, or one more than that of the value before."""
+    """The number of each value: as written, or one more than that of the value before.
+
+    Of two values with one name, which is reported, the first counts.
+    """
     found: dict[str, int] = {}
     number = -1
     for value in enum.values:
         number = int(value.value) if value.value else number + 1
-        found[str(value.name)] = number
+        found.setdefault(str(value.name), number)
     return found

@@ -1,7 +1,7 @@
 """Types of expressions: what follows from their parts, and what can be used where."""
 
 from swarmdsl.inference.expressions import Typing, report_unknown_field
-from swarmdsl.inference.fitting import fits, is_number, range_of
+from swarmdsl.inference.fitting import fits, is_float, is_number, range_of
 from swarmdsl.inference.forms import assignable, constant
 
 __all__ = [
@@ -9,6 +9,7 @@ __all__ = [
     "assignable",
     "constant",
     "fits",
+    "is_float",
     "is_number",
     "range_of",
     "report_unknown_field",

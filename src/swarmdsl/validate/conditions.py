@@ -13,7 +13,7 @@ from functools import lru_cache
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.folding import Folded, Folding
-from swarmdsl.inference import Typing
+from swarmdsl.inference import Typing, is_float, range_of
 from swarmdsl.ir.types import INTEGERS, Named, Primitive, Type
 from swarmdsl.syntax import (
     Branch,
@@ -98,9 +98,12 @@ def _condition_of(item: Transition | Branch, guard: Expression, context: Context
         return _truth(item)
     triggers = item.triggers if isinstance(item, Transition) else []
     events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
-    typing = context.with_event(events) if events else context.typing
+    typing = (context.with_event(events) if events else context.typing).silent()
     tree = guard.tree
-    holds = condition(tree, typing.silent())
+    typing.infer(tree)
+    if typing.report.has_errors:
+        return _truth(item)  # whatever was meant
+    holds = condition(tree, typing)
     if not any(_may_fail(part, typing.folding) for part in walk(tree)):
         return holds
     # A guard that has no result does not hold.
@@ -179,7 +182,7 @@ def _comparison(
         value, left, right = typing.folding.value(left), right, left
         operator = _MIRRORED[operator]
     if value is None:
-        return _relation(operator, left, right, typing.folding)
+        return _relation(operator, left, right, typing)
     if isinstance(value, bool):
         holds = condition(left, typing)
         return holds if value is (operator == "==") else negated(holds)
@@ -207,6 +210,10 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
         enum = typing.interfaces.get(type_)
         if isinstance(enum, EnumType):
             return _enum(tuple(typing.folding.numbers(enum).values()))
+    # What is stored fits in its type; what is computed with it may not.
+    held = range_of(type_) if isinstance(tree, (NameUse, FieldUse)) else None
+    if held is not None:
+        return compared(">=", held[0], whole=True) & compared("<=", held[-1], whole=True)
     whole = isinstance(type_, Primitive) and type_.name in _WHOLE
     return all_numbers(whole=whole)
 
@@ -217,10 +224,19 @@ def _enum(numbers: tuple[int, ...]) -> Numbers:
 
 
 def _relation(
-    operator: str, left: ExpressionTree, right: ExpressionTree, folding: Folding
+    operator: str, left: ExpressionTree, right: ExpressionTree, typing: Typing
 ) -> Condition:
-    """The comparison of two terms: a truth value; the same one when its sides are exchanged."""
-    first, second = _term(left, folding), _term(right, folding)
+    """The comparison of two terms: a truth value; the same one when its sides are exchanged.
+
+    A term is as great as itself, except for what is not a number.
+    """
+    first, second = _term(left, typing.folding), _term(right, typing.folding)
+    if first == second:
+        if operator in ("<", ">"):
+            return negated(ALWAYS)
+        type_ = typing.infer(left)
+        if type_ is not None and not is_float(type_):
+            return negated(ALWAYS) if operator == "!=" else ALWAYS
     if operator in (">", ">=") or (operator in ("==", "!=") and hash(first) > hash(second)):
         operator, first, second = _MIRRORED[operator], second, first
     if operator == "!=":

@@ -35,7 +35,9 @@ def check_enum(enum: EnumType, context: Context) -> None:
     assert possible is not None
     known = numbers(enum)
     seen: dict[int, str] = {}
-    for value in enum.values:
+    # The second of two with one name is reported as such.
+    first = {str(value.name): value for value in reversed(enum.values)}
+    for value in reversed(first.values()):
         number = known[str(value.name)]
         fault = help_ = ""
         if number not in possible:

@@ -19,6 +19,7 @@ from swarmdsl.syntax import (
     MonitorTrigger,
     OutcomeTrigger,
     Parallel,
+    Ref,
     State,
     StateMachine,
     TimeTrigger,
@@ -218,6 +219,8 @@ def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...
             return [("event", heard_on(event), event.type.type)] if event is not None else []
         case OutcomeTrigger(outcome=outcome):
             return [("outcome", outcome)]
+        case DoneTrigger(region=Ref(target=None)) | DoneTrigger(final=Ref(target=None)):
+            return []
         case DoneTrigger(region=region, final=final):
             whole = ("done", region.name if region else None, None)
             return [whole] if final is None else [(*whole[:2], final.name), whole]

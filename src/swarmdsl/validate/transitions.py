@@ -49,9 +49,9 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
                     outcome=outcome,
                     help="add `do function` to the state, or wait for `done`",
                 )
-        case DoneTrigger(region=region):
+        case DoneTrigger(region=region, final=final):
             of = region.target if region is not None else owner
-            if of is not None:
+            if of is not None and (final is None or final.target is not None):
                 _check_completes(trigger, of, context)
 
 

@@ -1,0 +1,60 @@
+"""One mistake is reported once, though several rules could see it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+
+MACHINE = """
+event Go : std_msgs/Empty
+enum Gear {{ SLOW FAST }}
+enum Mode {{ SLOW FAST }}
+statemachine M {{
+  var gear : Gear = Gear.SLOW
+  initial Look
+  state Look {{
+    initial Near
+    state Near {{ on Go -> Near }}
+    {transitions}
+    on Go / gear = gear -> Done
+  }}
+  final Done
+}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("transitions", "wanted"),
+    [
+        ("on done.Found -> Done", ["SW0202"]),
+        ("on done.Found -> Done on done.Found -> Done", ["SW0202", "SW0202"]),
+        ("on done -> Done", ["SW0508"]),
+        ("on Go [gear == Mode.SLOW] -> Done", ["SW0702"]),
+        ("on Go [gear == Mode.SLOW] -> Done on Go [gear == Mode.SLOW] -> Near", ["SW0702"] * 2),
+        ("on Go [gear == 5] -> Done on Go [gear < Gear.FAST] -> Near", ["SW0702"] * 2),
+    ],
+)
+def test_in_transitions(transitions: str, wanted: list[str], tmp_path: Path) -> None:
+    assert codes(MACHINE.format(transitions=transitions), tmp_path) == wanted
+
+
+@pytest.mark.parametrize(
+    ("values", "wanted"),
+    [
+        ("A D = 300 A", ["SW0609", "SW0201"]),
+        ("A = 300 B = 1 A = 400", ["SW0609", "SW0201"]),
+        ("A B = 7 A C = 8", ["SW0201"]),
+    ],
+)
+def test_in_values_of_an_enum(values: str, wanted: list[str], tmp_path: Path) -> None:
+    assert codes(f"enum Mode {{ {values} }}", tmp_path) == wanted
+
+
+def codes(text: str, folder: Path) -> list[str]:
+    """The codes of what is reported about a model."""
+    path = folder / "model.swarm"
+    path.write_text(text, encoding="utf-8")
+    return [found.code for found in compiler.check([path]).report]
