@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, described
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Expression, Node, Ref, Word
 
@@ -73,10 +72,10 @@ class Draft:
             span = self._place(value.span, source)
             if isinstance(value, Expression) and span.text != value.span.text:
                 repaired.add(value)
-            for attribute in fields(value):
-                inside = getattr(value, attribute.name)
+            for name, _, _ in described(type(value)):
+                inside = getattr(value, name)
                 if isinstance(inside, (list, tuple, Word, Ref, Node)) and inside != value.span:
-                    setattr(value, attribute.name, self._restore(inside, source, repaired))
+                    setattr(value, name, self._restore(inside, source, repaired))
             value.span = span
         return value
 

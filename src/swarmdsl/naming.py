@@ -1,4 +1,4 @@
-"""Names in the style of a target, and which names a target can take."""
+"""Names in the style of a target and of ROS, and which names a target can take."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import keyword
 import re
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
+
+
+def incoming_topic(topic: str, swarm: bool) -> str:
+    """The topic on which an event that is sent on `topic` is heard."""
+    return f"bridge/events/{topic}" if swarm else topic
 
 
 def snake_case(name: str) -> str:

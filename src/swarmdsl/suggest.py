@@ -15,7 +15,7 @@ _COMPARED = 50
 def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
     """The known word most like another, None when none is that like (1 is the same)."""
     by_lower = {name.lower(): name for name in known}
-    if not by_lower:
+    if not word or not by_lower:
         return None
     from difflib import get_close_matches
 

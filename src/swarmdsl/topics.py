@@ -6,8 +6,7 @@ topic is, as are two events that are declared with one topic.
 
 from __future__ import annotations
 
-from swarmdsl.ir.interfaces import incoming_topic
-from swarmdsl.naming import snake_case
+from swarmdsl.naming import incoming_topic, snake_case
 from swarmdsl.syntax import Event, EventTrigger, MonitorTrigger, Trigger
 
 

@@ -46,6 +46,33 @@ def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypat
     assert set(eval(ran.stderr.splitlines()[-1])) <= allowed
 
 
+def test_a_check_imports_no_later_phase(tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    later = (
+        *("dataclasses", "decimal", "hashlib", "json", "logging", "xml.etree"),
+        *("emit", "generator", "lower", "output", "plugins", "peg", "recovery", "scan"),
+        *("ir.expressions", "ir.statemachine"),
+    )
+    code = (
+        "import sys\nfrom swarmdsl.cli import run\nrun(['check', 'examples/minimal'])\n"
+        "known = {name.removeprefix('swarmdsl.') for name in sys.modules}\n"
+        f"sys.exit(', '.join(known & {{*{later!r}}}))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert ran.stderr.splitlines()[1:] == [""]
+
+
+@posix
+def test_what_is_to_be_done_at_the_end_is_done(good):
+    code = (
+        "import atexit, sys\nfrom swarmdsl.cli import main\n"
+        "atexit.register(print, 'the end')\n"
+        f"sys.argv[1:] = ['check', {str(good)!r}]\nmain()"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert (ran.returncode, ran.stdout) == (0, "the end\n")
+
+
 def test_debug_shows_where_a_bug_of_ours_is(tmp_path):
     code = (
         "import sys\nfrom swarmdsl import cli, compiler\n"

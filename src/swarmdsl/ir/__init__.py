@@ -3,67 +3,87 @@
 Nodes are equal when they mean the same; `origin`, the place in the model, does not count.
 """
 
-from swarmdsl.ir.architecture import (
-    CommunicationSettings,
-    Component,
-    Connector,
-    Direction,
-    Environment,
-    Member,
-    Multiplicity,
-    Part,
-    Port,
-    PortRef,
-    Role,
-    Swarm,
-)
-from swarmdsl.ir.docs import Docs, doc_of
-from swarmdsl.ir.expressions import (
-    Binary,
-    Call,
-    EventData,
-    Expression,
-    FieldAccess,
-    Literal,
-    ParamRef,
-    Unary,
-    VariableRef,
-    reads,
-)
-from swarmdsl.ir.interfaces import (
-    Action,
-    Communication,
-    Constant,
-    Event,
-    Field,
-    Function,
-    FunctionPort,
-    Interface,
-    Message,
-    Param,
-    Service,
-)
-from swarmdsl.ir.optimization import CountRange, Fitness, Optimization, ParamRange
-from swarmdsl.ir.statemachine import (
-    Activity,
-    Assignment,
-    DoneTrigger,
-    Effect,
-    EventTrigger,
-    OutcomeTrigger,
-    Policy,
-    ResultMapping,
-    Send,
-    State,
-    StateKind,
-    StateMachine,
-    TimeTrigger,
-    Transition,
-    Trigger,
-    Variable,
-)
-from swarmdsl.ir.system import System
-from swarmdsl.ir.types import Array, Named, Primitive, Type
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from swarmdsl.ir.architecture import (
+        CommunicationSettings,
+        Component,
+        Connector,
+        Direction,
+        Environment,
+        Member,
+        Multiplicity,
+        Part,
+        Port,
+        PortRef,
+        Role,
+        Swarm,
+    )
+    from swarmdsl.ir.docs import Docs, doc_of
+    from swarmdsl.ir.expressions import (
+        Binary,
+        Call,
+        EventData,
+        Expression,
+        FieldAccess,
+        Literal,
+        ParamRef,
+        Unary,
+        VariableRef,
+        reads,
+    )
+    from swarmdsl.ir.interfaces import (
+        Action,
+        Communication,
+        Constant,
+        Event,
+        Field,
+        Function,
+        FunctionPort,
+        Interface,
+        Message,
+        Param,
+        Service,
+    )
+    from swarmdsl.ir.optimization import CountRange, Fitness, Optimization, ParamRange
+    from swarmdsl.ir.statemachine import (
+        Activity,
+        Assignment,
+        DoneTrigger,
+        Effect,
+        EventTrigger,
+        OutcomeTrigger,
+        Policy,
+        ResultMapping,
+        Send,
+        State,
+        StateKind,
+        StateMachine,
+        TimeTrigger,
+        Transition,
+        Trigger,
+        Variable,
+    )
+    from swarmdsl.ir.system import System
+    from swarmdsl.ir.types import Array, Named, Primitive, Type
+else:
+    # Others have a `Literal` too, that of typing; the one of `expressions`, the last, is meant.
+    _PARTS = (
+        *("types", "docs", "interfaces", "architecture", "statemachine", "optimization"),
+        *("system", "expressions"),
+    )
+
+    def __getattr__(name):
+        """Import the parts with the first name that is asked for: a check needs only types."""
+        if name not in __all__:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        for part in _PARTS:
+            names = vars(import_module(f"{__name__}.{part}"))
+            globals().update((known, names[known]) for known in names.keys() & set(__all__))
+        return globals()[name]
+
 
 __all__ = [
     "Action",

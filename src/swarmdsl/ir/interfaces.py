@@ -7,6 +7,7 @@ from typing import Literal
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.types import Named, Type
+from swarmdsl.naming import incoming_topic
 from swarmdsl.source import Span
 
 
@@ -93,11 +94,6 @@ class Event:
     def incoming_topic(self) -> str:
         """The topic on which a member hears of it."""
         return incoming_topic(self.topic, self.swarm)
-
-
-def incoming_topic(topic: str, swarm: bool) -> str:
-    """The topic on which an event that is sent on `topic` is heard."""
-    return f"bridge/events/{topic}" if swarm else topic
 
 
 @dataclass(frozen=True, slots=True)
