@@ -64,6 +64,6 @@ def section(folder: Path) -> Section:
         f"a build, as a share of the {JAVA} s that the original generator in Java took from cold",
         build / (JAVA * 1e3),
         SHARE,
-        "{:.2f}",
+        "{:.3f}",
     )
     return found

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir import Activity, Communication, Literal, OutcomeTrigger, State
 
 from .expressions import field_name, keys, python_expression

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import keyword
-from dataclasses import replace
 
+from swarmdsl.dataclass import replace
 from swarmdsl.ir import (
     Array,
     Binary,

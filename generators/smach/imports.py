@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import Named
 
 from .python import WIDTH

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.source import Span
 
 WIDTH = 100

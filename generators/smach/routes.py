@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.ir import DoneTrigger, OutcomeTrigger, State, Transition, Trigger
 
 from .module import CANCELLED, PREEMPTED

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir import State, StateKind
 
 from .module import PREEMPTED, Entry, Module, fresh

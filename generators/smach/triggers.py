@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import EventTrigger, Expression, State, TimeTrigger, Transition
 from swarmdsl.source import Span
 

@@ -7,10 +7,11 @@ touches the disk; the core checks the paths, finds collisions and writes.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import field as field_of_python
 from enum import Enum
 from typing import Any, TypeVar
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.source import Span
@@ -84,7 +85,8 @@ def option(
     `check` is called with a value of the option's type that somebody gave, and returns what
     is wrong with it, in words, or None. It is reported where the value stands.
     """
-    return field(default=default, metadata={"help": text, "choices": choices, "check": check})
+    about = {"help": text, "choices": choices, "check": check}
+    return field_of_python(default=default, metadata=about)
 
 
 def all_machines(system: System) -> tuple[StateMachine, ...]:
