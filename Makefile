@@ -44,7 +44,7 @@ bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/perfo
 	$(BIN)/python benchmarks/bench.py $(BENCH)
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
-	$(BIN)/pytest -q tests/front/test_mutations.py tests/peg --mutants $(MUTANTS)
+	$(BIN)/pytest -q tests/front/test_mutations.py tests/front/test_pieces.py tests/peg tests/workspace --mutants $(MUTANTS)
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.peg

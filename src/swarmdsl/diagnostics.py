@@ -34,7 +34,8 @@ ALL_WARNINGS = "warnings"
 """Stands for every warning whose level is not given by its own name and that is not silent."""
 
 
-_MOST_HINTS = 50
+MOST_HINTS = 50
+"""How many of one kind of mistake are reported with what may be meant, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +138,11 @@ class Diagnostics:
         Each look goes through all that exists. Whoever gets more than fifty such reports of
         one name in the catalogue looks for a single cause, an import that is missing for instance.
         """
-        return self._counts[name] < _MOST_HINTS
+        return self._counts[name] < MOST_HINTS
+
+    def count_of(self, name: str) -> int:
+        """How often something of this name in the catalogue was reported."""
+        return self._counts[name]
 
     @property
     def has_errors(self) -> bool:

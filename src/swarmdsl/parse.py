@@ -34,13 +34,13 @@ _SHALLOW = NESTING_LIMIT // 4
 
 def parse(source: Source, report: Diagnostics) -> Parsed:
     """Parse a file; whatever is wrong with it is reported and left out of the tree."""
-    with _no_garbage_collection():
+    with no_garbage_collection():
         return _parse_shallow(source, report) or _parse_in_pieces(source, report)
 
 
 def parse_piece(source: Source, report: Diagnostics) -> Parsed:
     """Parse a piece of a file on its own; all places are places in the piece."""
-    with _no_garbage_collection():
+    with no_garbage_collection():
         return _parse_shallow(source, report) or _parse_carefully(source, report)
 
 
@@ -155,7 +155,7 @@ def _report_unattached(comment: DocComment, report: Diagnostics) -> None:
 
 
 @contextmanager
-def _no_garbage_collection() -> Iterator[None]:
+def no_garbage_collection() -> Iterator[None]:
     """Let the collector rest: a tree grows fast, and there is no garbage in it."""
     was_enabled = gc.isenabled()
     gc.disable()
@@ -166,4 +166,4 @@ def _no_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["Parsed", "parse", "parse_piece"]
+__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_piece"]

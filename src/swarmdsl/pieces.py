@@ -27,10 +27,14 @@ _START = re.compile(
     re.MULTILINE,
 )
 # What goes on behind these words on a line of its own is no declaration by itself.
-_GOES_ON = re.compile(r"(?:^|\s)(?:swarm|endless)$|:$")
-_AFTER = {"swarm": re.compile("event"), "endless": re.compile("statemachine")}
-_CATEGORY = re.compile(r"swarm\s*\{")
+_GOES_ON = {
+    "swarm": re.compile("event"),
+    "endless": re.compile("statemachine"),
+    ":": re.compile(r"swarm\s*\{"),
+}
 
+_BRACKET = re.compile(r"[{}()\[\]]")
+_MARK = re.compile(r"^(?:<{7}|>{7})", re.MULTILINE)
 _NO_CODE = re.compile(
     r'(?P<text>"(?:[^"\\\n]|\\[^\n])*"?)|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/'
     r"|(?P<mark>^(?:<{7}|>{7})(?![<>])[^\n]*)",
@@ -42,6 +46,22 @@ def split(text: str) -> list[tuple[int, int]]:
     """The offsets of the pieces of a text, which together are all of it."""
     starts = sorted({0, *_boundaries(text), len(text)})
     return list(pairwise(starts)) or [(0, 0)]
+
+
+def is_closed(text: str) -> bool:
+    """Whether nothing in a piece of a text reaches out of it: no bracket, comment or merge.
+
+    What is around such a piece is cut as if it was not there.
+    """
+    code, _ = _code(text)
+    if "/*" in code or "*/" in code or _MARK.search(text):
+        return False
+    depth = 0
+    for bracket in _BRACKET.findall(code):
+        depth += 1 if bracket in "{([" else -1
+        if depth < 0:
+            return False
+    return depth == 0
 
 
 def _boundaries(text: str) -> Iterator[int]:
@@ -66,11 +86,10 @@ def _boundaries(text: str) -> Iterator[int]:
 
 def _continues(before: str, code: str, start: int) -> bool:
     """Whether what stands at the start of a line belongs to the declaration before it."""
-    found = _GOES_ON.search(before)
-    if found is None:
-        return False
-    after = _AFTER.get(found[0].strip(), _CATEGORY)
-    return after.match(code, start) is not None
+    return any(
+        before.endswith(last) and after.match(code, start) is not None
+        for last, after in _GOES_ON.items()
+    )
 
 
 def _code(text: str) -> tuple[str, list[tuple[int, int]]]:

@@ -46,6 +46,7 @@ from swarmdsl.cli.outcome import conclude
 @click.option(
     "--dump-ir", is_flag=True, help="Print the intermediate representation and write nothing."
 )
+@options.watch
 @options.allow
 @options.warn
 @options.deny
@@ -58,6 +59,7 @@ def build(
     given: tuple[str, ...],
     force: bool,
     dump_ir: bool,
+    watch: bool,
     allow: tuple[str, ...],
     warn: tuple[str, ...],
     deny: tuple[str, ...],
@@ -77,10 +79,24 @@ def build(
     settings = run_settings(paths, levels, report)
     wanted = requests(targets, given, settings)
     stream = sys.stderr if dump_ir else sys.stdout
+    if watch and dump_ir:
+        raise click.UsageError("--dump-ir prints once: use it without --watch")
     if report.has_errors:
         return conclude(compiler.Result(report, files=1), format_, stream)
     if not dump_ir:
         out = out or settings.out
+        if watch:
+            from swarmdsl.cli.watch import watch_files
+            from swarmdsl.workspace import Workspace
+
+            def build_again(workspace: Workspace) -> int:
+                result = compiler.Result(workspace.report, workspace.files)
+                if not result.report.has_errors:
+                    sources = settings.sources
+                    result = compiler.build(sources, wanted, out, settings, force=force)
+                return conclude(result, format_, stream)
+
+            return watch_files(settings, build_again)
         result = compiler.build(settings.sources, wanted, out, settings, force=force)
         return conclude(result, format_, stream)
     result = compiler.check(settings.sources, settings)

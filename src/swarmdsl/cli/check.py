@@ -13,6 +13,7 @@ from swarmdsl.cli.outcome import conclude
 
 @click.command(epilog="Example: swarmc check examples/search_and_rescue --format concise")
 @options.files
+@options.watch
 @options.allow
 @options.warn
 @options.deny
@@ -20,6 +21,7 @@ from swarmdsl.cli.outcome import conclude
 @options.debug
 def check(
     paths: tuple[Path, ...],
+    watch: bool,
     allow: tuple[str, ...],
     warn: tuple[str, ...],
     deny: tuple[str, ...],
@@ -39,4 +41,13 @@ def check(
     settings = run_settings(paths, levels, report)
     if report.has_errors:
         return conclude(compiler.Result(report, files=1), format_, sys.stdout)
+    if watch:
+        from swarmdsl.cli.watch import watch_files
+
+        return watch_files(
+            settings,
+            lambda workspace: conclude(
+                compiler.Result(workspace.report, workspace.files), format_, sys.stdout
+            ),
+        )
     return conclude(compiler.check(settings.sources, settings), format_, sys.stdout)

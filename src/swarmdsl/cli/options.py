@@ -19,6 +19,9 @@ diagnostics_format = click.option(
     show_default=True,
     help="How diagnostics are printed.",
 )
+watch = click.option(
+    "--watch", is_flag=True, help="Run again whenever a file of the model changes, until Ctrl-C."
+)
 allow = click.option(
     "--allow", multiple=True, metavar="NAME", help="Silence a warning; may be repeated."
 )

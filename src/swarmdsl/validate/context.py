@@ -153,7 +153,7 @@ def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
     return kind_of(known) if known is not None else "a primitive type"
 
 
-def _read_packages(project: Project) -> dict[str, set[str]]:
+def read_packages(project: Project) -> dict[str, set[str]]:
     """The names in each package whose whole folder was read, not only its `msg` for instance."""
     found: dict[str, set[str]] = {}
     for file in project.files:
@@ -173,6 +173,6 @@ def make_context(project: Project, report: Diagnostics) -> Context:
     damaged: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
         ((file, node) for file, node in project.declarations() if node not in damaged),
-        _read_packages(project),
+        read_packages(project),
     )
     return Context(report, interfaces, Typing(interfaces, report), damaged)

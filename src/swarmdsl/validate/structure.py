@@ -86,11 +86,13 @@ def _check_growth(machines: list[StateMachine], report: Diagnostics) -> None:
     """
     levels: dict[StateMachine, int] = {}
     sizes: dict[StateMachine, int] = {}
+    reused = {inner for machine in machines for _, inner in _reused(machine)}
     for machine in leaves_first(machines, lambda machine: [inner for _, inner in _reused(machine)]):
         uses = list(_reused(machine))
         if any(inner not in sizes for _, inner in uses):
             continue
-        levels[machine] = _levels(machine, levels) - 1
+        # Without reuse they are not deeper than the parser takes.
+        levels[machine] = _levels(machine, levels) - 1 if uses or machine in reused else 0
         own = sum(len(nodes_of(machine, kind)) for kind in (*get_args(Vertex), Region))
         sizes[machine] = own + sum(sizes[inner] for _, inner in uses)
         if levels[machine] > NESTING_LIMIT:
