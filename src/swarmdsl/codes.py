@@ -119,6 +119,9 @@ CODES: dict[str, Code] = {
     "early-read": Code("SW0525", "warning", "variable `{name}` may be read before it is written"),
     "zero-delay": Code("SW0526", "warning", "a delay of 0 waits for nothing"),
     "repeated-trigger": Code("SW0527", "warning", "`{trigger}` triggers this transition already"),
+    "conflicting-effects": Code(
+        "SW0528", "warning", "two regions assign to `{variable}` on {event}"
+    ),
     # ---- functions and interfaces
     "unknown-field": Code("SW0601", "error", "{owner} has no field `{name}`"),
     "missing-field": Code("SW0602", "error", "{owner} needs a value for {fields}"),

@@ -14,12 +14,14 @@ from swarmdsl.diagnostics import Label
 from swarmdsl.syntax import (
     Branch,
     Choice,
+    Container,
     DoneTrigger,
     EventTrigger,
     MonitorTrigger,
     OutcomeTrigger,
     Parallel,
     Ref,
+    Region,
     State,
     StateMachine,
     TimeTrigger,
@@ -30,6 +32,7 @@ from swarmdsl.syntax import (
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.conditions import certain, condition_of, negated, possible
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.outline import Outline
 from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate
 
 _AT_ONCE = ("at once",)
@@ -42,9 +45,17 @@ _Leaving = tuple[float, Transition]
 def check_order(machine: StateMachine, circles: Circles, context: Context) -> None:
     """Report what is never taken because something else always comes before it."""
     reported = endless(circles)
-    for state, transitions in context.outline(machine).transitions.items():
+    outline = context.outline(machine)
+    # By state what leaves it, or one around it, first: of those around others, which come before.
+    ends: dict[Container, _Leaving] = {}
+    for state, transitions in outline.transitions.items():
         dead = _check_immediate(state, transitions, reported, context)
-        _check_transitions([t for t in transitions if t not in dead], state, context)
+        alive = [t for t in transitions if t not in dead]
+        soonest = _soonest(alive, context)
+        outer = [ends[each] for each in (_owner(state, outline),) if each in ends]
+        _check_transitions(alive, state, soonest, outer, context)
+        for first in nsmallest(1, [*outer, *soonest], key=lambda each: each[0]):
+            ends[state] = first
     for choice in nodes_of(machine, Choice):
         _check_branches(choice, context)
 
@@ -81,14 +92,21 @@ def _check_immediate(
 
 
 def _check_transitions(
-    transitions: list[Transition], state: State | Parallel, context: Context
+    transitions: list[Transition],
+    state: State | Parallel,
+    soonest: Sequence[_Leaving],
+    outer: Sequence[_Leaving],
+    context: Context,
 ) -> None:
     earlier: dict[Hashable, list[Transition]] = {}
-    soonest = _soonest(transitions, context)
     for transition in transitions:
         keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
         _check_repeated(transition.triggers, keys, context)
         sooner = [_sooner(each, transition, soonest, context) for each in transition.triggers]
+        late = [_late(each, outer, context) for each in transition.triggers]
+        if late and all(late):
+            _report_late(transition, outer[0][1], context)
+            continue
         blockers = [
             [first] if first is not None else _covering(transition, _all(earlier, each), context)
             for first, each in zip(sooner or [None], keys, strict=True)
@@ -256,6 +274,27 @@ def _sooner(
         return None
     before = other.span.start < transition.span.start
     return other if sooner < delay or (before and sooner == delay) else None
+
+
+def _owner(state: State | Parallel, outline: Outline) -> Container:
+    """The state that another one is in, or the machine."""
+    container = outline.container[state]
+    return outline.container[container] if isinstance(container, Region) else container
+
+
+def _late(trigger: Trigger, outer: Sequence[_Leaving], context: Context) -> bool:
+    """Whether a state around is left by then: it was entered no later."""
+    delay = _delay(trigger, context)
+    return delay is not None and any(sooner <= delay for sooner, _ in outer)
+
+
+def _report_late(transition: Transition, before: Transition, context: Context) -> None:
+    context.report.report(
+        "transition-never-fires",
+        transition.span,
+        related=(Label(before.span, "this one leaves the state around it no later"),),
+        help="let it wait less long, or the other one longer",
+    )
 
 
 def _delay(trigger: Trigger, context: Context) -> float | None:
