@@ -62,19 +62,27 @@ def section(folder: Path) -> Section:
         name = f"parsed by {peers.title(each.name, each.peer)}, warm"
         found.rows.append([name, spread(times[each.name], scale=1e3), ""])
     again, keys = edits["again"], edits["keys"]
-    found.rows.append(
-        ["checked again after an edit, in the same process", spread(again, scale=1e3), ""]
-    )
-    found.rows.append(
-        [f"a key in a file of {LINES_OF_A_FILE:,} lines", spread(keys, "{:.1f}", 1e3), ""]
-    )
+    for where, seconds in (
+        ("one of these files", again),
+        (f"a file of {LINES_OF_A_FILE:,} lines", keys),
+    ):
+        found.rows.append([f"checked again after a key in {where}", _figures(seconds), ""])
     found.goal("a check, in seconds by the clock", median(walls[1:]), 2, "{:.2f}")
     found.goal("the peak of its memory, in MB", max(memory) / 1e6, 250, "{:.0f}")
     if PROTOC in present:
         ratio = median(times["swarmdsl"]) / median(times["protoc"])
         found.goal("time to parse a line, as a share of that of protoc", ratio, 1, "{:.2f}")
-    found.goal("checked again after an edit, in seconds", median(again), 0.3, "{:.2f}")
-    slow = quantiles(keys, n=20)[-1] * 1e3
-    found.goal("a key, in ms, the slowest twentieth left out", slow, 25, "{:.1f}")
+    slow = "the slowest twentieth left out"
+    found.goal(f"checked again after a key, in seconds, {slow}", _high(again), 0.3, "{:.3f}")
+    found.goal(f"a key in the large file, in ms, {slow}", _high(keys) * 1e3, 25, "{:.1f}")
     found.notes += absent
     return found
+
+
+def _figures(seconds: list[float]) -> str:
+    return spread(seconds, "{:.1f}", 1e3)
+
+
+def _high(seconds: list[float]) -> float:
+    """What 19 of 20 stay below."""
+    return quantiles(seconds, n=20)[-1]

@@ -1,7 +1,7 @@
 """Times what an editor waits for: python benchmarks/recheck.py FOLDER FILE.
 
-Prints the processor's seconds as JSON: `again` for a workspace that is checked again after an
-edit of one file, `keys` for a file that is checked after each key.
+Prints the processor's seconds from a key to all that is wrong then, as JSON: `again` for keys
+in one file of a workspace, `keys` for keys in a file of its own.
 """
 
 from __future__ import annotations
@@ -9,47 +9,56 @@ from __future__ import annotations
 import gc
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator
 from pathlib import Path
+from random import Random
 from time import process_time
 
-from swarmdsl import compiler
+from swarmdsl.workspace import Workspace
 
-EDITS = 5
-KEYS = 40
-
-
-def checked(paths: Sequence[Path]) -> float:
-    """Check a model without errors; how long that took."""
-    start = process_time()
-    result = compiler.check(paths)
-    taken = process_time() - start
-    if result.report.has_errors:
-        sys.exit("\n".join(found.message for found in result.report))
-    return taken
+SEED = 11
+PLACES = 12
+WORD = "Moved"
 
 
-def edited(file: Path, times: int, paths: Sequence[Path]) -> list[float]:
-    """The times of checks, each after an edit: a letter more in a comment in the middle."""
-    text = file.read_text(encoding="utf-8")
-    place = text.index("/// ", len(text) // 2) + len("/// ")
+def typed(text: str) -> Iterator[str]:
+    """The text after each key: a word is typed somewhere, and taken back; most are mistakes."""
+    random = Random(SEED)
+    for _ in range(PLACES):
+        at = random.randrange(len(text) + 1)
+        for end in range(1, len(WORD) + 1):
+            yield text[:at] + WORD[:end] + text[at:]
+        yield text
+
+
+def times(workspace: Workspace, file: Path) -> list[float]:
+    """The time of each key in a file of the workspace."""
     found = []
-    for count in range(times):
-        file.write_text(text[:place] + "x" * (count + 1) + text[place:], encoding="utf-8")
-        found.append(checked(paths))
-        gc.collect()
+    for text in typed(file.read_text(encoding="utf-8")):
+        start = process_time()
+        workspace.update({file: text})
+        list(workspace.report)
+        found.append(process_time() - start)
+        gc.collect()  # as an editor does between two keys
     return found
+
+
+def opened(*paths: Path) -> Workspace:
+    """A workspace without mistakes."""
+    workspace = Workspace(paths)
+    if workspace.report.has_errors:
+        sys.exit("\n".join(found.message for found in workspace.report))
+    gc.collect()
+    gc.freeze()
+    return workspace
 
 
 def main() -> None:
     """Print the times."""
-    gc.disable()
     folder, single = map(Path, sys.argv[1:])
-    paths = sorted(folder.iterdir())
-    checked(paths)
-    again = edited(paths[len(paths) // 2], EDITS, paths)
-    checked([single])
-    keys = edited(single, KEYS, [single])
+    files = sorted(folder.glob("area*.swarm"))
+    again = times(opened(folder), files[len(files) // 2])
+    keys = times(opened(single), single)
     print(json.dumps({"again": again, "keys": keys}))
 
 
