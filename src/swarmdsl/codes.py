@@ -191,6 +191,7 @@ CODES: dict[str, Code] = {
     "value-not-a-number": Code(
         "SW0915", "warning", "the CPSwarm code generator cannot read the value of {item}"
     ),
+    "no-place": Code("SW0916", "warning", "target `{target}` has no place for {what}"),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

@@ -18,7 +18,10 @@ BUILT_IN = {
     "scxml": "swarmdsl.exchange.scxml:generator",
     "adf": "swarmdsl.exchange.adf:generator",
     "smach": "swarmdsl.generators.smach:generator",
+    "amf": "swarmdsl.exchange.amf:generator",
 }
+# What other tools take besides; built only where somebody asks for it.
+ON_REQUEST = frozenset({"amf"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
@@ -37,6 +40,11 @@ class Broken:
 def target_names() -> list[str]:
     """The names of all targets there are, the built-in ones first."""
     return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
+
+
+def default_names() -> list[str]:
+    """The targets that are built where nobody says which."""
+    return [name for name in target_names() if name not in ON_REQUEST]
 
 
 def hidden_names() -> list[str]:

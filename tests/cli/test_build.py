@@ -2,6 +2,8 @@
 
 import pytest
 
+from swarmdsl import plugins
+
 
 def test_one_target(swarmc, good, tmp_path):
     ran = swarmc("build", good, "--target", "adf", "-o", tmp_path / "made")
@@ -23,11 +25,16 @@ def test_a_second_build_touches_nothing(swarmc, good, tmp_path):
     assert [row[:2] for row in rows[1:]] == [["scxml", "-"], ["adf", "-"]]
 
 
-def test_the_default_is_all_targets_in_out(swarmc, good, tmp_path, monkeypatch):
+def test_the_default_is_in_out_all_but_what_has_to_be_asked_for(
+    swarmc, good, tmp_path, monkeypatch
+):
     monkeypatch.chdir(tmp_path)
     ran = swarmc("build", good)
     assert ran.code == 0
-    assert {"scxml", "adf"} <= {path.name for path in (tmp_path / "out").iterdir()}
+    built = {path.name for path in (tmp_path / "out").iterdir()}
+    assert {"scxml", "adf"} <= built
+    assert not built & plugins.ON_REQUEST
+    assert set(plugins.target_names()) > plugins.ON_REQUEST
 
 
 def test_a_model_with_errors_makes_nothing(swarmc, bad, tmp_path):

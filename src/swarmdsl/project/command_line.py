@@ -32,7 +32,7 @@ def run_settings(
 
 
 def requests(targets: Iterable[str], options: Iterable[str], settings: Settings) -> list[Request]:
-    """The targets to build: those named, else those of the project, else all.
+    """The targets to build: those named, else those of the project, else what all use.
 
     An option on the command line wins over the same one in the project file.
     """
@@ -42,7 +42,7 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
 
     # Only a target that somebody asked for must be able to express the model.
     required = bool(named or settings.targets)
-    built = named or list(settings.targets) or plugins.target_names()
+    built = named or list(settings.targets) or plugins.default_names()
     given: dict[str, dict[str, str]] = {target: {} for target in built}
     places: dict[str, dict[str, Span]] = {target: {} for target in built}
     for option in options:
