@@ -1,7 +1,7 @@
 """Times what an editor waits for: python benchmarks/recheck.py FOLDER FILE.
 
-Prints the processor's seconds from a key to all that is wrong then, as JSON: `again` for keys
-in one file of a workspace, `keys` for keys in a file of its own.
+Prints the processor's seconds from a key to all that is wrong then, as JSON: `again` for keys in
+one of many files, `keys` for those in one large file.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 import gc
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 from time import process_time
@@ -17,49 +17,47 @@ from time import process_time
 from swarmdsl.workspace import Workspace
 
 SEED = 11
-PLACES = 12
+KEYS = 60
 WORD = "Moved"
 
 
-def typed(text: str) -> Iterator[str]:
-    """The text after each key: a word is typed somewhere, and taken back; most are mistakes."""
-    random = Random(SEED)
-    for _ in range(PLACES):
-        at = random.randrange(len(text) + 1)
-        for end in range(1, len(WORD) + 1):
-            yield text[:at] + WORD[:end] + text[at:]
-        yield text
-
-
-def times(workspace: Workspace, file: Path) -> list[float]:
-    """The time of each key in a file of the workspace."""
+def keystrokes(text: str) -> list[str]:
+    """The text after each key of a word that is typed, and taken away again, in many places."""
+    dice = Random(SEED)
     found = []
-    for text in typed(file.read_text(encoding="utf-8")):
-        start = process_time()
-        workspace.update({file: text})
-        list(workspace.report)
-        found.append(process_time() - start)
-        gc.collect()  # as an editor does between two keys
-    return found
+    while len(found) < KEYS:
+        at = dice.randrange(len(text))
+        found += [text[:at] + WORD[:end] + text[at:] for end in range(1, len(WORD) + 1)]
+        found.append(text)
+    return found[:KEYS]
 
 
-def opened(*paths: Path) -> Workspace:
-    """A workspace without mistakes."""
+def times(paths: Sequence[Path], file: Path) -> list[float]:
+    """How long it takes after each key in a file of a model."""
     workspace = Workspace(paths)
     if workspace.report.has_errors:
         sys.exit("\n".join(found.message for found in workspace.report))
     gc.collect()
     gc.freeze()
-    return workspace
+    found = []
+    for text in keystrokes(file.read_text(encoding="utf-8")):
+        start = process_time()
+        workspace.update({file: text})
+        list(workspace.report)
+        found.append(process_time() - start)
+        gc.collect()  # between two keys there is time for it
+    gc.unfreeze()
+    return found
 
 
 def main() -> None:
     """Print the times."""
+    gc.disable()
     folder, single = map(Path, sys.argv[1:])
-    files = sorted(folder.glob("area*.swarm"))
-    again = times(opened(folder), files[len(files) // 2])
-    keys = times(opened(single), single)
-    print(json.dumps({"again": again, "keys": keys}))
+    paths = sorted(folder.iterdir())
+    print(
+        json.dumps({"again": times(paths, paths[len(paths) // 2]), "keys": times([single], single)})
+    )
 
 
 if __name__ == "__main__":

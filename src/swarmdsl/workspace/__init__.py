@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from swarmdsl.diagnostics import MOST_HINTS, Diagnostic, Diagnostics, placed
+from swarmdsl.libraries import imported_name
 from swarmdsl.link import link
 from swarmdsl.link_constants import open_cycles
 from swarmdsl.load import Project, expanded, load
@@ -55,6 +56,9 @@ class Workspace:
         self._in_order: Diagnostics | None = None
         self._reused: set[StateMachine | None] = set()
         self._packages: set[str] = set()
+        # Units of which something was reported, or nothing because of what cannot be read.
+        self._noted: set[Unit] = set()
+        self._picks = False  # whether an import is of one name, which may be gone
         self.project = Project()
         with no_garbage_collection():
             change = Change(everything=True)
@@ -79,7 +83,7 @@ class Workspace:
                 if sheet is not None:
                     self._desk.drop(path)
                     change.go(sheet)
-            if reload or change.shape:
+            if reload or change.heads or (change.shape and self._picks):
                 self._load(change)
             self._apply(change)
 
@@ -115,14 +119,13 @@ class Workspace:
         for sheet in self._desk.sheets.values():
             if len(sheet.said):
                 yield from sheet.said
-        for unit in self._units.values():
-            if len(unit.syntax):
-                yield from unit.syntax
+        for unit in self._noted:
+            yield from unit.syntax
         if self._in_order is not None:
             yield from self._in_order
             return
         yield from self._together
-        for unit in self._units.values():
+        for unit in self._noted:
             yield from unit.found()
 
     def _load(self, change: Change) -> None:
@@ -151,6 +154,8 @@ class Workspace:
         if files != self.project.files:
             change.words |= declared_twice(self.project)
         change.everything |= read != read_packages(self.project)
+        imports = (one for file in self.project.files for one in file.model.imports)
+        self._picks = any(imported_name(one) is not None for one in imports)
 
     def _apply(self, change: Change) -> None:
         """Link and check what the change has an effect on."""
@@ -163,7 +168,8 @@ class Workspace:
             change.everything |= before != self._packages
         change.everything |= self._in_order is not None
         self._in_order = None
-        stale = affected(change, self._units.values())
+        self._noted.difference_update(change.gone)
+        stale = affected(change, self._units.values(), self._noted)
         fresh = set(change.new)
         for unit in change.gone:
             unit.forget()
@@ -175,6 +181,7 @@ class Workspace:
             stale |= with_users(linking.driven)
             fresh.clear()
         linking.link_inside(stale)
+        self._note(stale)
         if self._has_circles():
             self._check_in_order()
             return
@@ -197,7 +204,8 @@ class Workspace:
         check_together(self.project, context.reporting_to(self._together))
         before, self._reused = self._reused, reused_machines(self.project)
         turned = (self._units.get(node.span.source) for node in before ^ self._reused if node)
-        for unit in stale.union(unit for unit in turned if unit is not None):
+        stale = stale.union(unit for unit in turned if unit is not None)
+        for unit in stale:
             unit.checked = self._collector()
             of_unit = context.reporting_to(unit.checked)
             for declaration in unit.parsed.model.declarations:
@@ -207,27 +215,32 @@ class Workspace:
                 check_optimization(optimization, of_unit)
             shown = {label.span.source for found in unit.found() for label in found.related}
             unit.use({*unit.uses, *(self._units[each] for each in shown if each in self._units)})
+        self._note(stale)
+
+    def _note(self, units: set[Unit]) -> None:
+        self._noted -= units
+        self._noted.update(unit for unit in units if unit.noted)
 
     def _has_circles(self) -> bool:
         """Whether constants or aliases lead in a circle, which begins at the first of them."""
         circles = Diagnostics()
         open_cycles(self.project, circles)
-        outside = (unit.outside for unit in self._units.values())
+        outside = (unit.outside for unit in self._noted)
         return len(circles) > 0 or any(report.count_of("type-cycle") for report in outside)
 
     def _has_many_mistakes(self) -> bool:
         """Whether not all have a hint what may be meant: it is the first that have."""
         counts = dict.fromkeys(_HINTED, self._loaded.count_of(_HINTED[0]))
-        for unit in self._units.values():
+        for unit in self._noted:
             for report in (unit.outside, unit.inside, unit.checked):
-                if len(report):
-                    for name in _HINTED:
-                        counts[name] += report.count_of(name)
+                for name in _HINTED:
+                    counts[name] += report.count_of(name)
         return any(count >= MOST_HINTS for count in counts.values())
 
     def _check_in_order(self) -> None:
         """Check all of it at once, where the order of all declarations decides what is said."""
         self._read(set(self._units.values()))
+        self._note(set(self._units.values()))
         self._in_order = self._collector()
         self._in_order.include(self._loaded)
         link(self.project, self._in_order)

@@ -34,6 +34,11 @@ class Change:
     lost: bool = False
 
     @property
+    def heads(self) -> bool:
+        """Whether packages or imports changed."""
+        return bool(self.stale or self.everything)
+
+    @property
     def shape(self) -> bool:
         """Whether names or imports changed, and not only what is inside of declarations."""
         return bool(self.words or self.stale or self.everything or self.lost)
@@ -69,14 +74,17 @@ class Change:
         self.everything |= sheet.interface is not None
 
 
-def affected(change: Change, units: Collection[Unit]) -> set[Unit]:
-    """Those of the units that must be linked and checked again."""
+def affected(change: Change, units: Collection[Unit], noted: Iterable[Unit]) -> set[Unit]:
+    """Those of the units that must be linked and checked again.
+
+    `noted` are those of which something was reported, or might have been.
+    """
     if change.everything or _is_standard([*change.gone, *change.new]):
         return set(units)
     found = {*change.gone, *change.new, *change.stale}
     if change.shape:
         # What was said of a name that means nothing depends on all names there are.
-        found.update(unit for unit in units if unit.hushed or any(unit.found()))
+        found.update(noted)
     if change.words:
         found.update(_mentioning(change.words, units))
     return with_users(found).intersection(units)

@@ -88,8 +88,12 @@ class Unit:
     def found(self) -> Iterator[Diagnostic]:
         """What linking and checking have found."""
         for report in (self.outside, self.inside, self.checked):
-            if len(report):
-                yield from report
+            yield from report
+
+    @property
+    def noted(self) -> bool:
+        """Whether anything was reported, or a name was not."""
+        return self.hushed or len(self.syntax) > 0 or any(self.found())
 
 
 def with_users(units: Iterable[Unit]) -> set[Unit]:
