@@ -19,9 +19,10 @@ BUILT_IN = {
     "adf": "swarmdsl.exchange.adf:generator",
     "smach": "swarmdsl.generators.smach:generator",
     "amf": "swarmdsl.exchange.amf:generator",
+    "swarmros": "swarmdsl.exchange.swarmros:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf"})
+ON_REQUEST = frozenset({"amf", "swarmros"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)

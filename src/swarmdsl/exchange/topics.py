@@ -1,0 +1,73 @@
+"""The ROS topics that a member uses: by its behaviour, its ports and the functions it calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from swarmdsl.ir import (
+    Component,
+    Effect,
+    EventTrigger,
+    Member,
+    Port,
+    Send,
+    StateMachine,
+    System,
+    Type,
+)
+from swarmdsl.source import Span
+
+
+@dataclass(frozen=True)
+class Use:
+    """Messages that are heard on a topic or sent on it; `origin` is what names the topic."""
+
+    topic: str
+    type: Type
+    heard: bool
+    origin: Span | None = field(default=None, compare=False)
+
+
+def uses(member: Member, system: System) -> Iterator[Use]:
+    """Each use once, in the order of the model."""
+    components = {component.name: component for component in system.components}
+    machines = {machine.name: machine for machine in system.machines}
+    owners: list[Member | Component] = [member]
+    owners += [components[part.component] for part in member.parts]
+    found: dict[Use, None] = {}
+    for owner in owners:
+        if owner.behavior is not None:
+            found.update(dict.fromkeys(_of_machine(machines[owner.behavior], system)))
+    for owner in owners:
+        for port in owner.ports:
+            found.update(dict.fromkeys(_of_port(port)))
+    yield from found
+
+
+def _of_machine(machine: StateMachine, system: System) -> Iterator[Use]:
+    for state in machine.walk():
+        if state.activity is not None:
+            for port in system.function(state.activity.function).ports:
+                yield Use(port.topic, port.type, port.direction == "in", port.origin)
+        yield from _of_effects((*state.entry, *state.exit), system)
+        for transition in state.transitions:
+            for trigger in transition.triggers:
+                if isinstance(trigger, EventTrigger):
+                    event = system.event(trigger.event)
+                    yield Use(event.incoming_topic, event.type, True, event.origin)
+            yield from _of_effects(transition.effects, system)
+
+
+def _of_effects(effects: tuple[Effect, ...], system: System) -> Iterator[Use]:
+    for effect in effects:
+        if isinstance(effect, Send):
+            event = system.event(effect.event)
+            yield Use(event.topic, event.type, False, event.origin)
+
+
+def _of_port(port: Port) -> Iterator[Use]:
+    if port.direction != "out":
+        yield Use(port.topic, port.type, True, port.origin)
+    if port.direction != "in":
+        yield Use(port.topic, port.type, False, port.origin)
