@@ -56,11 +56,14 @@ class Interfaces:
         Where ROS has several of one name (`nav_msgs/GetMap`) it is the `wanted` one.
         """
         found = self.declared.get(type_)
-        if found is None:
-            found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
-            for ref in walk(found) if found is not None else ():
-                if isinstance(ref, TypeRef) and ref.type is None:
-                    ref.type = written_type(ref)
+        return found if found is not None else self.standard(type_, wanted)
+
+    def standard(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
+        """The interface of that name that ROS comes with, whatever the project declares."""
+        found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
+        for ref in walk(found) if found is not None else ():
+            if isinstance(ref, TypeRef) and ref.type is None:
+                ref.type = written_type(ref)
         return found
 
     def fields(self, type_: Named) -> list[Field] | None:

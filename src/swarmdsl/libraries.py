@@ -11,10 +11,10 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from swarmdsl import resources
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.foreign import failure
 from swarmdsl.source import Span
-from swarmdsl.suggest import did_you_mean
+from swarmdsl.suggest import closest, did_you_mean
 from swarmdsl.syntax import Import, ImportLibrary
 
 SUFFIX = ".swarm"
@@ -93,7 +93,16 @@ class Libraries:
             for library in self._search_path(nearby)
             for path in (*library.glob(f"*/*{SUFFIX}"), *library.glob(f"*{SUFFIX}"))
         }
-        return did_you_mean(package, names)
+        library, _, last = package.partition(".")
+        inside = {
+            name[len(library) + 1 :]: name for name in names if name.startswith(f"{library}.")
+        }
+        if not inside:
+            return did_you_mean(package, names)
+        close = closest(last, inside)
+        if close is None:
+            return f"`{library}` has {listed(sorted(inside.values()), 'and')}"
+        return f"did you mean `{inside[close]}`?"
 
 
 def _folder_of(module: str) -> Path:

@@ -32,6 +32,7 @@ from swarmdsl.syntax import (
     FitnessInput,
     Function,
     Member,
+    Node,
     Operation,
     Optimization,
     Param,
@@ -128,7 +129,10 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
     for node, ref in references(owner):
         kind = _TOP_LEVEL.get(ref.kind)
         if kind is not None and not isinstance(node, Activity):
-            ref.target = scope.resolve(ref.name, ref.span, kind, report)
+            instead: dict[type[Node], str] = {}
+            if isinstance(node, Part):
+                instead[StateMachine] = f"write `behavior {ref.name}`"
+            ref.target = scope.resolve(ref.name, ref.span, kind, report, instead=instead)
 
 
 def _params_of_members(

@@ -33,6 +33,8 @@ from swarmdsl.syntax import (
 
 Values = Mapping[str, Variable | Param | FitnessInput]
 
+# What other languages call a value that is not there.
+_NOTHING = ("null", "none", "nil", "undefined")
 _DECLARED: tuple[type[Constant | EnumType | AliasType], ...] = (Constant, EnumType, AliasType)
 
 
@@ -122,8 +124,12 @@ class ValueLinker:
         if meant and name not in self.scope.lost and not self.scope.find(name):
             help_ = f"write {listed(meant)}"
             self.report.report("unresolved-name", at, kind="value", name=name, help=help_)
+        elif name.lower() in _NOTHING and not self.scope.find(name):
+            help_ = 'a value is always there: compare with one that stands for nothing, 0 or ""'
+            self.report.report("unresolved-name", at, kind="value", name=name, help=help_)
         else:
-            self.scope.resolve(name, at, _DECLARED, self.report, built_in=values)
+            known = [*values, "true", "false"]
+            self.scope.resolve(name, at, _DECLARED, self.report, built_in=known)
 
 
 def _words(fields: list[FieldUse]) -> str:

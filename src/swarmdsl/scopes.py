@@ -7,7 +7,7 @@ declarations win; a name that two imported files declare must be qualified by a 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
@@ -157,10 +157,12 @@ class FileScope:
         report: Diagnostics,
         *,
         built_in: Iterable[str] = (),
+        instead: Mapping[type[Node], str] | None = None,
     ) -> D | None:
         """Find the declaration a name means; None when there is none, which is reported.
 
-        `built_in` are names that need no declaration: one of them may be meant.
+        `built_in` are names that need no declaration: one of them may be meant. `instead` says
+        what to do where something of another kind has the name.
         """
         kinds = wanted if isinstance(wanted, tuple) else (wanted,)
         found = self.find(name)
@@ -181,7 +183,7 @@ class FileScope:
                 related=tuple(Label(node.name.span, "declared here") for node in fitting.values()),
                 help=f"write {listed([f'{package}.{name}' for package in fitting])}",
             )
-        elif found:
+        elif found and name.rpartition(".")[2] not in self.lost:
             report.report(
                 "wrong-kind",
                 at,
@@ -189,8 +191,9 @@ class FileScope:
                 actual=kind_of(found[0][1]),
                 expected=expected,
                 related=(Label(found[0][1].name.span, "declared here"),),
+                help=(instead or {}).get(type(found[0][1])),
             )
-        elif self.complete:
+        elif not found and self.complete:
             self._report_unresolved(name, at, kinds, built_in, report)
         return None
 

@@ -11,6 +11,7 @@ from swarmdsl import compiler
 MACHINE = """
 event Go : std_msgs/Empty
 enum Gear {{ SLOW FAST }}
+function land : abstraction {{ action "land" : uav_msgs/Land }}
 enum Mode {{ SLOW FAST }}
 statemachine M {{
   var gear : Gear = Gear.SLOW
@@ -51,6 +52,29 @@ def test_in_transitions(transitions: str, wanted: list[str], tmp_path: Path) -> 
 )
 def test_in_values_of_an_enum(values: str, wanted: list[str], tmp_path: Path) -> None:
     assert codes(f"enum Mode {{ {values} }}", tmp_path) == wanted
+
+
+@pytest.mark.parametrize(
+    ("transitions", "wanted"),
+    [
+        ("after 5 s / raise Go -> Done", ["SW0101"]),
+        ("after 5 s / call land -> Done", ["SW0101"]),
+    ],
+)
+def test_behind_a_syntax_error(transitions: str, wanted: list[str], tmp_path: Path) -> None:
+    assert codes(MACHINE.format(transitions=transitions), tmp_path) == wanted
+
+
+def test_types_before_names(tmp_path: Path) -> None:
+    text = "member Uav {\n  param float64 y\n  param float64 z\n}\n"
+
+    assert codes(text, tmp_path) == ["SW0101", "SW0101"]
+
+
+def test_names_that_are_types_are_declared_once(tmp_path: Path) -> None:
+    text = "member Uav {\n  param time : float64\n  param time : float64\n}\n"
+
+    assert codes(text, tmp_path) == ["SW0201"]
 
 
 def codes(text: str, folder: Path) -> list[str]:

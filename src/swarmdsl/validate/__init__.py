@@ -10,6 +10,7 @@ from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.libraries import SUFFIX
 from swarmdsl.load import File, Project
 from swarmdsl.syntax import (
+    ActionType,
     Component,
     Constant,
     Declaration,
@@ -20,6 +21,7 @@ from swarmdsl.syntax import (
     Function,
     Member,
     MessageType,
+    ServiceType,
     StateMachine,
     Swarm,
 )
@@ -40,6 +42,7 @@ from swarmdsl.validate.interfaces import (
     check_function,
     check_known,
     check_message_cycles,
+    check_standard,
     check_topics,
     check_values,
 )
@@ -86,7 +89,7 @@ def check_alone(file: File, declaration: Declaration, context: Context, *, reuse
 
     Of a machine it must be known whether another one reuses it.
     """
-    check_names_inside(declaration, context.report)
+    check_names_inside(declaration, context.report, file.parsed.lost_names)
     if declaration in file.parsed.damaged:
         return
     if file.library:
@@ -135,7 +138,10 @@ def _check(declaration: Declaration, context: Context) -> None:
             check_conflicts(declaration, context)
         case Constant():
             check_constant(declaration, context)
+        case ServiceType() | ActionType():
+            check_standard(declaration, context)
         case MessageType():
+            check_standard(declaration, context)
             for constant in declaration.constants:
                 check_constant(constant, context)
         case EnumType():

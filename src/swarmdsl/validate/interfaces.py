@@ -5,10 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.graph import cycles
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.load import File
+from swarmdsl.ros import standard
 from swarmdsl.scopes import kind_of
 from swarmdsl.syntax import (
     ActionType,
@@ -18,6 +19,7 @@ from swarmdsl.syntax import (
     Field,
     Function,
     FunctionPort,
+    Interface,
     MessageType,
     MonitorTrigger,
     Param,
@@ -85,6 +87,48 @@ def check_known(declaration: Declaration, context: Context) -> None:
         if similar is not None or context.interfaces.missing(element):
             help_ = f"did you mean `{similar}`?" if similar is not None else None
             context.report.report("unknown-interface", node.span, name=element, help=help_)
+
+
+def check_standard(declared: Interface, context: Context) -> None:
+    """What has the name of an interface that ROS comes with is described as there.
+
+    Where ROS 1 and ROS 2 differ, either will do.
+    """
+    package, _, name = declared.name.rpartition("/")
+    standard_one = context.interfaces.standard(Named(package, name), type(declared))
+    if standard_one is None:
+        return
+    own = [_shape(field) for field in _fields(declared)]
+    versions = [
+        [field for field in _fields(standard_one) if standard.only_in(field) in (None, version)]
+        for version in (1, 2)
+    ]
+    if any(own == [_shape(field) for field in fields] for fields in versions):
+        return
+    shown = listed([f"{field.name} : {field.type.type}" for field in versions[1]], "and")
+    context.report.report(
+        "other-than-standard",
+        declared.name.span,
+        name=declared.name,
+        help=f"that has {shown or 'no field'}: leave this out, or give it another name",
+    )
+
+
+def _fields(interface: Interface) -> list[Field]:
+    match interface:
+        case MessageType(fields=fields):
+            return fields
+        case ServiceType(request=request, response=response):
+            return [*request, *response]
+        case ActionType(goal=goal, result=result, feedback=feedback):
+            return [*goal, *result, *feedback]
+    return []
+
+
+def _shape(field: Field) -> tuple[str, str]:
+    """Its name and type; a time and a duration are messages in ROS 2."""
+    written = str(field.type.type).replace("builtin_interfaces/", "").lower()
+    return str(field.name), written
 
 
 def check_event(event: Event, context: Context) -> None:

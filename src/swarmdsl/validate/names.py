@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Collection, Hashable, Iterable
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.draft import stands_for_nothing
 from swarmdsl.inheritance import all_items, lineage
+from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import Project
@@ -79,8 +80,14 @@ def check_names(project: Project, report: Diagnostics) -> None:
             _check_first(interface_name(file, name), declaration, top_level, report)
 
 
-def check_names_inside(declaration: Declaration, report: Diagnostics) -> None:
-    """Check all names inside a declaration, and that its own may be used."""
+def check_names_inside(
+    declaration: Declaration, report: Diagnostics, lost: Collection[str] = ()
+) -> None:
+    """Check all names inside a declaration, and that its own may be used.
+
+    Of the `lost` words, which stand where the text is wrong, those of types are no names.
+    """
+    no_names = set(PRIMITIVES).intersection(lost)
     if isinstance(declaration, Event) and declaration.name in RESERVED_EVENTS:
         report.report(
             "reserved-event-name",
@@ -92,6 +99,8 @@ def check_names_inside(declaration: Declaration, report: Diagnostics) -> None:
         for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
             seen: dict[Hashable, Named] = {}
             for named in names:
+                if named.name in no_names:
+                    continue
                 _check_first(str(named.name), named, seen, report)
 
 
