@@ -20,9 +20,10 @@ BUILT_IN = {
     "smach": "swarmdsl.generators.smach:generator",
     "amf": "swarmdsl.exchange.amf:generator",
     "swarmros": "swarmdsl.exchange.swarmros:generator",
+    "parameters": "swarmdsl.exchange.parameters:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf", "swarmros"})
+ON_REQUEST = frozenset({"amf", "swarmros", "parameters"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
