@@ -59,6 +59,7 @@ from swarmdsl.validate.settling import check_settling, circles_of
 from swarmdsl.validate.structure import check_structure, check_submachines
 from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
+from swarmdsl.validate.unused import check_unused
 
 
 def validate(project: Project, report: Diagnostics) -> None:
@@ -79,6 +80,7 @@ def check_together(project: Project, context: Context) -> None:
     check_inheritance(project, context.report)
     check_message_cycles(context)
     check_optimizations(project, context)
+    check_unused(project, context)
     used = used_declarations(project)
     check_topics(used, context.report)
     check_events([node for _, node in used], context)
