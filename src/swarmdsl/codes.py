@@ -143,8 +143,8 @@ CODES: dict[str, Code] = {
         "SW0614", "warning", "variable `{name}` begins as 0, which is no value of enum `{enum}`"
     ),
     "other-than-standard": Code("SW0615", "warning", "ROS comes with another `{name}`"),
-    "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     # ---- expressions
+    "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),
     "not-assignable": Code("SW0703", "error", "`{text}` cannot be assigned to"),
     "not-constant": Code("SW0704", "error", "the value must be known when the model is compiled"),
