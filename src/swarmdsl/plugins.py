@@ -21,9 +21,10 @@ BUILT_IN = {
     "amf": "swarmdsl.exchange.amf:generator",
     "swarmros": "swarmdsl.exchange.swarmros:generator",
     "parameters": "swarmdsl.exchange.parameters:generator",
+    "fitness": "swarmdsl.exchange.fitness:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf", "swarmros", "parameters"})
+ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
