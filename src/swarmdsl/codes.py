@@ -62,8 +62,8 @@ CODES: dict[str, Code] = {
     "wrong-kind": Code("SW0204", "error", "`{name}` is {actual}, not {expected}"),
     "reserved-event-name": Code("SW0205", "error", "an event cannot be called `{name}`"),
     "naming-style": Code("SW0206", "warning", "{kind} `{name}` is not in {style}"),
-    # ---- swarm composition
     "unused-declaration": Code("SW0207", "warning", "{kind} `{name}` is never used", silent=True),
+    # ---- swarm composition
     "empty-multiplicity": Code("SW0301", "error", "the multiplicity `{multiplicity}` {fault}"),
     "empty-swarm": Code("SW0302", "error", "swarm `{name}` has no member"),
     "impossible-size": Code("SW0303", "error", "the size `{size}` {fault}"),
