@@ -22,9 +22,10 @@ BUILT_IN = {
     "swarmros": "swarmdsl.exchange.swarmros:generator",
     "parameters": "swarmdsl.exchange.parameters:generator",
     "fitness": "swarmdsl.exchange.fitness:generator",
+    "composition": "swarmdsl.exchange.composition:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness"})
+ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness", "composition"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)

@@ -1,0 +1,138 @@
+"""Target `composition`: which members a swarm has, and a launch file for one of each role.
+
+The schema is `SwarmComposition` of the CPSwarm modelling tool. Its member has one number, and
+a launch file, which is started as often as that number says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from lxml import etree
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.constants import Value, constant, params_by_name
+from swarmdsl.exchange.scxml.xml import add_comment, document, legal
+from swarmdsl.generator import Generator, OutputFile, option
+from swarmdsl.ir import Expression, Member, Param, Role, StateMachine, Swarm, System, Type
+from swarmdsl.ir.types import INTEGERS, Primitive
+from swarmdsl.naming import snake_case
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options of the target."""
+
+    package: str = option(
+        "", "ROS package with the behaviours; the one that target smach writes when empty"
+    )
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """For each swarm a folder with its composition and its launch files."""
+    package = options.package or f"{snake_case(system.name)}_behavior"
+    members = {member.name: member for member in system.members}
+    for swarm in system.swarms:
+        folder = snake_case(swarm.name)
+        text = document(_composition(swarm, report))
+        yield OutputFile(f"{folder}/composition.xml", text, origin=swarm.origin)
+        for role in swarm.roles:
+            text = document(_launch(role, members[role.member], system, package, report))
+            yield OutputFile(f"{folder}/launch/{role.name}.launch", text, origin=role.origin)
+
+
+def _composition(swarm: Swarm, report: Diagnostics) -> etree._Element:
+    root = etree.Element("swarm", name=swarm.name)
+    add_comment(root, swarm.doc)
+    for role in swarm.roles:
+        number = max(role.multiplicity.lower, 1)
+        if role.multiplicity.upper != role.multiplicity.lower:
+            report.report(
+                "no-place",
+                role.origin,
+                target="composition",
+                what=f"multiplicity `{role.multiplicity}`",
+                notes=(f"a member has one number there: {number} is written",),
+            )
+        attributes = {
+            "name": role.name,
+            "launchFile": f"{role.name}.launch",
+            "number": str(number),
+        }
+        etree.SubElement(root, "SwarmMember", attributes).text = legal(role.doc) or None
+    return root
+
+
+def _launch(
+    role: Role, member: Member, system: System, package: str, report: Diagnostics
+) -> etree._Element:
+    """A node for the behaviour of one member and for each of its parts that has one."""
+    machines = {machine.name: machine for machine in system.machines}
+    components = {component.name: component for component in system.components}
+    root = etree.Element("launch")
+    add_comment(root, role.doc)
+    etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
+    group = etree.SubElement(root, "group", ns=f"{role.name}_$(arg id)")
+    if member.behavior is not None:
+        machine = machines[member.behavior]
+        node = _node(group, snake_case(machine.name), machine, package)
+        _add_params(node, machine, member.params, {}, report)
+    for part in member.parts:
+        component = components[part.component]
+        if component.behavior is not None:
+            machine = machines[component.behavior]
+            node = _node(group, part.name, machine, package)
+            _add_params(node, machine, component.params, dict(part.values), report)
+    return root
+
+
+def _node(group: etree._Element, name: str, machine: StateMachine, package: str) -> etree._Element:
+    attributes = {"pkg": package, "type": snake_case(machine.name), "name": name}
+    return etree.SubElement(group, "node", {**attributes, "output": "screen"})
+
+
+def _add_params(
+    node: etree._Element,
+    machine: StateMachine,
+    params: tuple[Param, ...],
+    values: Mapping[str, Expression],
+    report: Diagnostics,
+) -> None:
+    """The params that the machine has, with the values of its owner, else its own."""
+    known = {**params_by_name(machine.params), **params_by_name(params)}
+    given = {**{param.name: param.default for param in params}, **values}
+    for param in machine.params:
+        expression = given.get(param.name) or param.declared
+        value = constant(expression, known) if expression is not None else None
+        if isinstance(value, str) and "$(" in value:
+            report.report(
+                "no-place",
+                expression.origin if expression is not None else None,
+                target="composition",
+                what=f"the value of `{param.name}`",
+                notes=("`$(` stands for something else in a launch file",),
+            )
+        elif value is not None:
+            attributes = {"name": param.name, "type": _kind(param.type), "value": _text(value)}
+            etree.SubElement(node, "param", attributes)
+
+
+def _kind(type_: Type) -> str:
+    """A type as roslaunch has it: durations are numbers of seconds."""
+    name = type_.name if isinstance(type_, Primitive) else ""
+    if name in INTEGERS:
+        return "int"
+    return {"bool": "bool", "string": "str", "wstring": "str"}.get(name, "double")
+
+
+def _text(value: Value) -> str:
+    return str(value).lower() if isinstance(value, bool) else legal(str(value))
+
+
+generator = Generator(
+    target="composition",
+    summary="which members a swarm has, as XML, and launch files for them",
+    emit=emit,
+    options_type=Options,
+)
