@@ -9,6 +9,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     03xx  swarm composition      07xx  expressions
     08xx  SCXML documents        09xx  generators and output
     10xx  simulation             11xx  tests
+    12xx  import
 """
 
 from __future__ import annotations
@@ -213,4 +214,19 @@ CODES: dict[str, Code] = {
         "error",
         "the tests reach {reached} % of all states and transitions, not {wanted} %",
     ),
+    # ---- import
+    "malformed-xml": Code("SW1201", "warning", "this is not XML, and was repaired: {fault}"),
+    "repaired-dialect": Code("SW1202", "warning", "{fault}"),
+    "renamed": Code("SW1203", "warning", "`{name}` is called `{new}` in the model"),
+    "left-out": Code("SW1204", "warning", "{what} is left out: {reason}"),
+    "assumed": Code("SW1205", "warning", "{what}: {assumed} is assumed"),
+    "open-outcome": Code(
+        "SW1206", "warning", "nothing handles {outcomes} of `{state}`: the machine ends then"
+    ),
+    "not-json": Code("SW1207", "error", "this is not JSON: {reason}"),
+    "not-adf": Code("SW1208", "error", "this is no ADF file: {reason}"),
+    "nothing-to-import": Code(
+        "SW1209", "error", "`{path}` has nothing that a model could be made of"
+    ),
+    "no-model": Code("SW1210", "error", "no model can be made of `{path}`: {reason}"),
 }

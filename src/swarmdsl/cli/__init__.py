@@ -16,6 +16,7 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 from io import TextIOWrapper
+from keyword import iskeyword
 from typing import NoReturn
 
 import click
@@ -24,8 +25,9 @@ from swarmdsl import __version__
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import ERRORS, INTERNAL, OK
 
-# The names of the commands are those of their modules, and of the functions in them.
-COMMANDS = ("build", "check", "explain", "fmt", "simulate", "targets", "test")
+# The names of the commands are those of their modules, and of the functions in them; a keyword of
+# Python has a `_` there.
+COMMANDS = ("build", "check", "explain", "fmt", "import", "simulate", "targets", "test")
 
 # As a shell reports it for a program that a signal ended.
 _INTERRUPTED = 128 + signal.SIGINT
@@ -41,7 +43,8 @@ class _Commands(click.Group):
     def get_command(self, _context: click.Context, name: str) -> click.Command | None:
         if name not in COMMANDS:
             return None
-        command = getattr(import_module(f"{__name__}.{name}"), name)
+        called = f"{name}_" if iskeyword(name) else name
+        command = getattr(import_module(f"{__name__}.{called}"), called)
         assert isinstance(command, click.Command)
         return command
 

@@ -1,0 +1,67 @@
+"""Text that is nearly XML, as exporters and hands have left it, to a document."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.scxml.document import Document, parse
+from swarmdsl.source import Source, Span
+
+# Each keeps the length of the text, so that places stay what they are: the quote that the Modelio
+# exporter forgets takes the place of indentation in the next line.
+_REPAIRS = (
+    (
+        re.compile(r'(<(?:parallel|state|final)\s+id\s*=\s*"[^"<>\r\n]*)>(\r?\n)[ \t]'),
+        r'\1">\2',
+        'the closing `"` of the id is missing',
+    ),
+    (
+        re.compile(r"[ \t]<state>(?=\s*(?:<state\s|<parallel\s|</))"),
+        "</state>",
+        "`<state>` stands where `</state>` is meant",
+    ),
+    (
+        re.compile(r"&(?!amp;|lt;|gt;|quot;|apos;|#)\w+;"),
+        " ",
+        "XML has no such entity",
+    ),
+    (
+        re.compile(r"</?(?:html|body|head|br|p|b|i|u|em|font|span|div)(?:\s[^<>]*)?/?>", re.I),
+        " ",
+        "this is HTML",
+    ),
+)
+
+
+def read(source: Source, report: Diagnostics) -> Document | None:
+    """Parse a file, repaired where that makes XML of it; None where it does not.
+
+    Each repair is reported; what cannot be repaired is reported as in any other document.
+    """
+    found = Diagnostics()
+    document = parse(source, found)
+    if document is not None:
+        return document
+    text = source.text
+    repairs = Diagnostics()
+    for pattern, replacement, fault in _REPAIRS:
+        for match in pattern.finditer(text):
+            place = Span(source, *match.span())
+            repairs.report("malformed-xml", _trimmed(place), fault=fault)
+        text = pattern.sub(partial(_as_long, replacement), text)
+    mended = parse(Source(source.name, text, source.path), Diagnostics()) if repairs else None
+    report.include(found if mended is None else repairs)
+    return mended
+
+
+def _as_long(replacement: str, match: re.Match[str]) -> str:
+    new = match.expand(replacement)
+    return new.ljust(len(match[0])) if new.strip() else re.sub(r"[^\r\n]", " ", match[0])
+
+
+def _trimmed(place: Span) -> Span:
+    text = place.text
+    first = len(text) - len(text.lstrip())
+    return Span(place.source, place.start + first, place.start + len(text.rstrip()))
