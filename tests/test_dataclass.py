@@ -111,6 +111,15 @@ def test_instances_are_alike(made, call):
         assert known(copied) == known(theirs)
 
 
+def test_the_first_of_many_are_like_the_last(made):
+    for call in CALLS:
+        one, *_, last = [eval(call, made[0]) for _ in range(40)]
+        assert known(one) == known(last)
+    for call in WRONG_CALLS:  # now that each has code of its own
+        with pytest.raises(TypeError):
+            eval(call, made[0])
+
+
 def test_values_can_be_replaced(made):
     event = made[0]["Event"]("Go", "go", 3)
     assert ours.replace(event) == event

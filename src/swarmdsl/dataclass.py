@@ -2,10 +2,10 @@
 
 Python writes and compiles the methods of a data class when it is defined, which takes half
 a millisecond: for all classes longer than to check a model. Here methods are closures, and
-`__init__`, which has to be quick, is compiled for the first instance; most classes never
-have one. Type checkers see `dataclasses.dataclass`, of which this is the part that is used,
-and all that `dataclasses` does with instances, `replace` and `fields` for instance, it does
-with these.
+`__init__`, which has to be quick where there are many instances, is compiled when there are
+some; most classes have few. Type checkers see `dataclasses.dataclass`, of which this is the
+part that is used, and all that `dataclasses` does with instances, `replace` and `fields` for
+instance, it does with these.
 """
 
 from __future__ import annotations
@@ -87,16 +87,12 @@ def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
             if name not in body:
                 setattr(cls, name, value)
 
-    def first(self: object, *arguments: object, **named: object) -> None:
-        init = _init(made, parts, frozen)
-        made.__init__ = init  # type: ignore[misc]
-        init(self, *arguments, **named)
-
-    made.__init__ = first  # type: ignore[misc]
+    made.__init__ = _first_init(made, parts, frozen)  # type: ignore[misc]
     return made
 
 
 _MADE_WITH_A_CLASS = ("__dict__", "__weakref__")
+_FEW = 12
 
 
 def _about(given: Any) -> _Field:
@@ -105,6 +101,37 @@ def _about(given: Any) -> _Field:
 
 def _named(about: _Field) -> bool:
     return bool(about.get("kw_only", False))
+
+
+def _first_init(cls: type, parts: dict[str, _Field], frozen: bool) -> Callable[..., None]:
+    """What sets the fields of the first few instances; then, or where a call is wrong, `_init`."""
+    accepted = {name for name, about in parts.items() if about.get("init", True)}
+    positional = [name for name, about in parts.items() if name in accepted and not _named(about)]
+    constants = {name: of["default"] for name, of in parts.items() if "default" in of}
+    factories = {
+        name: of["default_factory"] for name, of in parts.items() if "default_factory" in of
+    }
+    complete = len(accepted | constants.keys() | factories.keys())
+    left = _FEW
+
+    def first(self: object, *arguments: object, **named: object) -> None:
+        nonlocal left
+        left -= 1
+        values = constants | {name: make() for name, make in factories.items()}
+        values.update(zip(positional, arguments, strict=False))
+        values.update(named)
+        right = len(arguments) <= len(positional) and len(values) == complete
+        if named:
+            right = right and named.keys() <= accepted.difference(positional[: len(arguments)])
+        if right and left >= 0:
+            for name, value in values.items():
+                object.__setattr__(self, name, value)
+        else:
+            init = _init(cls, parts, frozen)
+            cls.__init__ = init  # type: ignore[misc]
+            init(self, *arguments, **named)
+
+    return first
 
 
 def _init(cls: type, parts: dict[str, _Field], frozen: bool) -> Callable[..., None]:
