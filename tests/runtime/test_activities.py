@@ -258,6 +258,17 @@ def test_results_are_stored_before_a_guard_looks() -> None:
     assert instance.configuration.ids == ["good"]
 
 
+def test_a_result_is_seen_by_a_guard_without_a_trigger() -> None:
+    def store(instance: Instance, event: Event) -> None:
+        instance.data["result"] = event.data
+
+    seen = on("", "good", guard=lambda instance, event: "result" in instance.data)
+    instance = started(Machine("m", (busy("one", seen, finalize=store), State("good"))))
+    run_of(instance, "one").end("succeeded", 5)
+
+    assert instance.configuration.ids == ["good"]
+
+
 def test_only_success_has_results() -> None:
     instance = started(Machine("m", (busy("one", finalize=note("stored")),)))
     run_of(instance, "one").end("aborted", 5)

@@ -443,6 +443,25 @@ def test_done_data() -> None:
     assert instance.configuration.ids == ["b"]
 
 
+def test_done_data_without_a_value_is_an_error_and_then_the_event() -> None:
+    end = State("end", Kind.FINAL, donedata=lambda instance, event: 1 // 0)
+    failed, done = on("error.execution", "b"), on("done.state.a", "wrong")
+    empty = on("done.state.a", "c", guard=lambda instance, event: event.data is None)
+    a = State("a", states=(State("a1", transitions=(on("e", "end"),)), end))
+    a = a._replace(transitions=(failed, done))
+    machine = Machine("m", (a, State("b", transitions=(empty,)), State("c"), State("wrong")))
+
+    assert after(started(machine), "e") == ["c"]
+
+
+def test_a_guard_without_a_trigger_is_asked_after_an_event_that_nothing_waits_for() -> None:
+    seen = on("", "b", guard=lambda instance, event: event.name == "x")
+    instance = started(Machine("m", (State("a", transitions=(seen,)), State("b"))))
+
+    assert after(instance, "y") == ["a"]
+    assert after(instance, "x") == ["b"]
+
+
 def test_a_final_state_of_the_machine_ends_it() -> None:
     machine = Machine("m", (noisy("a", transitions=(on("e", "end"),)), State("end", Kind.FINAL)))
     instance = started(machine)

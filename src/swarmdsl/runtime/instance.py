@@ -9,10 +9,7 @@ from .activity import Run, Servers, Timer
 from .configuration import Configuration, before_start
 from .step import Step
 from .table import Effect, Event, Guard, Machine
-from .world import ExecutionError, LoopError, Observer, World
-
-FAILURES = (ExecutionError, ArithmeticError, ValueError)
-"""What a guard or an effect may raise; anything else is a mistake in it."""
+from .world import FAILURES, LoopError, Observer, World
 
 _LOOKED_AT = 100
 """How many of the last steps say which states a loop goes through."""
@@ -148,6 +145,11 @@ class Instance:
         for timer in [each for each in self._timers or () if each.id == id_]:
             self._unschedule(timer)
 
+    def fail(self, error: Exception) -> None:
+        """Say that something had no value, to the world and as `error.execution`."""
+        self.world.failed(self, error)
+        self.raise_event(Event("error.execution", str(error)))
+
     def emit(self, event: Event) -> None:
         """Send an event to others."""
         if self.observer is not None:
@@ -178,7 +180,7 @@ class Instance:
             self._take(step, event)
             if step.quiet and self.running and not self._internal:
                 return
-        elif self.running and not self._internal:
+        elif self.running and not self._internal and not self.configuration.restless:
             return
         self._settle(event)
 
@@ -220,7 +222,7 @@ class Instance:
         try:
             return bool(guard(self, event))
         except FAILURES as error:
-            self._fail(error)
+            self.fail(error)
             return False
 
     def _take(self, step: Step, event: Event) -> None:
@@ -232,7 +234,7 @@ class Instance:
                 try:
                     operation(self, event)
                 except FAILURES as error:
-                    self._fail(error)
+                    self.fail(error)
             self._during = None
         self.configuration = step.target
         if step.starts:
@@ -245,11 +247,7 @@ class Instance:
         try:
             effect(self, event)
         except FAILURES as error:
-            self._fail(error)
-
-    def _fail(self, error: Exception) -> None:
-        self.world.failed(self, error)
-        self.raise_event(Event("error.execution", str(error)))
+            self.fail(error)
 
     def _accept(self, origin: Run | Timer, event: Event) -> bool:
         """Whether an event of this instance itself still counts: its state was not left."""
@@ -281,7 +279,7 @@ class Instance:
             try:
                 run.goal = activity.goal(self) if activity.goal is not None else None
             except FAILURES as error:
-                self._fail(error)
+                self.fail(error)
                 run.end("aborted")
                 continue
             if self.observer is not None:

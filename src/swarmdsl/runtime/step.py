@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from .table import Edge, Event, Kind, State, Transition, members
+from .world import FAILURES
 
 if TYPE_CHECKING:
     from .configuration import Configuration
@@ -264,7 +265,7 @@ class _Stop:
 
 
 class _Done:
-    """Raises `done.state`."""
+    """Raises `done.state`, without data where these have no value (5.7)."""
 
     __slots__ = ("final", "name")
 
@@ -277,7 +278,6 @@ class _Done:
         if self.final is not None and self.final.donedata is not None:
             try:
                 data = self.final.donedata(instance, event)
-            finally:
-                instance.raise_event(Event(self.name, data))
-            return
-        instance.raise_event(Event(self.name))
+            except FAILURES as error:
+                instance.fail(error)
+        instance.raise_event(Event(self.name, data))

@@ -15,6 +15,10 @@ class ExecutionError(Exception):
     """A guard or an effect has no value; the machine goes on, with the event `error.execution`."""
 
 
+FAILURES = (ExecutionError, ArithmeticError, ValueError)
+"""What a guard or an effect may raise; anything else is a mistake in it."""
+
+
 class LoopError(Exception):
     """One event led to more and more steps; `states` are those of the last ones."""
 
