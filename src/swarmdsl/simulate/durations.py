@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from random import Random
@@ -67,7 +68,7 @@ class Normal:
     """Lengths around a mean, in whole milliseconds, never less than none.
 
     The sum of twelve numbers: `Random.gauss` asks the platform for a logarithm, whose last
-    digit differs.
+    digit differs. So does that of `sum`, between versions of Python.
     """
 
     mean: int
@@ -75,7 +76,7 @@ class Normal:
 
     def draw(self, chance: Random) -> int:
         """One of them."""
-        spread = sum(chance.random() for _ in range(_ADDED)) - _ADDED / 2
+        spread = math.fsum(chance.random() for _ in range(_ADDED)) - _ADDED / 2
         return _whole(self.mean + self.deviation * spread)
 
 
