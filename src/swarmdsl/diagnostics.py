@@ -122,15 +122,22 @@ class Diagnostics:
 
     def _add(self, found: Diagnostic) -> None:
         if found.severity is Severity.WARNING:
-            silent = CODES[found.name].silent
-            others = Level.ALLOW if silent else self._levels.get(ALL_WARNINGS, Level.WARN)
-            level = self._levels.get(found.name, others)
+            level = self._level(found.name)
             if level is Level.ALLOW:
                 return
             if level is Level.DENY:
                 found = replace(found, severity=Severity.ERROR)
         self._found.setdefault(found)
         self._counts[found.name] += 1
+
+    def allows(self, name: str) -> bool:
+        """Whether nothing is said of a warning, by its name: there is no need to look for it."""
+        return self._level(name) is Level.ALLOW
+
+    def _level(self, name: str) -> Level:
+        silent = CODES[name].silent
+        others = Level.ALLOW if silent else self._levels.get(ALL_WARNINGS, Level.WARN)
+        return self._levels.get(name, others)
 
     def wants_hint(self, name: str) -> bool:
         """Whether to look for what may be meant instead of something that does not exist.

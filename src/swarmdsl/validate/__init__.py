@@ -36,7 +36,7 @@ from swarmdsl.validate.enums import check_enum
 from swarmdsl.validate.events import check_events
 from swarmdsl.validate.expressions import check_expressions
 from swarmdsl.validate.guards import check_guards
-from swarmdsl.validate.initialization import check_initialization, reused_machines
+from swarmdsl.validate.initialization import check_initialization
 from swarmdsl.validate.interfaces import (
     check_event,
     check_function,
@@ -55,8 +55,9 @@ from swarmdsl.validate.optimization import (
 )
 from swarmdsl.validate.order import check_order
 from swarmdsl.validate.reachability import check_reachability
+from swarmdsl.validate.reuse import check_submachines, reused_machines
 from swarmdsl.validate.settling import check_settling, circles_of
-from swarmdsl.validate.structure import check_structure, check_submachines
+from swarmdsl.validate.structure import check_structure
 from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
 from swarmdsl.validate.unused import check_unused
@@ -66,7 +67,7 @@ def validate(project: Project, report: Diagnostics) -> None:
     """Run all rules."""
     context = make_context(project, report)
     check_together(project, context)
-    reused = reused_machines(project)
+    reused = reused_machines(context)
     for file, declaration in project.declarations():
         check_alone(file, declaration, context, reused=declaration in reused)
     for _, optimization in project.optimizations():
@@ -76,7 +77,7 @@ def validate(project: Project, report: Diagnostics) -> None:
 def check_together(project: Project, context: Context) -> None:
     """Run the rules about all declarations together."""
     check_names(project, context.report)
-    check_submachines(project, context.report)
+    check_submachines(project, context)
     check_inheritance(project, context.report)
     check_message_cycles(context)
     check_optimizations(project, context)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Branch,
+    Declaration,
     EventTrigger,
     Expression,
     ImportRos,
@@ -36,6 +37,20 @@ from swarmdsl.validate.outline import Outline
 
 if TYPE_CHECKING:
     from swarmdsl.validate.conditions import Condition
+    from swarmdsl.validate.events import Exchange
+    from swarmdsl.validate.reuse import Reuse
+
+
+@dataclass
+class Known:
+    """What is known of single declarations by the rules about all together.
+
+    It holds for the next check too: a declaration that changed, or that uses one that did, is
+    another node then.
+    """
+
+    reuse: Mapping[StateMachine, Reuse] = field(default_factory=dict)
+    exchanges: Mapping[Declaration | None, Exchange] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -44,13 +59,14 @@ class Context:
 
     `damaged` are the declarations with a piece that could not be parsed: of what they seem
     to lack nothing can be said. What was found of guards and machines is kept: `conditions`,
-    which of them are `certain`, `outlines`.
+    which of them are `certain`, `outlines`; and what is `known` from earlier checks.
     """
 
     report: Diagnostics
     interfaces: Interfaces
     typing: Typing
     damaged: set[TopLevel]
+    known: Known
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
     certain: dict[Transition | Branch, bool | None] = field(default_factory=dict)
     outlines: dict[StateMachine, Outline] = field(default_factory=dict)
@@ -168,11 +184,11 @@ def read_packages(project: Project) -> dict[str, set[str]]:
     return found
 
 
-def make_context(project: Project, report: Diagnostics) -> Context:
-    """Gather the interfaces of all files."""
+def make_context(project: Project, report: Diagnostics, known: Known | None = None) -> Context:
+    """Gather the interfaces of all files; `known` is what earlier checks have left."""
     damaged: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
         ((file, node) for file, node in project.declarations() if node not in damaged),
         read_packages(project),
     )
-    return Context(report, interfaces, Typing(interfaces, report), damaged)
+    return Context(report, interfaces, Typing(interfaces, report), damaged, known or Known())

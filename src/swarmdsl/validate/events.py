@@ -8,7 +8,7 @@ is no part of the model, or go to one.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Label, listed
@@ -35,7 +35,7 @@ from swarmdsl.validate.context import Context
 
 
 @dataclass
-class _Exchange:
+class Exchange:
     """What machines that hear each other send and wait for: the first place for each topic.
 
     Not `complete` where a name was not resolved or a piece could not be parsed: what seems to
@@ -48,7 +48,7 @@ class _Exchange:
     awaited: dict[str, EventTrigger | MonitorTrigger] = field(default_factory=dict)
     complete: bool = True
 
-    def add(self, others: Iterable[_Exchange | None]) -> _Exchange:
+    def add(self, others: Iterable[Exchange | None]) -> Exchange:
         """Add those of others; None stands for one that was not found."""
         for other in others:
             if other is None:
@@ -65,35 +65,30 @@ class _Exchange:
 
 def check_events(used: Iterable[Declaration], context: Context) -> None:
     """Check the events of all machines of the system."""
-    machines: dict[StateMachine | None, _Exchange] = {}
-    owners: dict[Member | None, _Exchange] = {}
-    swarms: list[Swarm] = []
-    for node in used:
-        match node:
-            case StateMachine():
-                machines[node] = _exchange(node, context)
-            case Member():
-                owners[node] = _Exchange(str(node.name))
-            case Swarm():
-                swarms.append(node)
-    for member, group in owners.items():
-        assert member is not None
-        group.add(machines.get(machine) for machine in _machines(member, context))
-    groups = []
+    before = context.known.exchanges
+    found: dict[Declaration | None, Exchange] = {}
+    nodes = [node for node in used if isinstance(node, (StateMachine, Member, Swarm))]
+    machines = [node for node in nodes if isinstance(node, StateMachine)]
+    members = [node for node in nodes if isinstance(node, Member)]
+    swarms = [node for node in nodes if isinstance(node, Swarm)]
+    for machine in machines:
+        found[machine] = before.get(machine) or _of_machine(machine, context)
+    for member in members:
+        found[member] = before.get(member) or _of_member(member, found, context)
     for swarm in swarms:
-        roles = [item for item in swarm.items if isinstance(item, Role)]
-        group = _Exchange(str(swarm.name), complete=swarm not in context.damaged)
-        groups.append(group.add(owners.get(role.member.target) for role in roles))
-    in_swarms: set[StateMachine | None] = set().union(*(group.machines for group in groups))
-    alone = _Exchange().add(
-        found for machine, found in machines.items() if machine not in in_swarms
-    )
-    everyone = _Exchange().add(machines.values())
-    _check_swarm_events([*((group, group) for group in groups), (alone, everyone)], context)
-    _check_own_events(list(owners.values()), context)
+        found[swarm] = before.get(swarm) or _of_swarm(swarm, found, context)
+    context.known.exchanges = found
+    groups = [(found[swarm], found[swarm]) for swarm in swarms]
+    in_swarms: set[StateMachine | None] = set().union(*(group.machines for group, _ in groups))
+    alone = [found[machine] for machine in machines if machine not in in_swarms]
+    if alone:
+        everyone = Exchange().add(found[machine] for machine in machines)
+        groups.append((Exchange().add(alone), everyone))
+    _check_swarm_events(groups, context)
+    _check_own_events([found[member] for member in members], context)
 
 
-def _check_swarm_events(groups: list[tuple[_Exchange, _Exchange]], context: Context) -> None:
+def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Context) -> None:
     """Check the swarm events of the first of each two exchanges over the second."""
     unhandled: dict[Send, list[str]] = {}
     unsent: dict[EventTrigger, list[str]] = {}
@@ -126,20 +121,22 @@ def _check_swarm_events(groups: list[tuple[_Exchange, _Exchange]], context: Cont
         )
 
 
-def _check_own_events(members: list[_Exchange], context: Context) -> None:
+def _check_own_events(members: list[Exchange], context: Context) -> None:
     """An event of the robot that a member sends reaches no other member.
 
     That is said where another one waits for it: where nobody does, it is meant for a node
     outside of the model.
     """
-    senders: dict[str, list[_Exchange]] = {}
+    senders: dict[str, list[Exchange]] = {}
+    hearing: dict[str, EventTrigger | MonitorTrigger] = {}
     for member in members:
         for topic in member.sent:
             senders.setdefault(topic, []).append(member)
-    hearing = _Exchange().add(members)
+        for topic, trigger in member.awaited.items():
+            hearing.setdefault(topic, trigger)
     for topic, own in senders.items():
         send = own[0].sent[topic]
-        if _is_swarm_event(send) or topic not in hearing.awaited:
+        if _is_swarm_event(send) or topic not in hearing:
             continue
         if any(topic in member.awaited or not member.complete for member in own):
             continue
@@ -148,7 +145,7 @@ def _check_own_events(members: list[_Exchange], context: Context) -> None:
             send.event.span,
             where=_where("member", [member.name for member in own]),
             name=send.event.name,
-            related=(Label(hearing.awaited[topic].span, "this waits in another member"),),
+            related=(Label(hearing[topic].span, "this waits in another member"),),
             help=f"as `swarm event {send.event.name}` it is heard by the other members",
         )
 
@@ -162,9 +159,9 @@ def _where(kind: str, names: list[str]) -> str:
     return f" in {kind}{plural} {listed(names, 'and')}" if all(names) else ""
 
 
-def _exchange(machine: StateMachine, context: Context) -> _Exchange:
+def _of_machine(machine: StateMachine, context: Context) -> Exchange:
     """What one machine sends and waits for."""
-    found = _Exchange(machines={machine}, complete=machine not in context.damaged)
+    found = Exchange(machines={machine}, complete=machine not in context.damaged)
     kinds: tuple[type[Send | EventTrigger | MonitorTrigger], ...]
     kinds = (Send, EventTrigger, MonitorTrigger)
     nodes = (node for kind in kinds for node in nodes_of(machine, kind))
@@ -179,6 +176,23 @@ def _exchange(machine: StateMachine, context: Context) -> _Exchange:
                 assert source is not None
                 found.awaited.setdefault(heard_on(source), node)
     return found
+
+
+def _of_member(
+    member: Member, known: Mapping[Declaration | None, Exchange], context: Context
+) -> Exchange:
+    """What the machines of a member send and wait for."""
+    machines = _machines(member, context)
+    return Exchange(str(member.name)).add(known.get(machine) for machine in machines)
+
+
+def _of_swarm(
+    swarm: Swarm, known: Mapping[Declaration | None, Exchange], context: Context
+) -> Exchange:
+    """What the members of a swarm send and wait for."""
+    roles = [item for item in swarm.items if isinstance(item, Role)]
+    found = Exchange(str(swarm.name), complete=swarm not in context.damaged)
+    return found.add(known.get(role.member.target) for role in roles)
 
 
 def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]:

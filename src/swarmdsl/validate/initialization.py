@@ -8,11 +8,9 @@ from swarmdsl.diagnostics import Label
 from swarmdsl.enums import numbers
 from swarmdsl.ir.types import DURATION, Named, Primitive, Type
 from swarmdsl.link_machines import all_resolved
-from swarmdsl.load import Project
 from swarmdsl.syntax import (
     EnumType,
     NameUse,
-    State,
     StateMachine,
     Variable,
     nodes_of,
@@ -21,17 +19,6 @@ from swarmdsl.syntax import (
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.steps import Read, stores_of
 from swarmdsl.validate.ways import Point, Ways
-
-
-def reused_machines(project: Project) -> set[StateMachine | None]:
-    """The machines that states of others stand for."""
-    return {
-        state.machine.target
-        for _, machine in project.declarations()
-        if isinstance(machine, StateMachine)
-        for state in nodes_of(machine, State)
-        if state.machine is not None
-    }
 
 
 def check_initialization(machine: StateMachine, context: Context, *, reused: bool) -> None:

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import get_args
-
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.graph import cycles, leaves_first
+from swarmdsl.diagnostics import Label
 from swarmdsl.link_machines import all_resolved, content, regions, vertices
-from swarmdsl.load import Project
-from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
@@ -25,14 +19,10 @@ from swarmdsl.syntax import (
     Region,
     State,
     StateMachine,
-    Vertex,
     nodes_of,
 )
 from swarmdsl.validate.conditions import condition_of, negated, possible
 from swarmdsl.validate.context import Context
-
-# More than anyone writes, and still generated in seconds.
-_MOST_STATES = 10_000
 
 
 def check_structure(machine: StateMachine, context: Context) -> None:
@@ -60,70 +50,6 @@ def check_structure(machine: StateMachine, context: Context) -> None:
     for choice in nodes_of(machine, Choice):
         _check_choice(choice, context)
     _check_levels(machine, context)
-
-
-def check_submachines(project: Project, report: Diagnostics) -> None:
-    """No machine contains itself, through however many others, nor grows without bounds."""
-    machines = [node for _, node in project.declarations() if isinstance(node, StateMachine)]
-    endless = False
-    for machine, uses in cycles(machines, _reused):
-        endless = True
-        *way, last = uses
-        report.report(
-            "submachine-cycle",
-            last.span,
-            name=machine.name,
-            related=tuple(Label(use.span, "by way of this state") for use in way),
-        )
-    if not endless:
-        _check_growth(machines, report)
-
-
-def _check_growth(machines: list[StateMachine], report: Diagnostics) -> None:
-    """Check how deep and how many the states of each machine are, those it reuses in place.
-
-    A machine that is too large is reported, those that reuse it are not.
-    """
-    levels: dict[StateMachine, int] = {}
-    sizes: dict[StateMachine, int] = {}
-    reused = {inner for machine in machines for _, inner in _reused(machine)}
-    for machine in leaves_first(machines, lambda machine: [inner for _, inner in _reused(machine)]):
-        uses = list(_reused(machine))
-        if any(inner not in sizes for _, inner in uses):
-            continue
-        # Without reuse they are not deeper than the parser takes.
-        levels[machine] = _levels(machine, levels) - 1 if uses or machine in reused else 0
-        own = sum(len(nodes_of(machine, kind)) for kind in (*get_args(Vertex), Region))
-        sizes[machine] = own + sum(sizes[inner] for _, inner in uses)
-        if levels[machine] > NESTING_LIMIT:
-            deepest, _ = max(uses, key=lambda use: levels[use[1]])
-            report.report("nested-too-deeply", deepest.span, limit=NESTING_LIMIT)
-            del sizes[machine]
-        elif sizes[machine] > _MOST_STATES:
-            report.report(
-                "too-many-states",
-                machine.name.span,
-                name=machine.name,
-                limit=_MOST_STATES,
-                notes=("the states of a machine that it reuses count each time",),
-            )
-            del sizes[machine]
-
-
-def _levels(state: Vertex | Container, known: Mapping[StateMachine, int]) -> int:
-    """How deep states stand in each other, the outermost included."""
-    if isinstance(state, State) and state.machine is not None and state.machine.target is not None:
-        return 1 + known[state.machine.target]
-    if isinstance(state, (Choice, History, FinalState)):
-        return 1
-    inside = (*vertices(state), *regions(state))
-    return 1 + max((_levels(inner, known) for inner in inside), default=0)
-
-
-def _reused(machine: StateMachine) -> Iterator[tuple[Ref[StateMachine], StateMachine]]:
-    for state in nodes_of(machine, State):
-        if state.machine is not None and state.machine.target is not None:
-            yield state.machine, state.machine.target
 
 
 def _check_state(state: State, context: Context) -> None:

@@ -28,7 +28,7 @@ from swarmdsl.validate import (
     reused_machines,
     validate,
 )
-from swarmdsl.validate.context import Context, read_packages
+from swarmdsl.validate.context import Context, Known, read_packages
 from swarmdsl.workspace.impact import Change, affected, declared_twice, packages, sight
 from swarmdsl.workspace.links import link_outside
 from swarmdsl.workspace.sheets import Desk
@@ -54,7 +54,8 @@ class Workspace:
         self._together = self._collector()
         # What batch has found where the order of all declarations decides what is reported.
         self._in_order: Diagnostics | None = None
-        self._reused: set[StateMachine | None] = set()
+        self._reused: set[StateMachine] = set()
+        self._known = Known()
         self._packages: set[str] = set()
         # Units of which something was reported, or nothing because of what cannot be read.
         self._noted: set[Unit] = set()
@@ -185,7 +186,7 @@ class Workspace:
         if self._has_circles():
             self._check_in_order()
             return
-        context = make_context(self.project, self._collector())
+        context = make_context(self.project, self._collector(), self._known)
         linking.learn_uses(stale, context.interfaces.declared)
         self._check(stale, context)
         if self._has_many_mistakes():
@@ -202,8 +203,8 @@ class Workspace:
         """Run the rules about all together, and those about each of some units."""
         self._together = self._collector()
         check_together(self.project, context.reporting_to(self._together))
-        before, self._reused = self._reused, reused_machines(self.project)
-        turned = (self._units.get(node.span.source) for node in before ^ self._reused if node)
+        before, self._reused = self._reused, reused_machines(context)
+        turned = (self._units.get(node.span.source) for node in before ^ self._reused)
         stale = stale.union(unit for unit in turned if unit is not None)
         for unit in stale:
             unit.checked = self._collector()

@@ -1,0 +1,88 @@
+"""What a workspace keeps of a declaration between edits holds when others have changed."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.workspace import Workspace
+
+Say = Callable[[str], list[str]]
+
+EXCHANGE = """\
+swarm event Start : std_msgs/Empty
+statemachine Tell { initial A state A { after 1 s / send Start -> B } final B }
+statemachine Hear { initial A state A { on Start -> B } final B }
+member Teller { behavior Tell }
+member Hearer { behavior Hear }
+swarm Site { teller : Teller[1] hearer : Hearer[1] }
+"""
+
+
+@pytest.fixture
+def say(tmp_path: Path) -> Say:
+    """Edits a file; returns the names of what is said of it, which a first run says too."""
+    file = tmp_path / "model.swarm"
+    file.write_text("", encoding="utf-8")
+    workspace = Workspace([file])
+
+    def edit(text: str) -> list[str]:
+        file.write_text(text, encoding="utf-8")
+        workspace.update({file: text})
+        found = [(each.name, each.message) for each in workspace.report]
+        assert found == [(each.name, each.message) for each in compiler.check([file]).report]
+        return [name for name, _ in found]
+
+    return edit
+
+
+def nested(name: str, levels: int, inmost: str) -> str:
+    """A machine with a chain of states in each other."""
+    start = "".join(f"initial S{at} state S{at} {{ " for at in range(levels))
+    return f"endless statemachine {name} {{ {start}initial End {inmost} {'} ' * levels}}}\n"
+
+
+def test_machine_is_reused_for_the_first_time(say: Say) -> None:
+    inner = nested("Inner", 40, "state End { }")
+    assert "nested-too-deeply" not in say(inner + nested("Outer", 40, "state End { }"))
+    assert "nested-too-deeply" in say(inner + nested("Outer", 40, "state End = Inner"))
+    assert "nested-too-deeply" not in say(inner + nested("Outer", 10, "state End = Inner"))
+
+
+def test_machine_that_is_reused_grows(say: Say) -> None:
+    outer = nested("Outer", 40, "state End = Inner")
+    assert "nested-too-deeply" not in say(nested("Inner", 10, "state End { }") + outer)
+    assert "nested-too-deeply" in say(nested("Inner", 40, "state End { }") + outer)
+
+
+def test_machine_contains_itself(say: Say) -> None:
+    inner = nested("Inner", 2, "state End { }")
+    outer = nested("Outer", 2, "state End = Inner")
+    assert "submachine-cycle" not in say(inner + outer)
+    assert "submachine-cycle" in say(nested("Inner", 2, "state End = Outer") + outer)
+
+
+def test_machine_no_longer_waits(say: Say) -> None:
+    assert "unhandled-event" not in say(EXCHANGE)
+    assert "unhandled-event" in say(EXCHANGE.replace("on Start", "after 2 s"))
+    assert "unhandled-event" not in say(EXCHANGE)
+
+
+def test_event_has_another_topic(say: Say) -> None:
+    text = EXCHANGE + "swarm event Begin : std_msgs/Empty\n"
+    text = text.replace("on Start", "on Begin")
+    assert "unhandled-event" in say(text)
+    same = text.replace("Begin : std_msgs/Empty", 'Begin : std_msgs/Empty on "start"')
+    assert "unhandled-event" not in say(same)
+
+
+def test_member_runs_another_machine(say: Say) -> None:
+    assert "unhandled-event" not in say(EXCHANGE)
+    found = say(EXCHANGE.replace("Hearer { behavior Hear }", "Hearer { behavior Tell }"))
+    assert "unhandled-event" in found
+
+
+def test_member_leaves_the_swarm(say: Say) -> None:
+    assert "unhandled-event" not in say(EXCHANGE)
+    assert "unhandled-event" in say(EXCHANGE.replace("hearer : Hearer[1]", ""))
