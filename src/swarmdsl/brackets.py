@@ -11,6 +11,7 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
+from swarmdsl.comments import starts_line
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.source import Source, Span
@@ -161,7 +162,7 @@ class _Match:
             if self._open and self._is_wrong(at):
                 return self._wrong(at)
             self._end_of_brackets(at)
-            if self._trusts and self._starts_line(at):
+            if self._trusts and starts_line(code, at):
                 column = self._column(at)
                 while len(self._open) > 1 and column < self._indentation(self._open[-1]):
                     self._unclosed(at, at)
@@ -242,6 +243,3 @@ class _Match:
     def _column(self, at: int) -> int:
         line = self._code.rfind("\n", 0, at) + 1
         return len(self._code[line:at].expandtabs(4))
-
-    def _starts_line(self, at: int) -> bool:
-        return not self._code[self._code.rfind("\n", 0, at) + 1 : at].strip()

@@ -1,7 +1,7 @@
 """Expressions to trees, in one go with the file they stand in.
 
 `grammar/expression.lark` says what binds how, and EXPRESSION in `grammar/lexical.tx` where
-an expression ends. Both are followed here at once tests hold the three against each other.
+an expression ends. Both are followed here at once; tests hold the three against each other.
 """
 
 from __future__ import annotations
@@ -213,7 +213,7 @@ class ExpressionParser:
         before = self._fault, self._large
         self._descend()
         arguments: list[ExpressionTree] = []
-        behind, following = opening, self._token(self._text, opening.end())
+        following = self._token(self._text, opening.end())
         while following[1] != ")" or arguments:
             if arguments and following[1] != ",":
                 break

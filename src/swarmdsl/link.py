@@ -1,7 +1,7 @@
 """Names to what they mean, across files.
 
-Sets `Ref.target`, `TypeRef.type` and `NameUse.target`. What a name does not mean is
-reported and stays None; later phases pass over it without a word.
+Sets `Ref.target`, `TypeRef.type`, `NameUse.target` and `Activity.owner`. What a name does not
+mean is reported and stays None; later phases pass over it without a word.
 """
 
 from __future__ import annotations

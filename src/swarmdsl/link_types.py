@@ -79,7 +79,7 @@ def _is_size(number: str) -> bool:
 
 
 class TypeLinker:
-    """Sets `TypeRef.type`, following aliases across files."""
+    """Sets `EnumType.type` and `TypeRef.type`, following aliases across files."""
 
     def __init__(self, scopes: Mapping[File, FileScope], project: Project) -> None:
         self._scopes = scopes

@@ -18,7 +18,7 @@ BINDING = {
     **dict.fromkeys(("+", "-"), _SUM),
     **dict.fromkeys(("*", "/", "%"), _PRODUCT),
 }
-_new_span = tuple.__new__  # Span itself takes three times as long to make one
+_new_span = tuple.__new__  # Span itself takes twice as long to make one
 # How an operator binds, its word, and whether it is a prefix.
 Operator = tuple[int, Word, bool]
 # A tree, and where it begins and ends with the parentheses around it; the rest is not asked for.

@@ -100,7 +100,7 @@ def bare(kind: str) -> str:
     return kind.split(" ", 1)[1]
 
 
-def kind_of_any(kinds: tuple[type[Node], ...]) -> str:
+def _kind_of_any(kinds: tuple[type[Node], ...]) -> str:
     """What a person calls something of one of these kinds: several are those of types or values."""
     if len(kinds) == 1:
         return kind_of(kinds[0])
@@ -174,7 +174,7 @@ class FileScope:
                 fitting.setdefault(package, node)
         if len(fitting) == 1:
             return next(iter(fitting.values()))
-        expected = kind_of_any(kinds)
+        expected = _kind_of_any(kinds)
         if fitting:
             report.report(
                 "ambiguous-name",
@@ -207,7 +207,7 @@ class FileScope:
     ) -> None:
         if name.rpartition(".")[2] in self.lost:
             return
-        kind = bare(kind_of_any(kinds))
+        kind = bare(_kind_of_any(kinds))
         if not report.wants_hint("unresolved-name"):
             report.report("unresolved-name", at, kind=kind, name=name)
             return

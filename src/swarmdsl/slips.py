@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from swarmdsl.comments import starts_line
 from swarmdsl.suggest import closest
 from swarmdsl.syntax_advice import strange_character
 
@@ -72,7 +73,7 @@ _ANYWHERE = ("if", "goto", "then", "?", "$")
 
 def foreign(expected: set[str], text: str, at: int) -> str | None:
     """How to say here what the word at an offset says in other languages; None if unknown."""
-    begins = not text[text.rfind("\n", 0, at) + 1 : at].strip()
+    begins = starts_line(text, at)
     if text[at] == "{" and "`(`" in expected:
         return "arguments stand in parentheses"
     if text[at] == "=" and "`:`" in expected:

@@ -18,14 +18,14 @@ def find_diagnostic(word: str) -> str | None:
     return _NAMES[code] if code is not None else None
 
 
-def is_error(name: str) -> bool:
+def _is_error(name: str) -> bool:
     """Whether it is an error, whose level is fixed."""
     return name != ALL_WARNINGS and CODES[name].severity == "error"
 
 
 def may_have(name: str, level: Level) -> bool:
     """Whether a diagnostic can be given a level; errors are denied as it is."""
-    return level is Level.DENY or not is_error(name)
+    return level is Level.DENY or not _is_error(name)
 
 
 def similar_diagnostic(word: str) -> str | None:
