@@ -63,9 +63,10 @@ def version(peer: str) -> str | None:
 
 
 def title(name: str, peer: str | None) -> str:
-    """A name with its version."""
+    """A name with its version, which is that of a package where this is called otherwise."""
     if peer is not None:
-        return f"{name} {version(peer)}"
+        alike = name.casefold() == peer.casefold()
+        return f"{name} {version(peer)}" if alike else f"{name} ({peer} {version(peer)})"
     return f"{name} {platform.python_version()}" if name == "CPython" else f"{name} {__version__}"
 
 
