@@ -1,4 +1,4 @@
-"""Registers the language and its targets with textX: `textx check`, `textx generate`."""
+"""Registers the language with textX, and the targets that a plain build has."""
 
 from __future__ import annotations
 
