@@ -23,9 +23,10 @@ BUILT_IN = {
     "parameters": "swarmdsl.exchange.parameters:generator",
     "fitness": "swarmdsl.exchange.fitness:generator",
     "composition": "swarmdsl.exchange.composition:generator",
+    "frevo": "swarmdsl.exchange.frevo:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness", "composition"})
+ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness", "composition", "frevo"})
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)

@@ -14,6 +14,7 @@ from lxml import etree
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value, constant, params_by_name
 from swarmdsl.exchange.scxml.xml import add_comment, document, legal
+from swarmdsl.exchange.search import behaviours
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import Expression, Member, Param, Role, StateMachine, Swarm, System, Type
 from swarmdsl.ir.types import INTEGERS, Primitive
@@ -31,7 +32,7 @@ class Options:
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """For each swarm a folder with its composition and its launch files."""
-    package = options.package or f"{snake_case(system.name)}_behavior"
+    package = behaviours(system, options.package)
     members = {member.name: member for member in system.members}
     for swarm in system.swarms:
         folder = snake_case(swarm.name)

@@ -14,7 +14,7 @@ from swarmdsl.naming import snake_case
 from swarmdsl.source import Span
 
 # An `int` of Java.
-_LARGEST = 2**31 - 1
+LARGEST = 2**31 - 1
 
 
 @dataclass(frozen=True)
@@ -35,6 +35,7 @@ def varied(
     optimization: Optimization, system: System, package: str, target: str, report: Diagnostics
 ) -> Iterator[Varied]:
     """All that can be said in this way; the rest is reported."""
+    package = behaviours(system, package)
     owners: dict[str, str] = {}
     for range_ in optimization.params:
         owner = owners.setdefault(range_.param, range_.role)
@@ -49,12 +50,12 @@ def varied(
             _report(range_.param, range_.origin, target, report, note, hint)
             continue
         lowest, highest = (_exact(end) / scale for end in (range_.lower, range_.upper))
-        if lowest.denominator != 1 or max(-lowest, highest) > _LARGEST:
+        if lowest.denominator != 1 or max(-lowest, highest) > LARGEST:
             note = "a value is a whole number times the step, and the number has 32 bits"
             hint = "let the range begin at a multiple of the step"
             _report(range_.param, range_.origin, target, report, note, hint)
             continue
-        meta = f"file:{package or snake_case(system.name) + '_behavior'}"
+        meta = f"file:{package}"
         yield Varied(range_.param, meta, int(lowest), int(highest // 1), float(scale))
     for count in optimization.counts:
         if count.role in owners:
@@ -63,6 +64,11 @@ def varied(
             continue
         fewest, most = int(number(count.lower)), int(number(count.upper))
         yield Varied(count.role, "command_line", fewest, most, 1.0)
+
+
+def behaviours(system: System, package: str) -> str:
+    """The ROS package with the behaviours: the one that is named, else that of target smach."""
+    return package or f"{snake_case(system.name)}_behavior"
 
 
 def number(expression: Expression) -> float:
