@@ -74,6 +74,7 @@ def test_params() -> None:
         {"class": "boolean", "name": "slow", "value": True},
         {"class": "number", "name": "top-speed", "value": 0.5},
         {"class": "array", "name": "route", "value": [1.5]},
+        {"class": "numbr", "name": "count", "value": 1},
     ]
     api = {"comm_model": {"paradigm": "rosaction", "definition": CALL}}
     system, report = imported({"name": "lift", "param_list": params, "api": api})
@@ -88,6 +89,7 @@ def test_params() -> None:
         ("slow", "bool", True),
         ("top_speed", "float64", 0.5),
         ("route", "float64[]", None),
+        ("count", "int64", 1),
     ]
 
 

@@ -9,6 +9,7 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.importing import import_scxml
 from swarmdsl.ir import EventTrigger, OutcomeTrigger, State, StateKind, System
+from swarmdsl.printer.expressions import expression as written
 from swarmdsl.source import Source
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="keeper"'
@@ -125,6 +126,18 @@ def test_a_parallel_of_more_than_monitors_has_regions() -> None:
         ("P.L", StateKind.REGION),
         ("P.RRegion", StateKind.REGION),
     ]
+
+
+def test_a_topic_carries_one_type() -> None:
+    monitors = "".join(
+        f"<state id='{n}'>{MONITOR.format('state', type_)}</state>"
+        for n, type_ in (("A", "m/Low"), ("B", "m/Other"))
+    )
+    body = f"<parallel id='P'><state id='S'/>{monitors}<transition event='a' target='End'/><transition event='b' target='End'/></parallel>{END}"
+    system, report = imported(body)
+
+    assert said(report) == [("left-out", "rosmonitor")]
+    assert [str(event.type) for event in system.events] == ["m/Low", "m/Low"]
 
 
 # ---- outcomes
@@ -284,6 +297,23 @@ def test_a_body_that_does_not_fit_its_invoke() -> None:
     assert str(system.functions[0].communication.type) == "std_srvs/Empty"
 
 
+def test_an_interface_that_is_described_as_another_kind() -> None:
+    service = "<rosservice><name>lift</name><srv>arm_msgs/Lift</srv><request type='empty'/><response type='empty'/></rosservice>"
+    body = f"<state id='A'>{call(service, 'ROS_SERVICE')}{ALL_HANDLED}</state>{END}"
+    system, report = imported(body, adf=ADF)
+
+    assert [n for n, _ in said(report)] == ["left-out"]
+    assert system.interfaces == ()
+
+
+def test_fields_that_cannot_be_fields() -> None:
+    goal = "<goal type='userdata'><var>a b</var><var>top</var></goal>"
+    system, report = imported(f"<state id='A'>{call(lift(goal))}{ALL_HANDLED}</state>{END}")
+
+    assert said(report) == [("assumed", "rosaction"), ("left-out", "var")]
+    assert states(system)["A"].activity is not None
+
+
 # ---- names
 
 
@@ -319,6 +349,19 @@ def test_a_target_that_does_not_exist() -> None:
 
     assert ("unknown-state", "Nowhere") in said(report)
     assert report.has_errors
+
+
+def test_a_transition_from_one_region_into_another() -> None:
+    one = f"<state id='L'><state id='L1'>{call(lift())}<transition event='succeeded aborted' target='R1'/></state></state>"
+    other = "<state id='R'><state id='R1'/></state>"
+    system, report = imported(f"<parallel id='P'>{one}{other}</parallel>")
+
+    assert said(report)[0][0] == "open-outcome"
+    assert ("left-out", "R1") in said(report)
+    assert ways(states(system)["P.L.L1"]) == [
+        (["succeeded"], "Succeeded"),
+        (["aborted"], "Aborted"),
+    ]
 
 
 # ---- what is not XML
@@ -397,6 +440,35 @@ def test_plain_scxml() -> None:
     assert len(found["P.RRegion.R"].entry) == 1
     assert found["Work.B"].transitions[0].guard is not None
     assert [v.name for v in system.machines[0].variables] == ["count"]
+
+
+@pytest.mark.parametrize(
+    ("cond", "guard"),
+    [
+        ("level == 1", "level == 1"),
+        ("level !== 1.5 || open", "level != 1.5 or open"),
+        ("!open &amp;&amp; !(name == 'a')", 'not open and not (name == "a")'),
+        ("-level * 2 + 1 &lt;= level", "-level * 2 + 1 <= level"),
+        ("In('A')", None),
+        ("level / 2 > 1", None),
+        ("_event.data.x", None),
+        ("level ==", None),
+    ],
+)
+def test_conditions(cond: str, guard: str | None) -> None:
+    body = (
+        f"<state id='A'><transition event='e' cond=\"{cond}\" target='B'/></state><state id='B'/>"
+    )
+    system, report = imported(body)
+
+    found = [each.guard for each in states(system)["A"].transitions]
+    if guard is None:
+        assert ("left-out", "transition") in said(report)
+        assert found == []
+    else:
+        (made,) = found
+        assert made is not None
+        assert written(made) == guard
 
 
 def test_outcomes_are_events_like_others_where_nothing_is_called() -> None:

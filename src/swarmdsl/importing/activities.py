@@ -123,7 +123,7 @@ class Activities:
     def activity(self, call: Call, variables: Names) -> Activity:
         """What a state does that makes this call."""
         function = self.library.function(call)
-        described = self.library.interface(call)
+        described = self._described(call)
         goal = _part(described, ("goal", "request"))
         result = _part(described, ("result", "response"))
         mapped = dict(call.mappings)
@@ -158,6 +158,16 @@ class Activities:
             tuple(results),
             f"{function.name}_{words[1]}" if reads else None,
         )
+
+    def _described(self, call: Call) -> Interface | None:
+        """What is known of the interface of a call; nothing, where it is known as another kind."""
+        known = self.library.interface(call)
+        if known is None or isinstance(known, Action) == (call.paradigm == "action"):
+            return known
+        self.library.interfaces.pop(call.type, None)
+        reason = f"here it is that of {'an action' if call.paradigm == 'action' else 'a service'}"
+        self._left_out(call, f"what is known of `{call.type}`", reason)
+        return None
 
     def _fixed(
         self, call: Call, goal: dict[str, Type] | None, arguments: dict[str, Expression]

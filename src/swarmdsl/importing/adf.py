@@ -197,12 +197,13 @@ class _Reader:
 
 
 def _param_type(class_: str, value: object) -> Type:
-    if class_ in ("number", "") and type(value) in (bool, str):
-        return _TYPES[type(value)]
     if class_ == "array":
         inner = value[0] if isinstance(value, list) and value else 0.0
         return Array(_TYPES.get(type(inner), FLOAT))
-    return data_type(class_ or "number")
+    type_ = data_type(class_ or "number")
+    # What a value is says more than a class that it cannot be of.
+    fits = isinstance(type_, Primitive) and (class_ != "number" or type(value) not in (bool, str))
+    return type_ if fits or type(value) not in _TYPES else _TYPES[type(value)]
 
 
 def _dicts(items: object) -> list[dict[str, Any]]:
@@ -215,4 +216,5 @@ def _line(text: object) -> str:
 
 def _topic(name: str) -> str:
     """A name that ROS takes."""
-    return re.sub(r"[^\w/]+", "_", name).strip("/") or "unnamed"
+    plain = re.sub(r"[^A-Za-z0-9_/]+", "_", name).strip("_/")
+    return plain if plain[:1].isalpha() else f"n_{plain}"

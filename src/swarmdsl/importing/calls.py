@@ -17,6 +17,7 @@ _TYPES = {"ROS_ACTION": "rosaction", "ROS_SERVICE": "rosservice", "ROS_MONITOR":
 # `object` and `slot` are names of 2018.
 _POLICIES = {"object": "fixed", "slot": "userdata"}
 _TOPIC = re.compile(r"[~/]?[A-Za-z][\w/]*", re.ASCII)
+_FIELD = re.compile(r"[A-Za-z]\w*", re.ASCII)
 _SPARE = ("adf", "input", "invoke")
 
 
@@ -146,7 +147,12 @@ class Calls:
             else:
                 self._repaired(body, f"`<{name}>` is missing: nothing is kept of it")
             return Policy.EMPTY, ()
-        items = tuple(each.text.strip() for each in node.children if each.name in ("param", "var"))
+        values = [each for each in node.children if each.name in ("param", "var")]
+        for value in values:
+            if value.name == "var" and not _FIELD.fullmatch(value.text.strip()):
+                self._left_out(value, f"`{value.text.strip()}`", "no field is called so")
+                values = [each for each in values if each is not value]
+        items = tuple(each.text.strip() for each in values)
         given = node.get("type", "")
         written = _POLICIES.get(given, given)
         if written in {policy.value for policy in Policy}:

@@ -162,7 +162,10 @@ class _Reader:
             self._left_out(edge.node, "this transition", "it leads to several states", "target")
             return None
         if not wanted:
-            return edge
+            if edge.node.children:
+                return edge
+            self._left_out(edge.node, "this transition", "it leads nowhere and does nothing")
+            return None
         name = wanted[0]
         found = known.get(name)
         if found is None:
@@ -179,8 +182,12 @@ class _Reader:
         for level in (source, *source.around()):
             near = [each for each in found if each in level.walk()]
             if near:
-                return replace(edge, target=near[0])
-        return edge
+                break
+        if level is not source and level is not near[0] and level.kind is StateKind.PARALLEL:
+            reason = "it leads from one region into another"
+            self._left_out(edge.node, "this transition", reason, "target")
+            return None
+        return replace(edge, target=near[0])
 
     def _left_out(self, node: Node, what: str, reason: str, attribute: str = "") -> None:
         place = self.document.at(node, attribute)

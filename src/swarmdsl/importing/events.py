@@ -20,6 +20,7 @@ class Events:
     def __init__(self) -> None:
         self.names: Names = type_names()
         self.known: dict[str, Event] = {}
+        self.topics: dict[str, Named] = {}
 
     def collect(self, top: Draft, document: Document, report: Diagnostics) -> None:
         """Find the events of one document, and pair them with the topics of its monitors."""
@@ -48,7 +49,13 @@ class Events:
                 continue
             topic = monitor.topic or snake_case(name)
             swarm = topic.startswith(_BRIDGE)
-            self.known[text] = Event(name, monitor.type, topic.removeprefix(_BRIDGE), swarm)
+            carried = self.topics.setdefault(topic, monitor.type)
+            if carried != monitor.type:
+                place = document.at(monitor.node)
+                what = f"`{monitor.type}` as what `{topic}` carries"
+                reason = f"another monitor hears `{carried}` there"
+                report.report("left-out", place, what=what, reason=reason)
+            self.known[text] = Event(name, carried, topic.removeprefix(_BRIDGE), swarm)
 
     def meant_by(self, descriptor: str) -> list[str]:
         """The names of the events that a descriptor of a transition stands for."""

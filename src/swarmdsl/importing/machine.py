@@ -137,9 +137,9 @@ class MachineMaker:
     def _state(self, draft: Draft) -> State:
         path = self.paths[draft]
         activity = None
-        doc = ""
         if isinstance(draft.call, Call):
             activity = self.activities.activity(draft.call, self.variables)
+        acts = draft.kind not in (StateKind.FINAL, StateKind.HISTORY)
         transitions = self._transitions(draft)
         if draft.kind is StateKind.HISTORY:
             transitions = transitions[:1] or self._to_first(draft)
@@ -151,10 +151,9 @@ class MachineMaker:
             states=self._states(draft, path),
             transitions=transitions if draft.kind is not StateKind.FINAL else (),
             activity=activity,
-            entry=self._effects(draft.entry) if _has_effects(draft) else (),
-            exit=self._effects(draft.exit) if _has_effects(draft) else (),
+            entry=self._effects(draft.entry) if acts else (),
+            exit=self._effects(draft.exit) if acts else (),
             deep=draft.node.get("type") == "deep",
-            doc=doc,
         )
 
     def _to_first(self, draft: Draft) -> tuple[Transition, ...]:
@@ -255,7 +254,3 @@ class MachineMaker:
 
     def _left_out(self, node: Node, what: str, reason: str) -> None:
         self.report.report("left-out", self.document.at(node), what=what, reason=reason)
-
-
-def _has_effects(draft: Draft) -> bool:
-    return draft.kind not in (StateKind.FINAL, StateKind.HISTORY, StateKind.CHOICE)

@@ -50,6 +50,7 @@ def settle(top: Draft, document: Document, report: Diagnostics) -> None:
                 document.at(draft.node, "id"),
                 outcomes=listed(open_, "and"),
                 state=draft.id,
+                help="let it lead elsewhere in the model if the robot should go on",
             )
     for draft, added in passed:
         draft.edges += added

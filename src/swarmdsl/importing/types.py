@@ -19,7 +19,7 @@ MISSPELT = {"stds_msgs": "std_msgs"}
 
 def qualified(text: str, kind: str) -> Named:
     """The interface that a class means; `kind` is message, service or action."""
-    words = [word for word in re.split(r"[^\w]+", text) if word]
+    words = re.findall(r"[A-Za-z][A-Za-z0-9_]*", text)
     name = words[-1] if words else "Empty"
     if len(words) > 1:
         return Named(MISSPELT.get(words[0], words[0]), name)
