@@ -12,9 +12,9 @@ from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.format import formatted
 from swarmdsl.importing import import_adf, import_scxml
+from swarmdsl.load import read_source
 from swarmdsl.naming import snake_case
 from swarmdsl.printer import UnprintableError, print_system
-from swarmdsl.reading import read_source
 from swarmdsl.source import Source
 from swarmdsl.staging import Staging
 
