@@ -159,6 +159,25 @@ def test_faults(simulate: Simulate) -> None:
     assert ran.of("rover[0]")[-1]["t"] == 100_000
 
 
+def test_a_server_is_free_again_when_its_silence_is_over(simulate: Simulate) -> None:
+    ran = simulate(
+        """
+        statemachine Work {
+          initial Go
+          state Go { do land
+                     on succeeded -> End
+                     on aborted   -> Go
+                     after 4 s    -> Go }
+          final End
+        }
+        """,
+        scenario="[[faults]]\nat = '500 ms'\nsilent = 'land'\nlasts = '9 s'",
+    )
+
+    # The third call waits for the server, and ends a second after it was free.
+    assert (ran.trace[-1]["t"], ran.trace[-1]["configuration"]) == (10_500, ["End"])
+
+
 def test_the_same_seed_gives_the_same_bytes(simulate: Simulate) -> None:
     scenario = """
       seed = 5

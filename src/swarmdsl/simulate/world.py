@@ -66,6 +66,7 @@ class World:
         self._ends: dict[Run, Alarm | None] = {}
         self._listeners: dict[tuple[str, Robot], list[Actor]] = {}
         self._silent: set[tuple[Robot, str]] = set()
+        self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
         self._actors: dict[Instance, Actor] = {}
@@ -172,12 +173,10 @@ class World:
         alarm = self._ends.pop(run)
         if alarm is not None:
             self.clock.unschedule(alarm)
-        if not self._is_silent(robot, function):
-            conduct = self._scenario.conduct(function, robot)
-            chance = self._chance.about(
-                robot.name, function, self._calls[robot.name, function], "stops"
-            )
-            self.clock.schedule(conduct.stopping.draw(chance), lambda: run.end("preempted"))
+        if self._is_silent(robot, function):
+            self._unheard.append(run)
+        else:
+            self._stop(run)
 
     def send(self, instance: Instance, event: Event) -> None:
         """Bring an event to the machines of the robot, and a swarm event to the other robots."""
@@ -215,6 +214,14 @@ class World:
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
         return any((robot, name) in self._silent for name in (function, EVERY_FUNCTION))
+
+    def _stop(self, run: Run) -> None:
+        robot, function = self._actors[run.instance].robot, run.activity.name
+        conduct = self._scenario.conduct(function, robot)
+        chance = self._chance.about(
+            robot.name, function, self._calls[robot.name, function], "stops"
+        )
+        self.clock.schedule(conduct.stopping.draw(chance), lambda: run.end("preempted"))
 
     def _later(self, delay: int, event: str, data: Any, robot: Robot) -> None:
         to = self.listeners(event, robot)
@@ -264,9 +271,19 @@ class World:
                     self._ends[run] = None
             if fault.lasts is not None:
                 answers = (robot, fault.function)
-                self.clock.schedule(fault.lasts, lambda: self._silent.discard(answers))
+                self.clock.schedule(fault.lasts, lambda: self._answer(answers))
 
         return strike
+
+    def _answer(self, answers: tuple[Robot, str]) -> None:
+        """End a silence; what was asked to stop in it does so now."""
+        self._silent.discard(answers)
+        unheard, self._unheard = self._unheard, []
+        for run in unheard:
+            if self._is_silent(self._actors[run.instance].robot, run.activity.name):
+                self._unheard.append(run)
+            else:
+                self._stop(run)
 
     def lose(self, robot: Robot) -> None:
         """Let a robot be gone: it does nothing any more, and nothing is done on leaving."""
