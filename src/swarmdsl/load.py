@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import os
-import re
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from swarmdsl.dataclass import dataclass, field, replace
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
+from swarmdsl.reading import read_source, without_control_characters
 from swarmdsl.ros.interface_file import KINDS, parse_interface
 from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
 from swarmdsl.source import Source, Span
@@ -26,9 +26,6 @@ from swarmdsl.syntax import (
     Model,
     Optimization,
 )
-
-# No format can carry them: all but tab and line end (XML 1.0, 2.2).
-_CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 
 @dataclass(eq=False)
@@ -273,15 +270,6 @@ def _parsed(source: Source, report: Diagnostics) -> File:
     return File(source, parsed)
 
 
-def without_control_characters(source: Source, report: Diagnostics) -> Source:
-    """The source with spaces in place of characters that no format can carry, once reported."""
-    found = list(_CONTROL.finditer(source.text))
-    for each in found:
-        place = Span(source, each.start(), each.end())
-        report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
-    return replace(source, text=_CONTROL.sub(" ", source.text)) if found else source
-
-
 def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
     """Report a file without a mistake that has nothing in it."""
     if not (model.declarations or model.imports or model.optimizations):
@@ -290,84 +278,6 @@ def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
             Span(source, 0, 0),
             help="declare something, `event Start : ...` for instance",
         )
-
-
-def read_source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:
-    """Read the text of a file; None when it cannot be read, which is reported at `at`."""
-    content = read_bytes(path, at, report)
-    return decoded(path, content, at, report) if content is not None else None
-
-
-def read_bytes(path: Path, at: Span | None, report: Diagnostics) -> bytes | None:
-    """Read a file; None when it cannot be read, which is reported at `at`."""
-    if os.path.isdir(path):  # noqa: PTH112 - as above
-        report.report(
-            "not-a-file",
-            at,
-            path=path,
-            actual="a folder",
-            expected="a .swarm file",
-            help="name a file in it"
-            + (", or write `import ros` if it has interfaces of ROS" if at is not None else ""),
-        )
-        return None
-    try:
-        return path.read_bytes()
-    except FileNotFoundError:
-        report.report("file-not-found", at, path=path, help=_similar_file(path))
-    except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        report.report("unreadable-file", at, path=path, reason=reason.lower())
-    return None
-
-
-def decoded(path: Path, data: bytes, at: Span | None, report: Diagnostics) -> Source | None:
-    """The content of a file as text; None when it is none, which is reported at `at`."""
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        _report_encoding(path, at, data, error, report)
-        return None
-    if "\0" in text:
-        report.report("not-text", at, path=path, help="this looks like a binary file")
-        return None
-    return Source(str(path), _unified(text), path)
-
-
-def _report_encoding(
-    path: Path, at: Span | None, data: bytes, error: UnicodeDecodeError, report: Diagnostics
-) -> None:
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        report.report("not-text", at, path=path, help="it looks like UTF-16: save it as UTF-8")
-    elif b"\0" in data:
-        report.report("not-text", at, path=path, help="this looks like a binary file")
-    else:
-        data = error.object  # without the byte order mark that may come first
-        readable = _unified(data[: error.start].decode())
-        rest = _unified(data[error.start :].decode(errors="replace"))
-        source = Source(str(path), readable + rest, path)
-        report.report(
-            "not-text",
-            Span(source, len(readable), len(readable) + 1),
-            path=path,
-            related=(Label(at, "imported here"),) if at else (),
-            help="save it as UTF-8",
-        )
-
-
-def _unified(text: str) -> str:
-    """The text with all ends of lines alike."""
-    return text.replace("\r\n", "\n").replace("\r", "\n")
-
-
-def _similar_file(path: Path) -> str | None:
-    if path.with_name(f"{path.name}{SUFFIX}").is_file():
-        return f"did you mean `{path.name}{SUFFIX}`?"
-    try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.suffix == SUFFIX]
-    except OSError:
-        return None
-    return did_you_mean(path.name, names)
 
 
 def _report_cycles(files: list[File], report: Diagnostics) -> None:

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.format import formatted
-from swarmdsl.load import decoded, expanded, read_bytes
+from swarmdsl.load import expanded
+from swarmdsl.reading import decoded, read_bytes
 from swarmdsl.staging import Staging
 
 STDIN = "<stdin>"

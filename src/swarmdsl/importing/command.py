@@ -12,9 +12,9 @@ from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.format import formatted
 from swarmdsl.importing import import_adf, import_scxml
-from swarmdsl.load import read_source
 from swarmdsl.naming import snake_case
 from swarmdsl.printer import UnprintableError, print_system
+from swarmdsl.reading import read_source
 from swarmdsl.source import Source
 from swarmdsl.staging import Staging
 
@@ -58,7 +58,7 @@ def run(
         system = import_scxml(read, known, name, report)
     if report.has_errors:
         return Imported(report, files)
-    if not (system.machines or system.functions):
+    if not (system.machines or system.functions or system.components):
         report.report("nothing-to-import", path=paths[0].as_posix())
         return Imported(report, files)
     try:

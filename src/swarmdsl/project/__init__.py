@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.load import read_source
 from swarmdsl.project.settings import FILE_NAME, Settings
+from swarmdsl.reading import read_source
 
 
 def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:

@@ -18,9 +18,9 @@ import click
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.ir import System
-from swarmdsl.load import read_source
 from swarmdsl.project import find_settings
 from swarmdsl.project.toml import parse_toml
+from swarmdsl.reading import read_source
 from swarmdsl.runtime import LoopError
 from swarmdsl.scxml import read as read_scxml
 from swarmdsl.simulate.actors import Actor, actors

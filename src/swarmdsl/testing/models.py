@@ -10,8 +10,8 @@ from pathlib import Path
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.ir import System
-from swarmdsl.load import read_source
 from swarmdsl.project import find_file, find_settings
+from swarmdsl.reading import read_source
 from swarmdsl.scxml import read as read_scxml
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Document, Subject

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.load import read_source
 from swarmdsl.project.toml import Document, Place, parse_toml
+from swarmdsl.reading import read_source
 from swarmdsl.simulate.actors import Actor, actors
 from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.scenario_file import read_scenario

@@ -9,17 +9,10 @@ from itertools import accumulate, pairwise
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.load import (
-    File,
-    Reader,
-    decoded,
-    parsed_interface,
-    read_bytes,
-    report_empty,
-    without_control_characters,
-)
+from swarmdsl.load import File, Reader, parsed_interface, report_empty
 from swarmdsl.parse import Parsed, parse_piece
 from swarmdsl.pieces import is_closed, joined, split
+from swarmdsl.reading import decoded, read_bytes, without_control_characters
 from swarmdsl.ros.package_folder import InterfacePath
 from swarmdsl.source import Piece, Source, Span
 from swarmdsl.syntax import Model
