@@ -59,11 +59,17 @@ def test_generations_say_the_same(api: dict[str, Any], message: str) -> None:
 
 
 def test_the_exporter_of_2021_says_nothing_about_calls() -> None:
-    sensor = {"name": "GPS", "category": "Sensor", "api": {}}
+    fix = {"topic": "gps/global", "msg": {"class": "sensor_msgs/NavSatFix"}}
+    sensor = {"name": "GPS", "category": "Sensor", "api": {"outputs": [fix]}}
     function = {"name": "lift", "category": "abstraction-lib", "api": {}}
     system, report = imported(function, **{"sensors/actuators": [sensor]})
 
-    assert sorted(said(report)) == [("assumed", "lift"), ("left-out", "sensors/actuators")]
+    assert sorted(said(report)) == [("assumed", "lift")]
+    (component,) = system.components
+    assert (component.name, component.kind) == ("GPS", "sensor")
+    assert [(p.name, p.direction, str(p.type), p.topic) for p in component.ports] == [
+        ("global", "out", "sensor_msgs/NavSatFix", "gps/global")
+    ]
     assert str(system.functions[0].communication.type) == "cpswarm_msgs/Empty"
 
 
@@ -110,6 +116,18 @@ def test_classes_as_the_real_files_have_them() -> None:
     # What ROS comes with is not described again.
     assert [str(each.type) for each in system.interfaces] == ["arm_msgs/State"]
     assert str(system.functions[0].communication.type) == "std_srvs/Empty"
+
+
+def test_devices_that_a_model_does_not_have() -> None:
+    device = {"name": "arm 1", "category": "Robot", "api": {"services": [{"name": "reset"}]}}
+    system, report = imported(**{"sensors/actuators": [device]})
+
+    assert sorted(said(report)) == [
+        ("assumed", "arm 1"),
+        ("left-out", "arm 1"),
+        ("renamed", "arm 1"),
+    ]
+    assert [(each.name, each.kind) for each in system.components] == [("Arm1", "virtual")]
 
 
 def test_text_that_is_not_json() -> None:

@@ -23,7 +23,7 @@ from swarmdsl.source import Source
 
 
 def import_adf(sources: Iterable[Source], name: str, report: Diagnostics) -> System:
-    """The functions that ADF files describe."""
+    """The functions and devices that ADF files describe."""
     library = Library()
     for source in sources:
         adf.read(source, library, report)
@@ -34,9 +34,10 @@ def import_scxml(
     sources: Iterable[Source], described: Iterable[Source], name: str, report: Diagnostics
 ) -> System:
     """The machines of SCXML documents, one a document; ADF files describe what they call."""
-    library, events = Library(), Events()
+    library = Library()
     for source in described:
         adf.read(source, library, report)
+    events = Events(library.devices)
     read_: list[tuple[Document, Draft]] = []
     for source in sources:
         document = read(source, report)
@@ -61,9 +62,15 @@ def import_scxml(
         system.interfaces,
         tuple(events.known.values()),
         system.functions,
+        system.components,
         machines=tuple(machines),
     )
 
 
 def _system(name: str, library: Library) -> System:
-    return System(name, tuple(library.interfaces.values()), (), tuple(library.functions.values()))
+    return System(
+        name,
+        tuple(library.interfaces.values()),
+        functions=tuple(library.functions.values()),
+        components=tuple(library.components),
+    )

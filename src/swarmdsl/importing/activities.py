@@ -7,12 +7,13 @@ from collections.abc import Iterable
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.names import Names, value_names
+from swarmdsl.importing.names import Names, type_names, value_names
 from swarmdsl.importing.types import data_type
 from swarmdsl.ir import (
     Action,
     Activity,
     Communication,
+    Component,
     Expression,
     Field,
     Function,
@@ -42,12 +43,14 @@ _ZEROS: dict[str, Literal] = {
 
 
 class Library:
-    """The functions and interfaces of all that is read together."""
+    """The functions, devices and interfaces of all that is read together."""
 
     def __init__(self) -> None:
         self.names: Names = value_names()
         self.functions: dict[tuple[str, str, Named], Function] = {}
         self.interfaces: dict[Named, Interface] = {}
+        self.devices: Names = type_names()
+        self.components: list[Component] = []
 
     def describe(self, interface: Interface) -> None:
         """Take what is said of an interface, unless ROS comes with it or it is known already."""

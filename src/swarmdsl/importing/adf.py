@@ -1,4 +1,4 @@
-"""Abstraction Description Files of all generations: what robots can do, as functions.
+"""Abstraction Description Files of all generations: what robots can do, and their devices.
 
 The first generation has `msg_def` and `comm_paradigm`, the second `comm_model` with `paradigm` and
 `definition` in it, that of D5.4 `msg` and `param_list`; the exporter of 2021 has no `comm_model`.
@@ -19,6 +19,7 @@ from swarmdsl.ir import (
     Action,
     Array,
     Communication,
+    Component,
     Expression,
     Field,
     Function,
@@ -26,6 +27,7 @@ from swarmdsl.ir import (
     Message,
     Named,
     Param,
+    Port,
     Primitive,
     Service,
     Type,
@@ -35,11 +37,17 @@ from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
 from swarmdsl.source import Source, Span
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
-_KNOWN = {"runtime-env", "functions"}
+_KNOWN = {"runtime-env", "functions", "sensors/actuators"}
+_DEVICES: dict[str, Literal["sensor", "actuator", "controller", "virtual"]] = {
+    "sensor": "sensor",
+    "actuator": "actuator",
+    "controller": "controller",
+    "virtual": "virtual",
+}
 
 
 def read(source: Source, library: Library, report: Diagnostics) -> None:
-    """Add the functions of a file to a library; all that is wrong with it is reported."""
+    """Add what a file describes to a library; all that is wrong with it is reported."""
     try:
         content = json.loads(source.text)
     except json.JSONDecodeError as error:
@@ -65,7 +73,7 @@ class _Reader:
 
     def read(self, content: dict[str, Any]) -> None:
         for key in content.keys() - _KNOWN:
-            reason = "only functions are read"
+            reason = "only functions and devices are read"
             self.report.report("left-out", self._at(key), what=f"`{key}`", reason=reason)
         for typo, meant in MISSPELT.items():
             match = re.search(rf'(?<="){typo}(?=/)', self.source.text)
@@ -74,6 +82,32 @@ class _Reader:
                 self.report.report("renamed", place, name=typo, new=meant)
         for described in _dicts(content.get("functions")):
             self._function(described)
+        for described in _dicts(content.get("sensors/actuators")):
+            self._device(described)
+
+    def _device(self, described: dict[str, Any]) -> None:
+        """A sensor, actuator or other device, with what it hears and tells as ports."""
+        written = str(described.get("name", ""))
+        name = self.library.devices.new(written)
+        if not is_plain(written):
+            self.report.report("renamed", self._at(written), name=written, new=name)
+        api = described.get("api")
+        api = api if isinstance(api, dict) else {}
+        if api.get("services"):
+            reason = "nothing says what they are for: a function would"
+            what = f"the services of `{written}`"
+            self.report.report("left-out", self._at(written), what=what, reason=reason)
+        kind = _DEVICES.get(str(described.get("category", "controller")).lower())
+        if kind is None:
+            what = f"`{described['category']}` is no kind of device"
+            self.report.report("assumed", self._at(written), what=what, assumed="`virtual`")
+        names = value_names()
+        ports = tuple(
+            Port(names.new(port.topic.rpartition("/")[2]), port.direction, port.type, port.topic)
+            for port in self._ports(api)
+        )
+        doc = _line(described.get("description"))
+        self.library.components.append(Component(name, kind or "virtual", ports, (), doc=doc))
 
     def _function(self, described: dict[str, Any]) -> None:
         written = str(described.get("name", ""))

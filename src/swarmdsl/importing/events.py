@@ -5,7 +5,7 @@ from __future__ import annotations
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.calls import Monitor
 from swarmdsl.importing.drafts import OUTCOMES, Draft
-from swarmdsl.importing.names import Names, type_names
+from swarmdsl.importing.names import Names
 from swarmdsl.ir import Event, Named
 from swarmdsl.naming import snake_case
 from swarmdsl.scxml.document import Document, Node
@@ -17,8 +17,8 @@ _INTERNAL = ("done.", "error.")
 class Events:
     """The events of all documents that are read together."""
 
-    def __init__(self) -> None:
-        self.names: Names = type_names()
+    def __init__(self, names: Names) -> None:
+        self.names = names
         self.known: dict[str, Event] = {}
         self.topics: dict[str, Named] = {}
 
