@@ -15,7 +15,8 @@ PAGES = sorted(explain.page_path("SW0000").parent.glob("*.md"))
 def test_the_list_of_targets(swarmc):
     ran = swarmc("targets")
     assert ran.code == 0
-    assert [line.split()[0] for line in ran.out.splitlines()][:3] == list(plugins.BUILT_IN)
+    named = [line.split()[0] for line in ran.out.splitlines()]
+    assert named[: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)
 
 
 def test_one_target(swarmc):
@@ -27,7 +28,7 @@ def test_one_target(swarmc):
 
 def test_targets_as_json(swarmc):
     found = json.loads(swarmc("targets", "--format", "json").out)
-    assert [one["name"] for one in found][:3] == list(plugins.BUILT_IN)
+    assert [one["name"] for one in found][: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)
 
 
 def test_an_unknown_target(swarmc):

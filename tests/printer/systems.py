@@ -86,7 +86,12 @@ def systems(draw: st.DrawFn) -> System:
         _swarm(draw, names.pop(), members, environments, fitness)
         for _ in range(draw(st.integers(0, 1)) if members else 0)
     ]
-    optimizations = [_optimization(draw, swarm, members) for swarm in swarms if draw(st.booleans())]
+    # One without a fitness has nothing to compare by.
+    optimizations = [
+        _optimization(draw, swarm, members)
+        for swarm in swarms
+        if swarm.fitness is not None and draw(st.booleans())
+    ]
     return System(
         package,
         tuple(interfaces),
