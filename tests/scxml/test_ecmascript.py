@@ -39,12 +39,14 @@ l == l  !0  !""  !"a"  !l  !NaN  !o  0 || "a"  1 || "a"  0 && "a"  1 && "a"  "" 
 1 && 2 && 3  0 || 1 && 0  !1 == 2  1 < 2 == true  n > 2 ? "y" : "n"  t ? x : n  n ? t ? 1 : 2 : 3
 l[1]  l[2][0]  l.length  s.length  s[1]  o.a.b  o["a"]["b"]  o.list[1]  o.nothing  l[9]  s[9]
 {a: 1, "b": [2]}.b[0]  [1, 2, 3].length  [].length  typeof n  typeof "a"  typeof t  typeof o
-typeof undefined  nothing  Math.max(1, n)  Math.min()  Math.max(n, "7")  Math.abs(x)
+typeof undefined  typeof unknown  nothing  Math.max(1, n)  Math.min()  Math.max(n, "7")  Math.abs(x)
 Math.ceil(x)  Math.floor(x)  Math.round(x)  Math.round(2.5)  Math.trunc(x)  Math.sqrt(16)
 Math.sqrt(-1)  Math.pow(2, 10)  Math.pow(2, 0.5)  Math.max(n, NaN)
 JSON.parse(JSON.stringify(o)).a.b  (function (a, b) { return a - b; })(n, 1)
 (function (a) { return (function (b) { return a + b; })(2); })(1)  "\\u0041\\x42\\n\\t\\\\'"
 'it\\'s "so"'  "a" + [1, [2, 3]]  9007199254740993  9007199254740992 + 1  1e308 * 10
++"0x1F"  +"-0x1F"  +"1_0"  +"inf"  +"nan"  +"-Infinity"  +" +1.5e3 "
++"1e"  +".5"  +"5."  +"."  +"\u0661"
 100000 * 1000000000000000000  2 * 2 * 2.5  1 / 3e6  0.000001  1 / 3e7  1.5e300  "" + -0  1 - 1 + ""
 """
 TEXTS = [

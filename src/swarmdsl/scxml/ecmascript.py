@@ -160,6 +160,8 @@ def _function(tree: Any) -> Value:
             return _call(tree)
         case "sign":
             sign, operand = SIGNS[str(children[0])], _function(children[1])
+            if children[0] == "typeof" and children[1].data == "name":
+                operand = _or_undefined(operand)
             return lambda instance, event, names: sign(operand(instance, event, names))
         case "operation":
             operation = OPERATIONS[str(children[1])]
@@ -196,6 +198,16 @@ def _name(name: str) -> Value:
             if name in known:
                 return known[name]
         raise ExecutionError(f"`{name}` is not defined")
+
+    return value
+
+
+def _or_undefined(name: Value) -> Value:
+    def value(instance: Instance, event: Event, names: Names) -> Any:
+        try:
+            return name(instance, event, names)
+        except ExecutionError:
+            return None
 
     return value
 

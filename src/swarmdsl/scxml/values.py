@@ -15,6 +15,8 @@ from typing import Any
 from swarmdsl.runtime import ExecutionError
 
 _EXACT = 2**53
+_DECIMAL = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|Infinity)")
+_HEXADECIMAL = re.compile("0[xX][0-9a-fA-F]+")
 # A document could double a text over and over.
 _LONGEST = 1_000_000
 
@@ -33,10 +35,12 @@ def number(value: Any) -> float | int:
     if isinstance(value, (int, float)):
         return value
     if isinstance(value, str):
-        try:
-            return whole(float(value)) if value.strip() else 0
-        except ValueError:
-            return math.nan
+        written = value.strip()
+        if _HEXADECIMAL.fullmatch(written):
+            return whole(int(written, 16))
+        if _DECIMAL.fullmatch(written):
+            return whole(float(written))
+        return math.nan if written else 0
     return math.nan
 
 
