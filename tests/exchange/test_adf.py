@@ -8,11 +8,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import jsonschema
 import pytest
 
+from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange import adf
-from swarmdsl.generator import NoOptions
 from swarmdsl.ir import (
     Binary,
     Call,
@@ -33,7 +34,7 @@ Compile = Callable[[str], System]
 def emitted(system: System, *expected: str) -> tuple[str, Any]:
     """The name of the file and its content."""
     report = Diagnostics()
-    (file,) = adf.emit(system, NoOptions(), report)
+    (file,) = adf.emit(system, adf.Options(), report)
     assert [found.name for found in report] == list(expected)
     return file.path, json.loads(file.text)
 
@@ -177,7 +178,7 @@ def test_a_value_that_is_no_number(operation: Binary | Call, message: str) -> No
     call = Communication("service", "f", Named("std_srvs", "Empty"))
     system = System("test", functions=(Function("f", "swarm", call, (), (param,)),))
     report = Diagnostics()
-    (file,) = adf.emit(system, NoOptions(), report)
+    (file,) = adf.emit(system, adf.Options(), report)
     (found,) = report
 
     assert (found.name, found.message) == ("bad-operand", message)
@@ -226,7 +227,7 @@ def test_constants_of_messages(compiled: Compile) -> None:
 
 
 def test_no_functions_no_file() -> None:
-    assert list(adf.emit(System("empty"), NoOptions(), Diagnostics())) == []
+    assert list(adf.emit(System("empty"), adf.Options(), Diagnostics())) == []
 
 
 def test_each_component_and_part_has_servers_of_its_own(compiled: Compile) -> None:
@@ -247,3 +248,85 @@ def test_each_component_and_part_has_servers_of_its_own(compiled: Compile) -> No
         ("thermal_camera_snap", "thermal_camera/snap"),
         ("left_snap", "left/snap"),
     ]
+
+
+SENSORS = """
+/// Sees.
+sensor Eye { out seen : Report on "seen"  inout light : float32  param rate : float64 = 2.0 }
+controller Mind { in seen : Report }
+actuator Wheel { in turn : Report }
+function find : swarm { action "find" : Drive  param far : float64 = 3.0 }
+"""
+
+
+def by_schema(system: System) -> tuple[Any, list[str]]:
+    report = Diagnostics()
+    (file,) = adf.emit(system, adf.Options(form="schema"), report)
+    return json.loads(file.text), [found.message for found in report]
+
+
+def test_the_form_of_the_schema(compiled: Compile) -> None:
+    content, said = by_schema(compiled(SENSORS))
+    report = {
+        "class": "test/Report",
+        "fields": [{"class": "string", "name": "id"}, {"class": "int32", "name": "level"}],
+    }
+    light = {"topic": "light", "msg_def": {"class": "float32"}}
+
+    assert content["sensors/actuators"] == [
+        {
+            "name": "Eye",
+            "description": "Sees.",
+            "category": "Sensor",
+            "api": {"inputs": [light], "outputs": [{"topic": "seen", "msg_def": report}, light]},
+        },
+        {
+            "name": "Wheel",
+            "description": "",
+            "category": "Actuator",
+            "api": {"inputs": [{"topic": "turn", "msg_def": report}]},
+        },
+    ]
+    assert content["functions"][-1]["api"]["comm_paradigm"] == "rosaction"
+    assert said == [
+        "target `adf` has no place for param `rate` of a component",
+        "target `adf` has no place for controller `Mind`",
+        "target `adf` has no place for param `far` of a function",
+    ]
+
+
+@pytest.mark.parametrize("year", ["2019", "2021"])
+def test_the_schema_of_the_modelling_tool(year: str, compiled: Compile, corpus: Path) -> None:
+    path = corpus / "schema" / f"{year}_ROS_abstraction-description.schema.json"
+    validator = jsonschema.Draft7Validator(json.loads(path.read_text(encoding="utf-8")))
+    content, _ = by_schema(compiled(SENSORS))
+    d5_4 = emitted(compiled(SENSORS))[1]
+
+    assert list(validator.iter_errors(content)) == []
+    assert list(validator.iter_errors(d5_4))
+
+
+def test_the_functions_that_no_library_has(tmp_path: Path) -> None:
+    model = tmp_path / "model.swarm"
+    model.write_text(
+        """
+        package test
+        import cpswarm.functions.*
+        function mine : swarm { service "mine" : std_srvs/Empty }
+        endless statemachine M {
+          initial A
+          state A { do uav_mavros_land on succeeded, aborted -> B }
+          state B { do mine on succeeded, aborted -> A }
+        }
+        """,
+        encoding="utf-8",
+    )
+    result = compiler.check([model])
+    assert result.system is not None, [found.message for found in result.report]
+    names = {}
+    for which in ("all", "missing"):
+        (file,) = adf.emit(result.system, adf.Options(functions=which), Diagnostics())
+        names[which] = [function["name"] for function in json.loads(file.text)["functions"]]
+
+    assert sorted(names["all"]) == ["mine", "uav_mavros_land"]
+    assert names["missing"] == ["mine"]

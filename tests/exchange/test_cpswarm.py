@@ -15,7 +15,6 @@ from lxml import etree
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostic, Diagnostics
 from swarmdsl.exchange import adf
-from swarmdsl.generator import NoOptions
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]
@@ -604,7 +603,7 @@ def test_the_original_generator_takes_it(
         pytest.skip("no CPSwarm code generator (set SWARMDSL_CPSWARM_GENERATOR to its command)")
     for system, name in ((search_and_rescue, "UavSearch"), (compiled(EVERYTHING), "M")):
         report = Diagnostics()
-        files = {file.path: file.text for file in adf.emit(system, NoOptions(), report)}
+        files = {file.path: file.text for file in adf.emit(system, adf.Options(), report)}
         files |= emit(system, "both", [found.name for found in findings(system, "both")])
         for path, text in files.items():
             (tmp_path / path).write_text(text, encoding="utf-8")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.description import SCHEMA, api, document
+from swarmdsl.exchange.description import by_schema, document
 from swarmdsl.generator import Generator, NoOptions, OutputFile
 from swarmdsl.ir import System
 
@@ -17,19 +17,8 @@ from swarmdsl.ir import System
 def emit(system: System, options: NoOptions, report: Diagnostics) -> Iterator[OutputFile]:
     """One file with the functions of category `swarm`."""
     functions = [function for function in system.functions if function.category == "swarm"]
-    for function in functions:
-        for param in function.params:
-            what = f"param `{param.name}` of a function"
-            report.report("no-place", param.origin, target="amf", what=what)
     if functions:
-        described = [
-            {
-                "name": function.name,
-                "description": function.doc,
-                "api": api(function, system, SCHEMA, report),
-            }
-            for function in functions
-        ]
+        described = [by_schema(function, system, "amf", report) for function in functions]
         text = document({"runtime-env": "ROS", "functions": described})
         yield OutputFile(f"{system.name}.amf.json", text, origin=system.origin)
 

@@ -73,6 +73,20 @@ def api(
     return without_empty(inputs=inputs, outputs=outputs, **called)
 
 
+def by_schema(
+    function: Function, system: System, target: str, report: Diagnostics
+) -> dict[str, Any]:
+    """A function as the schemas have it: without params, which is reported."""
+    for param in function.params:
+        what = f"param `{param.name}` of a function"
+        report.report("no-place", param.origin, target=target, what=what)
+    return {
+        "name": function.name,
+        "description": function.doc,
+        "api": api(function, system, SCHEMA, report),
+    }
+
+
 def topic(
     name: str, type_: Type, system: System, generation: Generation, report: Diagnostics
 ) -> dict[str, Any]:

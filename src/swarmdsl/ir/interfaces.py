@@ -136,7 +136,10 @@ class Communication:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """What a robot can do, as the abstraction or the swarm library offers it."""
+    """What a robot can do, as the abstraction or the swarm library offers it.
+
+    One that is `in_library` comes with a library of models, so that somebody has written it.
+    """
 
     name: str
     category: Literal["abstraction", "swarm"]
@@ -145,3 +148,4 @@ class Function:
     params: tuple[Param, ...]
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    in_library: bool = field(default=False, compare=False, repr=False)

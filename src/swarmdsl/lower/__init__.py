@@ -6,7 +6,10 @@ assertion is a bug in swarmdsl.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from swarmdsl import ir
+from swarmdsl.dataclass import replace
 from swarmdsl.load import Project
 from swarmdsl.lower.architecture import (
     lower_component,
@@ -89,7 +92,7 @@ def lower(project: Project, name: str | None = None) -> ir.System:
         interfaces=tuple(interfaces),
         events=(*events, *context.monitored),
         # A part that is called like its component has the servers of the component.
-        functions=tuple({function.name: function for function in functions}.values()),
+        functions=_with_libraries({f.name: f for f in functions}.values(), project),
         components=tuple(components),
         members=tuple(members),
         machines=tuple(machines),
@@ -99,4 +102,15 @@ def lower(project: Project, name: str | None = None) -> ir.System:
         optimizations=tuple(lower_optimization(o, context) for _, o in project.optimizations()),
         doc=first.model.package.doc if first.model.package else "",
         origin=first.model.package.span if first.model.package else None,
+    )
+
+
+def _with_libraries(functions: Iterable[ir.Function], project: Project) -> tuple[ir.Function, ...]:
+    """The functions, those that come with a library marked."""
+    libraries = {file.source.name for file in project.files if file.library}
+    return tuple(
+        replace(function, in_library=True)
+        if function.origin is not None and function.origin.source.name in libraries
+        else function
+        for function in functions
     )
