@@ -9,6 +9,7 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.importing import import_scxml
 from swarmdsl.ir import EventTrigger, OutcomeTrigger, State, StateKind, System
+from swarmdsl.printer import print_system
 from swarmdsl.printer.expressions import expression as written
 from swarmdsl.source import Source
 
@@ -138,6 +139,17 @@ def test_a_topic_carries_one_type() -> None:
 
     assert said(report) == [("left-out", "rosmonitor")]
     assert [str(event.type) for event in system.events] == ["m/Low", "m/Low"]
+
+
+def test_a_region_that_something_leads_to() -> None:
+    regions = "<state id='L'><state id='L1'/></state><state id='R'><state id='R1'/></state>"
+    system, report = imported(
+        f"<state id='A'><transition event='e' target='R'/></state><parallel id='P'>{regions}</parallel>"
+    )
+
+    assert said(report) == [("assumed", "e")]
+    assert ways(states(system)["A"]) == [(["E"], "P.RRegion.R")]
+    assert print_system(system)
 
 
 # ---- outcomes

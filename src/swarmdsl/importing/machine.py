@@ -56,10 +56,13 @@ class MachineMaker:
         self.variables = value_names()
         self.paths: dict[Draft, str] = {}
         self.wrapped: set[Draft] = set()
+        self.targets: set[Draft | None] = set()
 
     def machine(self, top: Draft, name: str) -> StateMachine:
         """The machine; all that is not taken over is reported."""
         self._read_data(top.node)
+        for draft in top.walk():
+            self.targets |= {draft.initial, *(edge.target for edge in draft.edges)}
         self._name(top)
         states = self._states(top, "")
         assert top.initial is not None
@@ -110,8 +113,8 @@ class MachineMaker:
             self._place(draft, f"{inside}{draft.name}.")
 
     def _needs_region(self, draft: Draft) -> bool:
-        """Whether it is more than a region can be."""
-        plain = draft.kind is StateKind.COMPOSITE and not draft.monitors
+        """Whether it is more than a region can be, which nothing leads to."""
+        plain = draft.kind is StateKind.COMPOSITE and draft not in self.targets
         return not plain or bool(draft.edges or draft.entry or draft.exit)
 
     def _states(self, outer: Draft, path: str) -> tuple[State, ...]:
