@@ -298,6 +298,19 @@ def test_an_activity_ends_once() -> None:
     assert world(instance).asked == ["start work", "start work"]
 
 
+def test_an_activity_that_ended_in_the_step_that_leaves_its_state_is_not_cancelled() -> None:
+    def finish(instance: Instance, event: Event) -> None:
+        run_of(instance, "one").end("succeeded")
+
+    one = busy("one", on("e", "two"), server="arm")._replace(exit=(finish,))
+    two = busy("two", on("do.one.succeeded", "wrong"), server="arm")
+    instance = started(Machine("m", (one, two, State("wrong"))))
+    after(instance, "e")
+
+    assert instance.configuration.ids == ["two"]
+    assert world(instance).asked == ["start one", "start two"]
+
+
 # ---- delays
 
 
@@ -331,6 +344,16 @@ def test_leaving_the_state_cancels_the_delay() -> None:
     world(instance).clock.advance(1000)
 
     assert instance.configuration.ids == ["c"]
+
+
+def test_the_end_of_the_machine_cancels_every_delay() -> None:
+    send = lambda instance, event: instance.send_after(Event("late"), 100)  # noqa: E731
+    first = State("a", entry=(send,), transitions=(on("e", "end"),))
+    instance = started(Machine("m", (first, State("end", Kind.FINAL))))
+    assert world(instance).clock.next == 100
+    after(instance, "e")
+
+    assert world(instance).clock.next is None
 
 
 def test_a_delay_begins_anew_with_the_state() -> None:
