@@ -54,6 +54,8 @@ def as_page(generator: Generator) -> str:
 
 def _page(generator: Generator) -> Iterator[str]:
     yield f"{generator.target}: {generator.summary}"
+    if generator.target in plugins.ON_REQUEST:
+        yield f"\nbuilt where it is asked for: `--target {generator.target}`, or in swarm.toml"
     if options := options_of(generator).values():
         yield f"\noptions, given as `--option {generator.target}.NAME=VALUE`"
         for option in options:

@@ -26,6 +26,11 @@ def test_one_target(swarmc):
     assert "--option scxml.NAME=VALUE" in ran.out
 
 
+def test_a_target_that_has_to_be_asked_for_says_so(swarmc):
+    assert "built where it is asked for: `--target amf`" in swarmc("targets", "amf").out
+    assert "asked for" not in swarmc("targets", "adf").out
+
+
 def test_targets_as_json(swarmc):
     found = json.loads(swarmc("targets", "--format", "json").out)
     assert [one["name"] for one in found][: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)

@@ -22,7 +22,7 @@ from swarmdsl.cli.outcome import conclude
     multiple=True,
     metavar="TARGET",
     help="What to make; may be repeated. Without it: the targets of swarm.toml, or all that "
-    "can express the model.",
+    "can express the model and need not be asked for.",
 )
 @click.option(
     "--out",
