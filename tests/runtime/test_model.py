@@ -217,7 +217,7 @@ def test_monitors(run: Start) -> None:
       }
     """)
     (name,) = {
-        event for edge in m.instance.machine.edges for each in edge for event in each.exact
+        event for edge in m.instance.machine.edges for each in edge for event in each.events
     } - {"Start"}
     m.hear(name, level=3)
     assert m.states == ["Wait"]

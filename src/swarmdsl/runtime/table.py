@@ -108,21 +108,22 @@ class TableError(ValueError):
 class Edge:
     """A transition with its states as numbers."""
 
-    __slots__ = ("exact", "guard", "prefixes", "source", "table", "targets")
+    __slots__ = ("events", "guard", "source", "table", "targets")
 
     def __init__(self, source: int, targets: tuple[int, ...], table: Transition) -> None:
         self.source = source
         self.targets = targets
         self.table = table
         self.guard = table.guard
-        self.exact = table.events
-        self.prefixes = [name[:-1] for name in table.events if name[-1] == "*"]
+        self.events = table.events
 
     def matches(self, name: str) -> bool:
         """Whether an event of that name triggers it; the empty name stands for no event."""
-        if not name or not self.exact:
-            return not name and not self.exact
-        return name in self.exact or any((f"{name}.").startswith(p) for p in self.prefixes)
+        if not name or not self.events:
+            return not name and not self.events
+        return name in self.events or any(
+            f"{name}.".startswith(event[:-1]) for event in self.events if event[-1] == "*"
+        )
 
 
 class Machine:
@@ -199,7 +200,7 @@ class Machine:
             return
         if state.transitions:
             self.edges[number] = tuple([self._edge(number, t, state) for t in state.transitions])
-            if not all(each.events for each in state.transitions):
+            if () in [each.events for each in state.transitions]:
                 self.eventless |= 1 << number
         if self.children[number] and state.kind is not Kind.PARALLEL:
             initial = state.initial or (self.states[self.children[number][0]].id,)
@@ -213,7 +214,7 @@ class Machine:
 
     def _edge(self, source: int, transition: Transition, state: State) -> Edge:
         try:
-            targets = tuple([self.numbers[target] for target in transition.targets])
+            targets = tuple(map(self.numbers.__getitem__, transition.targets))
         except KeyError as missing:
             raise TableError(f"there is no state `{missing.args[0]}`", state.id) from None
         if len(targets) > 1 and not self.compatible(targets):

@@ -40,7 +40,7 @@ class Node:
         self.line = line
         self.text = ""
         self.children: list[Node] = []
-        self.ours: list[Node] = []
+        self.ours: tuple[Node, ...] = ()
 
     def walk(self) -> Iterator[Node]:
         """Yield the node and all inside it, in document order."""
@@ -138,21 +138,20 @@ class _Builder:
         parser.StartDoctypeDeclHandler = self.refuse
 
     def start(self, name: str, attributes: dict[str, str]) -> None:
-        parent = self.inside[-1] if self.inside else None
-        if "}" in "".join(attributes):
-            attributes = {
-                each.rpartition("}")[2]: value
-                for each, value in attributes.items()
-                if "}" not in each or each.startswith(f"{SCXML}}}")
-            }
+        inside = self.inside
+        parent = inside[-1] if inside else None
+        for each in attributes:
+            if "}" in each:
+                attributes = _without_namespace(attributes)
+                break
         parser = self.parser
         node = Node(name, attributes, parent, parser.CurrentByteIndex, parser.CurrentLineNumber)
         if parent is None:
             self.root = node
         else:
             parent.children.append(node)
-        self.inside.append(node)
-        if len(self.inside) > _DEEPEST:
+        inside.append(node)
+        if len(inside) > _DEEPEST:
             self.reached = parser.CurrentByteIndex
             raise _TooDeep
 
@@ -166,6 +165,15 @@ class _Builder:
     def refuse(self, *declared: object) -> None:
         self.reached = self.parser.CurrentByteIndex
         raise _DocumentType
+
+
+def _without_namespace(attributes: dict[str, str]) -> dict[str, str]:
+    """Those of SCXML, by their names."""
+    return {
+        name.rpartition("}")[2]: value
+        for name, value in attributes.items()
+        if "}" not in name or name.startswith(f"{SCXML}}}")
+    }
 
 
 def _characters(text: str, offset: int) -> int:

@@ -134,10 +134,12 @@ class _Reader:
         entry: list[Effect] = []
         leave: list[Effect] = []
         donedata = None
+        leads_inside = "initial" in node.attributes
         for child in node.children:
             tag = child.name
             if tag in _VERTICES:
                 states.append(self.state(child))
+                leads_inside = True
             elif tag == "transition":
                 transitions.append(self.transition(child))
             elif tag in ("onentry", "onexit"):
@@ -146,11 +148,13 @@ class _Reader:
                     (entry if tag == "onentry" else leave).append(effect)
             elif tag == "donedata":
                 donedata = self.content.data(child)
+            elif tag == "initial":
+                leads_inside = True
         return State(
             id_,
             _KINDS.get(name, Kind.STATE),
             tuple(states),
-            self.initial(node) if node.children or "initial" in node.attributes else (),
+            self.initial(node) if leads_inside else (),
             tuple(transitions),
             tuple(entry),
             tuple(leave),
@@ -178,8 +182,8 @@ class _Reader:
 
     def transition(self, node: Node) -> Transition:
         """A transition of a state."""
-        event = node.get("event")
-        if event is None and node.get("cond") is None and node.get("target") is None:
+        event, condition = node.get("event"), node.get("cond")
+        if event is None and condition is None and node.get("target") is None:
             fault = "a transition without event, condition and target is always taken again"
             self.report.report("illegal-structure", self.document.at(node), fault=fault)
         kind = node.get("type") or "external"
@@ -189,8 +193,8 @@ class _Reader:
         return Transition(
             tuple([_pattern(word) for word in event.split()]) if event is not None else (),
             self._targets(node, "target"),
-            self.content.guard(node),
-            self.content.block(node),
+            self.content.guard(node) if condition is not None else None,
+            self.content.block(node) if node.children else None,
             kind == "internal",
             node.line,
         )

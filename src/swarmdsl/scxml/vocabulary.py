@@ -85,6 +85,8 @@ def check(document: Document, report: Diagnostics) -> None:
         if node.text and node.name not in _WITH_TEXT:
             fault = f"there is no text in `<{node.name}>`"
             report.report("illegal-structure", document.at(node), fault=fault)
+        if not node.children:
+            continue
         kept = []
         for child in node.children:
             if child.namespace != SCXML or child.name not in inside or child.name in _NOT_RUN:
@@ -106,7 +108,7 @@ def _leave_out(
     """Say why an element is not looked at; one is told of each foreign namespace."""
     name = child.name
     if child.namespace == OURS:
-        node.ours.append(child)
+        node.ours += (child,)
     elif child.namespace != SCXML:
         if child.namespace not in foreign:
             foreign.add(child.namespace)
