@@ -483,6 +483,19 @@ def test_conditions(cond: str, guard: str | None) -> None:
         assert written(made) == guard
 
 
+def test_what_only_states_that_are_stayed_in_can_have() -> None:
+    way = "<transition event='e' target='A'/>"
+    final = f"<final id='F'><onentry><raise event='e'/></onentry>{way}</final>"
+    system, report = imported(f"<state id='A'><transition target='F'/></state>{final}{way}")
+
+    assert said(report) == [
+        ("left-out", "raise"),
+        ("left-out", "transition"),
+        ("left-out", "transition"),
+    ]
+    assert states(system)["F"].transitions == ()
+
+
 def test_outcomes_are_events_like_others_where_nothing_is_called() -> None:
     system, _ = imported(
         "<state id='A'><transition event='halted' target='B'/></state><state id='B'/>"

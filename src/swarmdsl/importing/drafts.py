@@ -99,6 +99,8 @@ class _Reader:
                 (draft.entry if child.name == "onentry" else draft.exit).extend(child.children)
             elif child.name not in _KNOWN and (child.name not in _OF_CALLS or parent is None):
                 self._left_out(child, f"`<{child.name}>`", "there is nothing like it in a model")
+        if parent is None or kind in (StateKind.FINAL, StateKind.HISTORY):
+            self._drop(draft)
         if kind is StateKind.SIMPLE and draft.children:
             draft.kind = StateKind.COMPOSITE
         if kind is StateKind.PARALLEL and not draft.children:
@@ -110,6 +112,17 @@ class _Reader:
                 self._left_out(draft.call.node, "this call", reason)
                 draft.call = None
         return draft
+
+    def _drop(self, draft: Draft) -> None:
+        """Report and forget what only states that are stayed in can have."""
+        reason = f"`<{draft.node.name}>` has none in a model"
+        for node in (*draft.entry, *draft.exit):
+            self._left_out(node, f"`<{node.name}>`", reason)
+        draft.entry, draft.exit = [], []
+        if draft.kind is not StateKind.HISTORY:
+            for edge in draft.edges:
+                self._left_out(edge.node, "this transition", reason)
+            draft.edges = []
 
     def _edges(self, node: Node) -> Iterator[Edge]:
         events: list[str | None] = [*node.get("event", "").split()]

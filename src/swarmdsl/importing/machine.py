@@ -142,7 +142,6 @@ class MachineMaker:
         activity = None
         if isinstance(draft.call, Call):
             activity = self.activities.activity(draft.call, self.variables)
-        acts = draft.kind not in (StateKind.FINAL, StateKind.HISTORY)
         transitions = self._transitions(draft)
         if draft.kind is StateKind.HISTORY:
             transitions = transitions[:1] or self._to_first(draft)
@@ -152,10 +151,10 @@ class MachineMaker:
             draft.kind,
             initial=self.paths[draft.initial] if draft.initial is not None else None,
             states=self._states(draft, path),
-            transitions=transitions if draft.kind is not StateKind.FINAL else (),
+            transitions=transitions,
             activity=activity,
-            entry=self._effects(draft.entry) if acts else (),
-            exit=self._effects(draft.exit) if acts else (),
+            entry=self._effects(draft.entry),
+            exit=self._effects(draft.exit),
             deep=draft.node.get("type") == "deep",
         )
 
