@@ -20,12 +20,11 @@ _INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
     ("->", frozenset({"`=>`"}), "=>"),
     *((update, frozenset({"`=`"}), "=") for update in (":=", "+=", "-=", "*=", "/=")),
     *((update, frozenset({"`=`"}), "= 0") for update in ("++", "--")),
-    ("===", frozenset({"`]`"}), "=="),
+    ("===", _VALUE, "=="),
     ("&&", frozenset(), "and"),
     ("||", frozenset(), "or"),
     ("<>", frozenset(), "!="),
     ("=", frozenset({"`]`"}), "=="),
-    ("==", frozenset({"`=`"}), "="),
     (":", frozenset({"`->`"}), "->"),
     (":", frozenset({"`=`"}), "="),
     ("!", _VALUE, "not "),
@@ -100,8 +99,9 @@ def foreign(expected: set[str], text: str, at: int) -> str | None:
 def replacement(expected: frozenset[str], text: str, at: int) -> tuple[int, int, str] | None:
     """What to put in place of which piece of `text`, where a parser stops; None if unknown."""
     for wrong, words, right in _INSTEAD:
-        start = at - 1 if wrong[0] == text[at - 1 : at] and not text.startswith(wrong, at) else at
-        if text.startswith(wrong, start) and (not words or words & expected):
+        starts = (at - back for back in range(min(len(wrong), at + 1)))
+        start = next((each for each in starts if text.startswith(wrong, each)), None)
+        if start is not None and (not words or words & expected):
             return start, start + len(wrong), right
     for pattern, words, right in _PATTERNS:
         line = text.rfind("\n", 0, at) + 1
