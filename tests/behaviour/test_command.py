@@ -9,10 +9,14 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from io import StringIO
 from pathlib import Path
 
 import pytest
 from lxml import etree
+
+from swarmdsl.simulate.coverage import Coverage
+from swarmdsl.testing.console import Console
 
 from .conftest import Ran
 
@@ -157,6 +161,14 @@ Watching  2 of 2   1 of 2
 58 % of all states and transitions
 """
     )
+
+
+def test_what_is_missed_is_not_rounded_away(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Coverage, "percentage", 99.9)
+    out = StringIO()
+    Console(out, StringIO(), "text").coverage(Coverage())
+
+    assert "99 % of all" in out.getvalue()
 
 
 def test_too_little_coverage_fails(swarmc: Callable[..., Ran], folder: Path) -> None:

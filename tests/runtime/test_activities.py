@@ -298,6 +298,17 @@ def test_an_activity_ends_once() -> None:
     assert world(instance).asked == ["start work", "start work"]
 
 
+def test_all_that_waited_for_a_server_begin() -> None:
+    regions = [State(f"R{each}", states=(busy(each, server="arm"),)) for each in ("one", "two")]
+    whole = State("P", Kind.PARALLEL, tuple(regions))
+    instance = started(Machine("m", (busy("old", on("e", "P"), server="arm"), whole)))
+    after(instance, "e")
+    assert world(instance).asked == ["start old", "cancel old"]
+
+    run_of(instance, "old").end("preempted")
+    assert world(instance).asked[2:] == ["start one", "start two"]
+
+
 def test_an_activity_that_ended_in_the_step_that_leaves_its_state_is_not_cancelled() -> None:
     def finish(instance: Instance, event: Event) -> None:
         run_of(instance, "one").end("succeeded")

@@ -9,6 +9,7 @@ import pytest
 from swarmdsl.runtime import (
     Event,
     ExecutionError,
+    Guard,
     Instance,
     Kind,
     LoopError,
@@ -157,8 +158,9 @@ def test_a_transition_inside_wins_over_one_of_the_state_around_from_another_regi
     assert after(instance, "e") == ["out"]
 
 
-def test_one_transition_of_the_state_around_is_taken_once() -> None:
-    whole = on("e", effect=note("once"))
+@pytest.mark.parametrize("guard", [None, lambda instance, event: True])
+def test_one_transition_of_the_state_around_is_taken_once(guard: Guard | None) -> None:
+    whole = on("e", effect=note("once"), guard=guard)
     instance = started(
         two_regions(whole, left=region("L", State("l")), right=region("R", State("r")))
     )

@@ -81,7 +81,7 @@ class Console:
             if number:
                 for line in coverage.machines[number - 1].missed:
                     self._say(f"  {printable(line)}")
-        self._say(f"{coverage.percentage:.0f} % of all states and transitions")
+        self._say(f"{int(coverage.percentage)} % of all states and transitions")
         self._flush()
 
     def summary(self, outcomes: Iterable[FileOutcome], left_out: int, seconds: float) -> None:
