@@ -24,7 +24,7 @@ from swarmdsl.syntax import (
 
 Folded = bool | int | float | str
 
-_OPERATIONS: Mapping[str, Callable[..., Folded]] = {
+OPERATIONS: Mapping[str, Callable[..., Folded]] = {
     "==": operator.eq,
     "!=": operator.ne,
     "<": operator.lt,
@@ -42,6 +42,8 @@ _OPERATIONS: Mapping[str, Callable[..., Folded]] = {
     "sqrt": math.sqrt,
     "len": len,
 }
+"""What operators and built-in functions do with values, but for `and`, `or` and `not`."""
+
 # What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.
 _WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
 
@@ -146,7 +148,7 @@ class Folding:
                 return _negative(self._fold(operand))
             case OperatorUse(operator=word, operands=operands):
                 return self._applied(str(word), operands)
-            case Call(function=function, arguments=arguments) if function in _OPERATIONS:
+            case Call(function=function, arguments=arguments) if function in OPERATIONS:
                 return self._applied(str(function), arguments)
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
                 return self.numbers(enum).get(str(name))
@@ -167,7 +169,7 @@ class Folding:
 
 def _apply(word: str, values: list[Any]) -> Folded:
     try:
-        result = _OPERATIONS[word](*values)
+        result = OPERATIONS[word](*values)
     except ZeroDivisionError:
         raise _UndefinedError("the divisor is 0") from None
     except OverflowError:

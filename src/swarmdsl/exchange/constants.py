@@ -3,34 +3,15 @@
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
+from swarmdsl.folding import OPERATIONS
 from swarmdsl.ir import Binary, Call, Expression, Literal, Param, ParamRef, Unary
 from swarmdsl.ir.types import DURATION
 from swarmdsl.source import Span
 
 Value = bool | int | float | str
-
-_OPERATIONS: dict[str, Callable[..., Any]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-    "%": operator.mod,
-    "min": min,
-    "max": max,
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "len": len,
-}
 
 
 class UnknownValueError(Exception):
@@ -102,7 +83,7 @@ def _apply(
 ) -> Any:
     values = [_value(operand, params) for operand in operands]
     try:
-        result = _OPERATIONS[operation](*values)
+        result = OPERATIONS[operation](*values)
         if not isinstance(result, float) or math.isfinite(result):
             return result
     except (ArithmeticError, ValueError):

@@ -6,11 +6,10 @@ the sign of the divisor. Durations are in nanoseconds, messages are dictionaries
 
 from __future__ import annotations
 
-import math
-import operator
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from swarmdsl.folding import OPERATIONS
 from swarmdsl.ir import (
     Binary,
     Call,
@@ -26,27 +25,6 @@ from swarmdsl.runtime import ExecutionError
 
 Value = Callable[[Mapping[str, Any], Any], Any]
 """The value of an expression, given the data of the machine and the message of the event."""
-
-_OPERATORS: Mapping[str, Callable[[Any, Any], Any]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-    "%": operator.mod,
-}
-_FUNCTIONS: Mapping[str, Callable[..., Any]] = {
-    "min": min,
-    "max": max,
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "len": len,
-}
 
 
 def function_of(expression: Expression) -> Value:
@@ -73,7 +51,7 @@ def function_of(expression: Expression) -> Value:
         case Binary(operator=symbol, left=left, right=right):
             return _binary(symbol, function_of(left), function_of(right))
         case Call(function=name, arguments=arguments):
-            function, values = _FUNCTIONS[name], [function_of(each) for each in arguments]
+            function, values = OPERATIONS[name], [function_of(each) for each in arguments]
             return _checked(
                 name, lambda data, message: function(*[value(data, message) for value in values])
             )
@@ -84,7 +62,7 @@ def _binary(symbol: str, left: Value, right: Value) -> Value:
         return lambda data, message: left(data, message) and right(data, message)
     if symbol == "or":
         return lambda data, message: left(data, message) or right(data, message)
-    operation = _OPERATORS[symbol]
+    operation = OPERATIONS[symbol]
     return _checked(
         symbol, lambda data, message: operation(left(data, message), right(data, message))
     )
