@@ -23,15 +23,11 @@ import click
 
 from swarmdsl import __version__
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, INTERNAL, OK
+from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, OK, TERMINATED
 
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
 COMMANDS = ("build", "check", "explain", "fmt", "import", "simulate", "targets", "test")
-
-# As a shell reports it for a program that a signal ended.
-_INTERRUPTED = 128 + signal.SIGINT
-_TERMINATED = 128 + signal.SIGTERM
 
 
 class _Commands(click.Group):
@@ -70,7 +66,7 @@ def main() -> None:
         # `swarmc targets | head -1` ends quietly, as other programs do.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     # As an exception, so that files that are being written are cleaned up.
-    signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(_TERMINATED))
+    signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(TERMINATED))
     # What a compiler makes is needed until it is done: looking for garbage costs a tenth of
     # its time. A server must turn it on.
     gc.disable()
@@ -97,7 +93,7 @@ def run(arguments: Sequence[str]) -> int:
         error.show()
         return error.exit_code
     except (click.Abort, KeyboardInterrupt):
-        return _INTERRUPTED
+        return INTERRUPTED
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _STDOUT_FAULTS:
             _close_stdout()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 from typing import TYPE_CHECKING, TextIO
 
@@ -14,6 +15,8 @@ if TYPE_CHECKING:
     from swarmdsl.compiler import Result
 
 OK, ERRORS, USAGE, INTERNAL = range(4)
+# As a shell reports it for a program that a signal ended.
+INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 
 # Mistakes on the command line that only the pipeline can find.
 _USAGE_FAULTS = frozenset({"unknown-target", "bad-option"})

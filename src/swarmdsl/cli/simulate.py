@@ -8,10 +8,8 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, OK
+from swarmdsl.cli.outcome import ERRORS, INTERRUPTED, OK
 from swarmdsl.render import render
-
-_INTERRUPTED = 130
 
 
 def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
@@ -89,4 +87,4 @@ def simulate(
         paths, machine, swarm, events, scenario, trace, trace_file, timeline, seed, until, real_time
     )
     well = simulate_(request, lambda report: render(report, format_, sys.stderr))
-    return _INTERRUPTED if well is None else OK if well else ERRORS
+    return INTERRUPTED if well is None else OK if well else ERRORS
