@@ -159,6 +159,38 @@ def test_faults(simulate: Simulate) -> None:
     assert ran.of("rover[0]")[-1]["t"] == 100_000
 
 
+def test_nothing_reaches_a_robot_that_is_lost(simulate: Simulate) -> None:
+    text = """
+      endless statemachine M {
+        initial A
+        state A { on Start / send Found -> A on Found -> A }
+      }
+      member B { behavior M }
+      swarm S { b : B[2] }
+    """
+    scenario = """
+      [[faults]]
+      at   = "1 s"
+      lost = "b[1]"
+      [[messages]]
+      event = "Start"
+      at    = "2 s"
+      to    = "b[0]"
+      [[messages]]
+      event = "Found"
+      at    = "3 s"
+      every = "1 s"
+      to    = "b[1]"
+    """
+    ran = simulate(text, scenario=scenario)
+
+    assert ran.of("b[1]")[-1]["event"] == "fault.lost"
+    assert [line.split() for line in ran.err.splitlines() if line.startswith("Found")] == [
+        ["Found", "1", "-", "1"]
+    ]
+    assert "3 s of virtual time, until nothing was left to happen" in ran.err
+
+
 def test_a_server_is_free_again_when_its_silence_is_over(simulate: Simulate) -> None:
     ran = simulate(
         """
