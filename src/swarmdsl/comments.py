@@ -8,9 +8,9 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
-_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/')
+_TOKEN = re.compile(r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/')
 _DOC_LINE = re.compile(r"///(?!/)")
-_BLANK = re.compile(r"(?:\s|//(?!/(?!/))[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)*")
+_BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)*")
 _ESCAPE = re.compile(r"\\[^\n]")
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
@@ -69,7 +69,7 @@ class Comments:
         return tuple(
             DocComment(
                 Span(self._source, group[0][0], group[-1][1]),
-                "\n".join(text[start:end].rstrip()[3:].removeprefix(" ") for start, end in group),
+                "\n".join([text[start:end].rstrip()[3:].removeprefix(" ") for start, end in group]),
                 _next_token(text, group[-1][1]),
             )
             for group in groups
@@ -78,13 +78,16 @@ class Comments:
 
 def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]:
     """The documentation in a file without syntax errors."""
-    if "///" not in source.text and "\\" not in source.text:
+    has_escapes = "\\" in source.text
+    if "///" not in source.text and not has_escapes:
         return ()
     comments = Comments(source, report)
     for token in _TOKEN.finditer(source.text):
-        if token[0].startswith('"'):
-            comments.quoted(*token.span())
-        elif token[0].startswith("//"):
+        written = token[0]
+        if written[0] == '"':
+            if has_escapes:
+                comments.quoted(*token.span())
+        elif written.startswith("///"):
             comments.comment(*token.span())
     return comments.documentation()
 

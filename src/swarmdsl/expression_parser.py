@@ -94,7 +94,10 @@ class ExpressionParser:
             self._fault = self._large = None
             return None
         tree, _, _, behind, ahead = found
-        made = Expression(new_span(Span, (self._source, start, behind.end(1))))
+        end, span = behind.end(1), tree.span
+        if span[1] != start or span[2] != end:  # else it is the same, which is kept once
+            span = new_span(Span, (self._source, start, end))
+        made = Expression(span)
         if self._size >= NESTING_LIMIT:
             self._check_depth(tree, made.span)
         if self._fault is None and self._large is not None:
@@ -123,7 +126,10 @@ class ExpressionParser:
         prefixes, first = found
         operations: list[Operation[_Found]] = []
         last = first
-        while (operation := self._operation(last[4], operators)) is not None:
+        while last[4][1] in operators:
+            operation = self._operation(last[4])
+            if operation is None:
+                break
             operations.append(operation)
             last = operation[2]
         if not operations and not prefixes:
@@ -134,11 +140,9 @@ class ExpressionParser:
             self._blame(fault)
         return tree, start, end, last[3], last[4]
 
-    def _operation(self, ahead: Match, operators: frozenset[str]) -> Operation[_Found] | None:
+    def _operation(self, ahead: Match) -> Operation[_Found] | None:
         """An operator with its operand; an operator that none follows is not part of it."""
         token = ahead[1]
-        if token not in operators:
-            return None
         match = ahead
         if token in _PARTS_OF_COMPARISONS:
             comparison = self._language.comparison(self._text, ahead.start())
