@@ -254,7 +254,7 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
         ("[1, 2]", "SW1003]: this line is no event: an object is wanted, not a list", "2:1"),
         ('{"after": 5}', 'SW1003]: this line is no event: it needs an `"event"`', "2:1"),
         ('{"event": "Start", "after": NaN}', "SW1003]: this line is no event: `NaN`", "2:1"),
-        ("[" * 10_000, "SW1003]: this line is no event: ", "2:1"),
+        ("[" * 100_000, "SW1003]: this line is no event: ", "2:1"),
         ('{"event": "Strat"}', "SW0202]: no event called `Strat`", "2:12"),
         ('{"event": "Start", "afer": 5}', "SW0012]: an event has no `afer`", "2:21"),
         ('{"event": "Start", "after": -1}', "SW0013]: `after` takes a number", "2:21"),
