@@ -229,6 +229,9 @@ def test_sends() -> None:
     assert [line for line in trace(instance) if line[0] == "?"] == ["? e", "? inside", "? own"]
 
 
+DELAYED = "`x` has a target of its own: it cannot be delayed"
+
+
 @pytest.mark.parametrize(
     ("content", "error"),
     [
@@ -237,7 +240,8 @@ def test_sends() -> None:
         ('<assign location="n.x" expr="1"/>', "`n.x` cannot be assigned to"),
         ('<log expr="n.x.y"/>', "undefined has no `y`"),
         ("<send event='x' delayexpr='3'/>", "`3` is no delay"),
-        ("<send event='x' delay='1s' target='y'/>", "`x` is for others: it cannot be delayed"),
+        ("<send event='x' delay='1s' target='y'/>", DELAYED),
+        ("<send event='x' delay='1s' target='#_internal'/>", DELAYED),
         ("<send eventexpr='&quot;&quot;'/>", "an event without a name cannot be sent"),
     ],
 )

@@ -173,12 +173,12 @@ class Content:
             sent = Event(named, data(instance, event) if data is not None else None)
             length = delay(instance, event) if delay is not None else 0
             place = target(instance, event)
-            if place == "#_internal":
-                instance.raise_event(sent)
-            elif place in _HERE and kind(instance, event) in _HERE:
+            if place in _HERE and kind(instance, event) in _HERE:
                 instance.send_after(sent, length, sendid(instance, event))
             elif length > 0:
-                raise ExecutionError(f"`{sent.name}` is for others: it cannot be delayed")
+                raise ExecutionError(f"`{sent.name}` has a target of its own: it cannot be delayed")
+            elif place == "#_internal":
+                instance.raise_event(sent)
             else:
                 instance.emit(sent)
 
