@@ -6,7 +6,6 @@ exception: every phase reports and goes on.
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
 
@@ -83,7 +82,7 @@ class Diagnostics:
 
     def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
         self._found: dict[Diagnostic, None] = {}
-        self._counts: Counter[str] = Counter()
+        self._counts: dict[str, int] = {}
         self._levels = levels or {}
 
     def report(
@@ -128,7 +127,7 @@ class Diagnostics:
             if level is Level.DENY:
                 found = replace(found, severity=Severity.ERROR)
         self._found.setdefault(found)
-        self._counts[found.name] += 1
+        self._counts[found.name] = self.count_of(found.name) + 1
 
     def allows(self, name: str) -> bool:
         """Whether nothing is said of a warning, by its name: there is no need to look for it."""
@@ -145,11 +144,11 @@ class Diagnostics:
         Each look goes through all that exists. Whoever gets more than fifty such reports of
         one name in the catalogue looks for a single cause, an import that is missing for instance.
         """
-        return self._counts[name] < MOST_HINTS
+        return self.count_of(name) < MOST_HINTS
 
     def count_of(self, name: str) -> int:
         """How often something of this name in the catalogue was reported."""
-        return self._counts[name]
+        return self._counts.get(name, 0)
 
     @property
     def has_errors(self) -> bool:

@@ -8,7 +8,7 @@ come last: no transition can lead there, which is reported later.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
@@ -29,6 +29,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Vertex,
+    nodes_of,
     walk,
 )
 
@@ -66,12 +67,18 @@ def content(state: Vertex | Container) -> Container | None:
 
 def all_resolved(container: Container) -> bool:
     """Whether each transition and initial state inside leads to a state that was found."""
-    arrows = (Initial, Transition, Branch, History)
-    return all(
-        node.target is None or node.target.target is not None
-        for node in walk(container)
-        if isinstance(node, arrows)
-    )
+    arrows: Iterable[Initial | Transition | Branch | History]
+    if isinstance(container, StateMachine):
+        arrows = [
+            *nodes_of(container, Initial),
+            *nodes_of(container, Transition),
+            *nodes_of(container, Branch),
+            *nodes_of(container, History),
+        ]
+    else:
+        kinds = (Initial, Transition, Branch, History)
+        arrows = (node for node in walk(container) if isinstance(node, kinds))
+    return all(arrow.target is None or arrow.target.target is not None for arrow in arrows)
 
 
 def _link_container(

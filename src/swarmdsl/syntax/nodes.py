@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.types import Type
@@ -50,7 +50,7 @@ class TopLevel(Documented):
     """
 
     nodes: tuple[Node, ...] | None = field(default=None, init=False, metadata={"elsewhere": True})
-    by_class: Mapping[type[Node], Sequence[Node]] | None = field(
+    by_class: Mapping[type[Node], Sequence[Any]] | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from types import UnionType
-from typing import Any, TypeVar, cast, get_args
+from typing import Any, TypeVar, get_args
 
 from swarmdsl.dataclass import described
 from swarmdsl.syntax import architecture, behaviour, composition, file, interfaces, nodes
@@ -79,11 +79,11 @@ def walk(node: Node) -> Iterable[Node]:
 def nodes_of(owner: TopLevel, kind: type[N]) -> Sequence[N]:
     """The nodes of one class in a declaration, in document order, looked for once like all."""
     if owner.by_class is None:
-        by_class: dict[type[Node], list[Node]] = {}
+        by_class: dict[type[Node], list[Any]] = {}
         for node in walk(owner):
             by_class.setdefault(type(node), []).append(node)
         owner.by_class = by_class
-    return cast("Sequence[N]", owner.by_class.get(kind, ()))
+    return owner.by_class.get(kind, ())
 
 
 def references(owner: Node) -> Iterator[tuple[Node, Ref[Any]]]:

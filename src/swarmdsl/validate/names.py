@@ -97,10 +97,11 @@ def check_names_inside(
         )
     for node in walk(declaration):
         for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
+            among = [named for named in names if named.name not in no_names]
+            if len({named.name for named in among}) == len(among):
+                continue
             seen: dict[Hashable, Named] = {}
-            for named in names:
-                if named.name in no_names:
-                    continue
+            for named in among:
                 _check_first(str(named.name), named, seen, report)
 
 

@@ -7,7 +7,6 @@ event before all that wait for one.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from heapq import nsmallest
 from math import inf
 
 from swarmdsl.diagnostics import Label
@@ -54,8 +53,8 @@ def check_order(machine: StateMachine, circles: Circles, context: Context) -> No
         soonest = _soonest(alive, context)
         outer = [ends[each] for each in (_owner(state, outline),) if each in ends]
         _check_transitions(alive, state, soonest, outer, context)
-        for first in nsmallest(1, [*outer, *soonest], key=lambda each: each[0]):
-            ends[state] = first
+        if outer or soonest:
+            ends[state] = min([*outer, *soonest], key=lambda each: each[0])
     for choice in nodes_of(machine, Choice):
         _check_branches(choice, context)
 
@@ -260,13 +259,15 @@ def _soonest(transitions: Sequence[Transition], context: Context) -> list[_Leavi
             delays = [delay for delay in known if delay is not None]
             if delays:
                 found.append((min(delays), transition))
-    return nsmallest(2, found, key=lambda each: each[0])
+    return sorted(found, key=lambda each: each[0])[:2]
 
 
 def _sooner(
     trigger: Trigger, transition: Transition, soonest: Sequence[_Leaving], context: Context
 ) -> Transition | None:
     """The transition that leaves the state always, and after a shorter time or the same."""
+    if not soonest:
+        return None
     delay = _delay(trigger, context)
     others = ((sooner, other) for sooner, other in soonest if other is not transition)
     sooner, other = next(others, (inf, None))
@@ -284,7 +285,7 @@ def _owner(state: State | Parallel, outline: Outline) -> Container:
 
 def _late(trigger: Trigger, outer: Sequence[_Leaving], context: Context) -> bool:
     """Whether a state around is left by then: it was entered no later."""
-    delay = _delay(trigger, context)
+    delay = _delay(trigger, context) if outer else None
     return delay is not None and any(sooner <= delay for sooner, _ in outer)
 
 

@@ -162,10 +162,10 @@ def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context
 
 def _check_initial(container: Container, owner: str, context: Context) -> None:
     found = [item for item in container.items if isinstance(item, Initial)]
-    # Best one that is active for a while: a history has nothing to resume at the start.
-    states = [state for state in vertices(container) if not isinstance(state, History)]
-    inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
     if not found:
+        # Best one that is active for a while: a history has nothing to resume at the start.
+        states = [state for state in vertices(container) if not isinstance(state, History)]
+        inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
         context.report.report(
             "missing-initial",
             container.name.span,

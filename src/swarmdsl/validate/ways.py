@@ -65,9 +65,13 @@ class Ways:
     def __init__(self, outline: Outline) -> None:
         self._outline = outline
         self._active = {vertex: Point(while_active(vertex)) for vertex in outline.vertices}
+        self._on_entry = {vertex: on(Entry, vertex) for vertex in outline.vertices}
+        self._on_exit: dict[Vertex | Container, list[Step]] = {
+            vertex: on(Exit, vertex) for vertex in outline.vertices
+        }
         self._exits: dict[Vertex | Container, list[tuple[Vertex, list[Write]]]] = {}
         for state in outline.states:
-            writes = [step for step in on(Exit, state) if isinstance(step, Write)]
+            writes = [step for step in self._on_exit[state] if isinstance(step, Write)]
             for outer in outline.around(state) if writes else ():
                 self._exits.setdefault(outer, []).append((state, writes))
         self._left = {
@@ -94,7 +98,7 @@ class Ways:
                     self._follow(here, list(tested.values()), branch, vertex)
             case State() | Parallel():
                 if not self._left.isdisjoint(outer):
-                    here.leads_to.append(Point(on(Exit, vertex)))
+                    here.leads_to.append(Point(self._on_exit[vertex]))
                 by_trigger: dict[str, dict[Variable, Step]] = {}
                 for transition in self._outline.transitions[vertex]:
                     triggers: list[Trigger | None] = [*transition.triggers]
@@ -160,7 +164,7 @@ class Ways:
             for step in writes
         ]
         for outer in reversed(left):
-            exits += on(Exit, outer)
+            exits += self._on_exit.get(outer, ())
         entered = self._enter(stays, path[path.index(stays) + 1 :], arrow.span)
         origin.leads_to.append(Point([*first, *exits, *effects], [entered], arrow.span))
 
@@ -171,7 +175,7 @@ class Ways:
         point = Point(after=after)
 
         def enter(vertex: Vertex, path: Sequence[Vertex | Container]) -> None:
-            point.steps += on(Entry, vertex)
+            point.steps += self._on_entry[vertex]
             if isinstance(vertex, History) and not isinstance(vertex.target.target, History):
                 # Where it leads back to has been reached before, with less that was written.
                 container = self._outline.container[vertex]
