@@ -52,7 +52,7 @@ class Workspace:
         self._units: dict[Source, Unit] = {}
         self._loaded = self._collector()
         self._together = self._collector()
-        # What batch has found where the order of all declarations decides what is reported.
+        # What checking all at once has found, where the order of declarations decides on it.
         self._in_order: Diagnostics | None = None
         self._reused: set[StateMachine] = set()
         self._known = Known()
