@@ -8,7 +8,10 @@ best of it (`recovery`). All of that is imported with the first syntax error.
 
 from __future__ import annotations
 
+import gc
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -16,7 +19,6 @@ from swarmdsl import swarm_parser
 from swarmdsl.comments import DocComment, documentation
 from swarmdsl.diagnostics import Diagnostics, placed
 from swarmdsl.expression_parser import TooDeepError, report_fault
-from swarmdsl.garbage import no_garbage_collection
 from swarmdsl.parsed import NESTING_LIMIT, Parsed
 from swarmdsl.resources import checkout_root, grammar_checksum
 from swarmdsl.source import Source, Span
@@ -152,4 +154,16 @@ def _report_unattached(comment: DocComment, report: Diagnostics) -> None:
     )
 
 
-__all__ = ["Parsed", "parse", "parse_piece"]
+@contextmanager
+def no_garbage_collection() -> Iterator[None]:
+    """Let the collector rest: a tree grows fast, and there is no garbage in it."""
+    was_enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_enabled:
+            gc.enable()
+
+
+__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_piece"]

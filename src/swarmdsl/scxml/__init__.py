@@ -7,7 +7,6 @@ objects of these. What is not understood is reported at its place.
 from __future__ import annotations
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.garbage import no_garbage_collection
 from swarmdsl.runtime import Machine
 from swarmdsl.scxml.document import parse
 from swarmdsl.scxml.states import machine
@@ -18,15 +17,11 @@ from swarmdsl.source import Source
 def read(source: Source, report: Diagnostics) -> Machine | None:
     """The machine of a document; None when something is wrong with it, which has been reported."""
     found = Diagnostics()
-    with no_garbage_collection():
-        made = _read(source, found)
+    document = parse(source, found)
+    made = None
+    if document is not None:
+        check(document, found)
+        if not found.has_errors:
+            made = machine(document, found)
     report.include(found)
     return made if not found.has_errors else None
-
-
-def _read(source: Source, report: Diagnostics) -> Machine | None:
-    document = parse(source, report)
-    if document is None:
-        return None
-    check(document, report)
-    return machine(document, report) if not report.has_errors else None

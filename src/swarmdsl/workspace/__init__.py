@@ -12,11 +12,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from swarmdsl.diagnostics import MOST_HINTS, Diagnostic, Diagnostics, placed
-from swarmdsl.garbage import no_garbage_collection
 from swarmdsl.libraries import imported_name
 from swarmdsl.link import link
 from swarmdsl.link_constants import open_cycles
 from swarmdsl.load import Project, expanded, load
+from swarmdsl.parse import no_garbage_collection
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import Source
 from swarmdsl.syntax import StateMachine
