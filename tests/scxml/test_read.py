@@ -256,6 +256,16 @@ def test_content_that_fails(content: str, error: str) -> None:
     assert errors(instance) == [error]
 
 
+def test_a_condition_without_a_value_does_not_hold_and_the_rest_is_done() -> None:
+    instance = running("""
+      <datamodel><data id="n" expr="0"/></datamodel>
+      <state id="a"><onentry><if cond="x"><assign location="n" expr="1"/>
+        <else/><assign location="n" expr="2"/></if></onentry></state>""")
+
+    assert instance.data["n"] == 2
+    assert errors(instance) == ["`x` is not defined"]
+
+
 def test_a_first_value_that_fails_leaves_the_others() -> None:
     instance = running("""
       <datamodel><data id="a" expr="x"/><data id="b" expr="1"/></datamodel><state id="s"/>""")
