@@ -53,7 +53,7 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
     metavar="DURATION",
     callback=_duration,
     help="End it after so much virtual time.  [default: the scenario's, or 10min after the last "
-    "event]",
+    "of `--events`]",
 )
 @click.option("--real-time", is_flag=True, help="Let time pass as slowly as it does.")
 @options.diagnostics_format
