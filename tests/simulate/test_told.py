@@ -124,6 +124,7 @@ def test_the_timeline(simulate: Simulate) -> None:
     svg = Path("a.svg").read_text(encoding="utf-8")
 
     assert svg == Path("b.svg").read_text(encoding="utf-8")
+    assert "hsl" not in svg  # which not all that shows SVG knows
     of_first = [bar for bar in bars(svg) if bar[0].startswith("uav[0]: ")]
     assert [title.split("\n") for title, _, _ in of_first] == [
         ["uav[0]: Wait", "0 ms to 2 s: 2 s"],

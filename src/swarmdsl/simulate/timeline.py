@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from colorsys import hls_to_rgb
 from itertools import groupby
 from typing import NamedTuple
 
@@ -265,10 +266,14 @@ def _name(actor: Actor) -> str:
 
 
 def _colour(number: int) -> str:
-    """Colours that are as unlike as the golden angle makes them, light enough for dark letters."""
+    """Colours that are as unlike as the golden angle makes them, light enough for dark letters.
+
+    As numbers in red, green and blue: not all that shows SVG knows `hsl`.
+    """
     hue = (205 + number * 137508 // 1000) % 360
     light = (72, 80, 64)[number // 8 % 3]
-    return f"hsl({hue},58%,{light}%)"
+    parts = hls_to_rgb(hue / 360, light / 100, 0.58)
+    return "#" + "".join(f"{round(part * 255):02x}" for part in parts)
 
 
 def _shortened(state: str, width: float) -> str:
