@@ -145,3 +145,23 @@ def test_json_that_is_no_adf(text: str) -> None:
 
     assert [found.name for found in report] in (["not-adf"], ["not-json"])
     assert report.has_errors
+
+
+def test_what_is_of_another_kind_than_it_should_be() -> None:
+    port = {"topic": "arm/state", "msg": "arm_msgs/State"}
+    definition = {**CALL, "goal": {"fields": ["height"]}, "result": "reached"}
+    call = {"comm_model": {"paradigm": "rosaction", "definition": definition}}
+    lift = {"name": "lift", "api": {**call, "inputs": port}, "param_list": [1]}
+    system, report = imported(
+        lift, "grip", {"name": "lower", "api": [call]}, **{"sensors/actuators": {}}
+    )
+
+    assert [function.name for function in system.functions] == ["lift", "lower"]
+    assert {found.message for found in report if found.name == "left-out"} == {
+        '`"grip"` in `functions` is left out: it is no object',
+        f"`{json.dumps([call])[:40]}...` in `api` is left out: it is no object",
+        '`{"topic": "arm/state", "msg": "arm_msgs/...` in `inputs` is left out: it is no list',
+        "`1` in `param_list` is left out: it is no object",
+        '`"height"` in `fields` is left out: it is no object',
+        '`"reached"` in `result` is left out: it is no object',
+    }

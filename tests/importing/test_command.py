@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 from pathlib import Path
 
 import pytest
@@ -15,24 +14,13 @@ from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.emit import Request
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.command import run as import_files
-from swarmdsl.importing.names import type_names
 from swarmdsl.ir import State, System
 from swarmdsl.printer import print_system
-from swarmdsl.runtime import Event, Instance
-from swarmdsl.simulate.table import table
 from swarmdsl.source import Source
-
-from ..runtime.world import StillWorld
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
 SCXML = sorted((CORPUS / "scxml").glob("*.xml"))
-CHARTS = [
-    path
-    for path in sorted((CORPUS / "statecharts").glob("*/*.scxml"))
-    # What a machine tells itself is an event of the robot in a model, not in the same step.
-    if not re.search(r"<(send|raise)\b", path.read_text(encoding="utf-8"))
-]
 ADF = sorted((CORPUS / "adf").glob("*.json"))
 
 DOOR = """<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="door">
@@ -74,17 +62,43 @@ statemachine Door {
     assert "1 warning in 1 file" in err
 
 
-def test_a_file_is_never_overwritten_unasked(
+def test_a_file_is_never_overwritten(
     door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "gate.swarm"
     out.write_text("mine", encoding="utf-8")
 
+    for force in ([], ["--force"]):
+        assert run(["import", "scxml", str(door), "-o", str(out), *force]) == 1
+        assert "SW0101" in capsys.readouterr().err
+        assert out.read_text(encoding="utf-8") == "mine"
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are of POSIX")
+@pytest.mark.parametrize("linked", [False, True])
+def test_a_pipe_stays_one(
+    linked: bool, door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pipe = out = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    if linked:
+        out = tmp_path / "link"
+        out.symlink_to(pipe)
+
     assert run(["import", "scxml", str(door), "-o", str(out)]) == 1
-    assert "SW0908" in capsys.readouterr().err
-    assert out.read_text(encoding="utf-8") == "mine"
-    assert run(["import", "scxml", str(door), "-o", str(out), "--force"]) == 0
-    assert out.read_text(encoding="utf-8").startswith("package gate\n")
+    assert f"error[SW0909]: cannot write `{out}`: it is no regular file" in capsys.readouterr().err
+    assert pipe.is_fifo()
+    assert out.is_symlink() == linked
+
+
+def test_a_link_to_an_empty_file_stays_one(door: Path, tmp_path: Path) -> None:
+    out, place = tmp_path / "door.swarm", tmp_path / "place.swarm"
+    place.touch()
+    out.symlink_to(place)
+
+    assert run(["import", "scxml", str(door), "-o", str(out)]) == 0
+    assert out.is_symlink()
+    assert place.read_text(encoding="utf-8").startswith("package door")
 
 
 def test_nothing_is_written_where_there_is_an_error(tmp_path: Path) -> None:
@@ -239,27 +253,6 @@ def test_a_real_document_with_what_describes_its_functions(tmp_path: Path) -> No
     assert not done.report.has_errors
     text = out.read_text(encoding="utf-8")
     assert "do uav_mavros_takeoff(altitude = 1.5)" in text
-
-
-@pytest.mark.skipif(not CHARTS, reason=f"no state charts in {CORPUS} (set SWARMDSL_CORPUS)")
-@pytest.mark.parametrize("path", CHARTS, ids=lambda path: f"{path.parent.name}/{path.stem}")
-def test_state_charts_of_others_do_the_same(path: Path, tmp_path: Path) -> None:
-    out = tmp_path / "model.swarm"
-    import_files("scxml", [path], [], out, force=False)
-    system = compiler.check([out]).system
-    assert system is not None
-    instance = Instance(table(system.machines[0], system), StillWorld())
-    instance.start()
-    names = type_names()
-    script = json.loads(path.with_suffix(".json").read_text(encoding="utf-8"))
-
-    def active() -> set[str]:
-        return {each.rpartition(".")[2] for each in instance.configuration.innermost}
-
-    assert active() == set(map(names.of, script["initialConfiguration"]))
-    for step in script["events"]:
-        instance.receive(Event(type_names().of(step["event"]["name"])))
-        assert active() == set(map(names.of, step["nextConfiguration"]))
 
 
 @pytest.mark.skipif(not ADF, reason=f"no real files in {CORPUS} (set SWARMDSL_CORPUS)")

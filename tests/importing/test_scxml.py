@@ -89,6 +89,18 @@ def test_threads_behavior_and_monitoring_are_one_state() -> None:
     )
 
 
+@pytest.mark.parametrize("mistake", ["", "&nbsp;"])
+def test_a_document_without_the_namespace(mistake: str) -> None:
+    system, report = imported(
+        f'<scxml name="keeper"><state id="a">{mistake}<transition event="go" target="b"/></state>'
+        '<final id="b"/></scxml>'
+    )
+
+    assert [state.name for state in system.machines[0].states] == ["A", "B"]
+    assert ("repaired-dialect", "scxml") in said(report)
+    assert ("malformed-xml", "&nbsp;") in said(report) or not mistake
+
+
 def test_a_behavior_keeps_its_states() -> None:
     inside = (
         f"<state id='WorkBehavior'><state id='Lift'>{call(lift())}{ALL_HANDLED}</state></state>"
@@ -443,7 +455,7 @@ def test_plain_scxml() -> None:
     system, report = imported(body, "initial='work'")
     found = states(system)
 
-    assert [n for n, _ in said(report) if n != "assumed"] == ["left-out", "left-out"]
+    assert [n for n, _ in said(report) if n != "assumed"] == ["left-out", "sent-later", "left-out"]
     assert found["Work"].initial == "Work.B"
     assert found["Work.H"].deep
     assert ways(found["Work"]) == [(["Pause"], "P"), (["done"], "End")]
@@ -461,8 +473,32 @@ def test_plain_scxml() -> None:
         ("level !== 1.5 || open", "level != 1.5 or open"),
         ("!open &amp;&amp; !(name == 'a')", 'not open and not (name == "a")'),
         ("-level * 2 + 1 &lt;= level", "-level * 2 + 1 <= level"),
-        ("In('A')", None),
-        ("level / 2 > 1", None),
+        ("In('A')", "in_a"),
+        ("level / 2 > 1", "level / 2 > 1"),
+        ("Math.max(level, 2) == 3", "max(level, 2) == 3"),
+        ("In('Nowhere')", None),
+        ("In(level + 1)", None),
+        ("In(1)", None),
+        ("JSON.parse()", None),
+        ("JSON.parse(level)", None),
+        ("JSON.parse(JSON.stringify(level)) == 1", "level == 1"),
+        ("(function (a) { return a; })(level)", None),
+        ("Math.abs()", None),
+        ("Math.min(level)", None),
+        ("Math.PI > level", None),
+        ("level.length > 1", "len(level) > 1"),
+        ("level.height > 1", None),
+        ("true.length > 1", None),
+        ("level[0]", None),
+        ("{a: 1}", None),
+        ("+level == 2", "level == 2"),
+        ("level % 2 == 1", None),
+        ("((level % 2) + 2) % 2 == 1", "level % 2 == 1"),
+        ("level > 1 ? true : false", None),
+        ("typeof level == 'number'", None),
+        ("level == null", None),
+        ("_name == 'a'", None),
+        ("Math.pow(level, 2) > 4", None),
         ("_event.data.x", None),
         ("level ==", None),
     ],

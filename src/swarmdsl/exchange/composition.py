@@ -6,17 +6,18 @@ a launch file, which is started as often as that number says.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.constants import Value, constant, params_by_name
-from swarmdsl.exchange.scxml.xml import add_comment, document, legal
+from swarmdsl.exchange.constants import Value
+from swarmdsl.exchange.nodes import Given, behavior_nodes
 from swarmdsl.exchange.search import behaviours
+from swarmdsl.exchange.xml import add_comment, document, legal
 from swarmdsl.generator import Generator, OutputFile, option
-from swarmdsl.ir import Expression, Member, Param, Role, StateMachine, Swarm, System, Type
+from swarmdsl.ir import Member, Role, Swarm, System, Type
 from swarmdsl.ir.types import INTEGERS, Primitive
 from swarmdsl.naming import snake_case
 
@@ -69,54 +70,31 @@ def _launch(
     role: Role, member: Member, system: System, package: str, report: Diagnostics
 ) -> etree._Element:
     """A node for the behaviour of one member and for each of its parts that has one."""
-    machines = {machine.name: machine for machine in system.machines}
-    components = {component.name: component for component in system.components}
     root = etree.Element("launch")
     add_comment(root, role.doc)
     etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
     group = etree.SubElement(root, "group", ns=f"{role.name}_$(arg id)")
-    if member.behavior is not None:
-        machine = machines[member.behavior]
-        node = _node(group, snake_case(machine.name), machine, package)
-        _add_params(node, machine, member.params, {}, report)
-    for part in member.parts:
-        component = components[part.component]
-        if component.behavior is not None:
-            machine = machines[component.behavior]
-            node = _node(group, part.name, machine, package)
-            _add_params(node, machine, component.params, dict(part.values), report)
+    for node in behavior_nodes(member, system):
+        type_ = snake_case(node.machine.name)
+        attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
+        _add_params(etree.SubElement(group, "node", attributes), node.params, report)
     return root
 
 
-def _node(group: etree._Element, name: str, machine: StateMachine, package: str) -> etree._Element:
-    attributes = {"pkg": package, "type": snake_case(machine.name), "name": name}
-    return etree.SubElement(group, "node", {**attributes, "output": "screen"})
-
-
-def _add_params(
-    node: etree._Element,
-    machine: StateMachine,
-    params: tuple[Param, ...],
-    values: Mapping[str, Expression],
-    report: Diagnostics,
-) -> None:
-    """The params that the machine has, with the values of its owner, else its own."""
-    known = {**params_by_name(machine.params), **params_by_name(params)}
-    given = {**{param.name: param.default for param in params}, **values}
-    for param in machine.params:
-        expression = given.get(param.name) or param.declared
-        value = constant(expression, known) if expression is not None else None
-        if isinstance(value, str) and "$(" in value:
+def _add_params(node: etree._Element, params: tuple[Given, ...], report: Diagnostics) -> None:
+    """The params that have a value when the model is compiled."""
+    for given in params:
+        if isinstance(given.value, str) and "$(" in given.value:
             report.report(
                 "no-place",
-                expression.origin if expression is not None else None,
+                given.expression.origin if given.expression is not None else None,
                 target="composition",
-                what=f"the value of `{param.name}`",
+                what=f"the value of `{given.param.name}`",
                 notes=("`$(` stands for something else in a launch file",),
             )
-        elif value is not None:
-            attributes = {"name": param.name, "type": _kind(param.type), "value": _text(value)}
-            etree.SubElement(node, "param", attributes)
+        elif given.value is not None:
+            type_, text = _kind(given.param.type), _text(given.value)
+            etree.SubElement(node, "param", name=given.param.name, type=type_, value=text)
 
 
 def _kind(type_: Type) -> str:

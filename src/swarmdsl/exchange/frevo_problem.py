@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.scxml.xml import document, legal
 from swarmdsl.exchange.search import number
+from swarmdsl.exchange.xml import document, legal
 from swarmdsl.ir import Environment, Optimization, Swarm, System
 from swarmdsl.source import Span
 

@@ -2,37 +2,27 @@
 
 from __future__ import annotations
 
-import ast
-from collections.abc import Iterable
-
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.names import Names, type_names, value_names
-from swarmdsl.importing.types import data_type
+from swarmdsl.importing.data import MachineData
+from swarmdsl.importing.expressions import UnsayableError, path
+from swarmdsl.importing.library import Library, literal
+from swarmdsl.importing.names import Names
+from swarmdsl.importing.portable import doc_of
 from swarmdsl.ir import (
     Action,
     Activity,
-    Communication,
-    Component,
     Expression,
-    Field,
-    Function,
     Interface,
     Literal,
-    Named,
     Policy,
     Primitive,
     ResultMapping,
-    Service,
     Type,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, FLOAT, FLOATS, INT, INTEGERS, STRING
-from swarmdsl.ros.interface_file import Kind
-from swarmdsl.ros.standard import lookup
-from swarmdsl.scxml.document import Document
-from swarmdsl.syntax import ActionType, ServiceType
-from swarmdsl.syntax import Field as Described
+from swarmdsl.ir.types import BOOL, FLOATS, INTEGERS, STRING
+from swarmdsl.scxml.document import Document, Node
 
 _ZEROS: dict[str, Literal] = {
     **{name: Literal(0, Primitive(name)) for name in INTEGERS},
@@ -40,78 +30,6 @@ _ZEROS: dict[str, Literal] = {
     "bool": Literal(False, BOOL),
     "string": Literal("", STRING),
 }
-
-
-class Library:
-    """The functions, devices and interfaces of all that is read together."""
-
-    def __init__(self) -> None:
-        self.names: Names = value_names()
-        self.functions: dict[tuple[str, str, Named], Function] = {}
-        self.interfaces: dict[Named, Interface] = {}
-        self.devices: Names = type_names()
-        self.components: list[Component] = []
-
-    def describe(self, interface: Interface) -> None:
-        """Take what is said of an interface, unless ROS comes with it or it is known already."""
-        if lookup(interface.type) is None:
-            self.interfaces.setdefault(interface.type, interface)
-
-    def interface(self, call: Call) -> Interface | None:
-        """What is known of the interface that a call goes by."""
-        known = self.interfaces.get(call.type)
-        kind: Kind = "srv" if call.paradigm == "service" else "action"
-        standard = lookup(call.type, kind) if known is None else None
-        match standard:
-            case ActionType(goal=goal, result=result):
-                fields = _standard_fields(goal), _standard_fields(result)
-                return Action(call.type, *fields, (), external=True)
-            case ServiceType(request=goal, response=result):
-                fields = _standard_fields(goal), _standard_fields(result)
-                return Service(call.type, *fields, external=True)
-        return known
-
-    def add(self, function: Function) -> None:
-        """Take a function that an ADF file describes."""
-        call = function.communication
-        self.functions[call.paradigm, call.name, call.type] = function
-
-    def function(self, call: Call) -> Function:
-        """The function that a call asks for, made where nothing is known of it."""
-        known = self.functions.get((call.paradigm, call.name, call.type))
-        if known is None:
-            name = self.names.new(call.function or call.name.rpartition("/")[2])
-            known = Function(
-                name,
-                "abstraction" if call.name.startswith("cmd/") else "swarm",
-                Communication(call.paradigm, call.name, call.type),
-                (),
-                (),
-            )
-            self.add(known)
-        return known
-
-    def learn(self, calls: list[Call]) -> None:
-        """Name the fields of goals that are only ever given as values in their order."""
-        by_type: dict[tuple[str, Named], list[Call]] = {}
-        for call in calls:
-            by_type.setdefault((call.paradigm, call.type), []).append(call)
-        for (paradigm, type_), same in by_type.items():
-            counts = {len(c.goal_items) if c.goal is Policy.FIXED else 0 for c in same}
-            values = [_literal(item) for item in same[0].goal_items]
-            literals = [value for value in values if value is not None]
-            if self.interface(same[0]) is not None or len(counts) > 1 or counts == {0}:
-                continue
-            if len(literals) < len(values):
-                continue
-            fields = tuple(Field(f"value{i}", v.type) for i, v in enumerate(literals, 1))
-            results = dict.fromkeys(item for call in same for item in call.result_items)
-            stored = tuple(Field(name, STRING) for name in results)
-            self.interfaces[type_] = (
-                Action(type_, fields, stored, (), external=True)
-                if paradigm == "action"
-                else Service(type_, fields, stored, external=True)
-            )
 
 
 class Activities:
@@ -162,6 +80,41 @@ class Activities:
             f"{function.name}_{words[1]}" if reads else None,
         )
 
+    def said(self, node: Node, data: MachineData) -> Activity | None:
+        """What a state does as the portable profile says it; None where that is incomplete."""
+        name = node.get("function", "")
+        function = self.library.called(name)
+        if function is None:
+            what, reason = f"the activity `{name}`", "no function is called so"
+            self.report.report("left-out", self.document.at(node), what=what, reason=reason)
+            return None
+        known = self.library.interfaces.get(function.communication.type)
+        goal = _part(known, ("goal", "request")) or {}
+        parts = {each.name: each for each in node.children}
+        arguments: list[tuple[str, Expression]] = []
+        results: list[ResultMapping] = []
+        for each in [inner for part in node.children for inner in part.children]:
+            field = each.get("field", "")
+            try:
+                if each.name == "argument":
+                    text = each.get("expr", "")
+                    arguments.append((field, data.read(each, "expr", text, goal.get(field))))
+                elif each.name == "mapping":
+                    variable, *below = path(each.get("location", ""))
+                    if variable not in data.types:
+                        raise UnsayableError(f"no variable is called `{variable}`")
+                    results.append(ResultMapping(field, data.name(variable), tuple(below)))
+            except UnsayableError as fault:
+                place = self.document.at(each)
+                self.report.report("left-out", place, what=f"`{field}`", reason=fault.reason)
+        callbacks = [
+            parts[name].get("callback") if name in parts else None for name in ("goal", "result")
+        ]
+        doc = doc_of(node.children)
+        return Activity(
+            function.name, tuple(arguments), callbacks[0], tuple(results), callbacks[1], doc
+        )
+
     def _described(self, call: Call) -> Interface | None:
         """What is known of the interface of a call; nothing, where it is known as another kind."""
         known = self.library.interface(call)
@@ -176,7 +129,7 @@ class Activities:
         self, call: Call, goal: dict[str, Type] | None, arguments: dict[str, Expression]
     ) -> bool:
         """Fill in values in the order of the fields; False where they are no plain values."""
-        values = [_literal(item) for item in call.goal_items]
+        values = [literal(item) for item in call.goal_items]
         names = list(goal) if goal is not None else []
         if goal is None:
             names = [f"value{number}" for number in range(1, len(values) + 1)]
@@ -228,13 +181,6 @@ class Activities:
         self.report.report("assumed", self.document.at(call.node), what=what, assumed=assumed)
 
 
-def _standard_fields(fields: Iterable[Described]) -> tuple[Field, ...]:
-    return tuple(
-        Field(str(field.name), data_type(f"{field.type.name}{field.type.array}"))
-        for field in fields
-    )
-
-
 def _part(described: Interface | None, names: tuple[str, str]) -> dict[str, Type] | None:
     """The fields of one part of an interface; None where nothing is known."""
     for name in names:
@@ -242,13 +188,3 @@ def _part(described: Interface | None, names: tuple[str, str]) -> dict[str, Type
         if fields is not None:
             return {field.name: field.type for field in fields}
     return None
-
-
-def _literal(text: str) -> Literal | None:
-    """A value as Python writes it; None for anything that would have to be computed."""
-    try:
-        value = ast.literal_eval(text)
-    except (ValueError, SyntaxError, MemoryError, RecursionError):
-        return None
-    types = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
-    return Literal(value, types[type(value)]) if type(value) in types else None

@@ -2,17 +2,18 @@
 
 The first generation has `msg_def` and `comm_paradigm`, the second `comm_model` with `paradigm` and
 `definition` in it, that of D5.4 `msg` and `param_list`; the exporter of 2021 has no `comm_model`.
+Algorithm Modelling Files, which describe behaviours of the swarm, have the shape of the first.
 """
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from typing import Any, Literal
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.importing.activities import Library
+from swarmdsl.importing.json_file import Content, read_json
+from swarmdsl.importing.library import Library
 from swarmdsl.importing.names import Names, is_plain, value_names
 from swarmdsl.importing.types import MISSPELT, data_type, qualified
 from swarmdsl.ir import (
@@ -20,10 +21,12 @@ from swarmdsl.ir import (
     Array,
     Communication,
     Component,
+    Constant,
     Expression,
     Field,
     Function,
     FunctionPort,
+    Interface,
     Message,
     Named,
     Param,
@@ -33,10 +36,15 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir import Literal as Value
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
+from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.source import Source, Span
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+_CATEGORIES: dict[str, Literal["abstraction", "swarm"]] = {
+    "abstraction-lib": "abstraction",
+    "swarm-lib": "swarm",
+}
+_TOPIC = re.compile(r"[~/]?[A-Za-z]\w*(?:/\w+)*", re.ASCII)
 _KNOWN = {"runtime-env", "functions", "sensors/actuators"}
 _DEVICES: dict[str, Literal["sensor", "actuator", "controller", "virtual"]] = {
     "sensor": "sensor",
@@ -46,43 +54,52 @@ _DEVICES: dict[str, Literal["sensor", "actuator", "controller", "virtual"]] = {
 }
 
 
-def read(source: Source, library: Library, report: Diagnostics) -> None:
-    """Add what a file describes to a library; all that is wrong with it is reported."""
-    try:
-        content = json.loads(source.text)
-    except json.JSONDecodeError as error:
-        start = min(error.pos, len(source.text))
-        place = Span(source, start, min(start + 1, len(source.text)))
-        report.report("not-json", place, reason=error.msg)
-        return
-    except RecursionError:
-        report.report("not-json", Span(source, 0, 1), reason="it is nested too deeply")
+def read(
+    source: Source,
+    library: Library,
+    report: Diagnostics,
+    category: Literal["abstraction", "swarm"] = "abstraction",
+) -> None:
+    """Add what a file describes to a library; all that is wrong with it is reported.
+
+    Functions of which it does not say so are of this category.
+    """
+    content = read_json(source, report)
+    if content is None:
         return
     if not isinstance(content, dict) or not (content.keys() & {"functions", "sensors/actuators"}):
         reason = "there are no `functions`"
         report.report("not-adf", Span(source, 0, min(1, len(source.text))), reason=reason)
         return
-    _Reader(source, library, report).read(content)
+    _Reader(source, library, report, category).read(content)
 
 
 class _Reader:
-    def __init__(self, source: Source, library: Library, report: Diagnostics) -> None:
+    def __init__(
+        self,
+        source: Source,
+        library: Library,
+        report: Diagnostics,
+        category: Literal["abstraction", "swarm"],
+    ) -> None:
         self.source = source
+        self.content = Content(source, report)
         self.library = library
         self.report = report
+        self.category = category
 
     def read(self, content: dict[str, Any]) -> None:
         for key in content.keys() - _KNOWN:
             reason = "only functions and devices are read"
-            self.report.report("left-out", self._at(key), what=f"`{key}`", reason=reason)
+            self.report.report("left-out", self.content.at(key), what=f"`{key}`", reason=reason)
         for typo, meant in MISSPELT.items():
             match = re.search(rf'(?<="){typo}(?=/)', self.source.text)
             if match is not None:
                 place = Span(self.source, *match.span())
                 self.report.report("renamed", place, name=typo, new=meant)
-        for described in _dicts(content.get("functions")):
+        for described in self.content.objects(content, "functions"):
             self._function(described)
-        for described in _dicts(content.get("sensors/actuators")):
+        for described in self.content.objects(content, "sensors/actuators"):
             self._device(described)
 
     def _device(self, described: dict[str, Any]) -> None:
@@ -90,17 +107,19 @@ class _Reader:
         written = str(described.get("name", ""))
         name = self.library.devices.new(written)
         if not is_plain(written):
-            self.report.report("renamed", self._at(written), name=written, new=name)
-        api = described.get("api")
-        api = api if isinstance(api, dict) else {}
+            self.report.report("renamed", self.content.at(written), name=written, new=name)
+        api = self.content.inside(described, "api")
         if api.get("services"):
             reason = "nothing says what they are for: a function would"
             what = f"the services of `{written}`"
-            self.report.report("left-out", self._at(written), what=what, reason=reason)
+            self.report.report("left-out", self.content.at(written), what=what, reason=reason)
+        if "category" not in described:
+            self.library.guesses.add((name, "kind"))
         kind = _DEVICES.get(str(described.get("category", "controller")).lower())
         if kind is None:
+            self.library.guesses.add((name, "kind"))
             what = f"`{described['category']}` is no kind of device"
-            self.report.report("assumed", self._at(written), what=what, assumed="`virtual`")
+            self.report.report("assumed", self.content.at(written), what=what, assumed="`virtual`")
         names = value_names()
         ports = tuple(
             Port(names.new(port.topic.rpartition("/")[2]), port.direction, port.type, port.topic)
@@ -111,17 +130,20 @@ class _Reader:
 
     def _function(self, described: dict[str, Any]) -> None:
         written = str(described.get("name", ""))
-        name = self.library.names.new(written)
-        if not is_plain(written):
-            self.report.report("renamed", self._at(written), name=written, new=name)
-        api = described.get("api")
-        api = api if isinstance(api, dict) else {}
+        name = self.library.names.exact(written)
+        if name != written:
+            self.report.report("renamed", self.content.at(written), name=written, new=name)
+        api = self.content.inside(described, "api")
+        if described.get("category") not in _CATEGORIES:
+            self.library.guesses.add((name, "category"))
+        if not isinstance(api.get("comm_model"), dict):
+            self.library.guesses.add((name, "communication"))
         self.library.add(
             Function(
                 name,
-                "swarm" if described.get("category") == "swarm-lib" else "abstraction",
+                _CATEGORIES.get(str(described.get("category")), self.category),
                 self._communication(api, written),
-                tuple(self._ports(api)),
+                tuple(self._ports({**api, "dependencies": described.get("dependencies")})),
                 tuple(self._params(described)),
                 doc=_line(described.get("description")),
             )
@@ -132,24 +154,25 @@ class _Reader:
         if not isinstance(model, dict):
             what = f"how `{name}` is called is not said"
             assumed = f"an action `{name}` of `cpswarm_msgs/Empty`"
-            self.report.report("assumed", self._at(name), what=what, assumed=assumed)
+            self.report.report("assumed", self.content.at(name), what=what, assumed=assumed)
             return Communication("action", _topic(name), Named("cpswarm_msgs", "Empty"))
         paradigm = str(model.get("paradigm", api.get("comm_paradigm", "")))
-        definition = model.get("definition", model)
-        definition = definition if isinstance(definition, dict) else {}
+        definition = self.content.inside(model, "definition") if "definition" in model else model
         is_service = paradigm == "rosservice"
         if paradigm not in ("rosaction", "rosservice"):
             is_service = "request" in definition or "response" in definition
             kind = "service" if is_service else "action"
             what = f"`{paradigm}` is no paradigm"
-            self.report.report("assumed", self._at(paradigm or name), what=what, assumed=kind)
+            self.report.report(
+                "assumed", self.content.at(paradigm or name), what=what, assumed=kind
+            )
         kind = "service" if is_service else "action"
         type_ = self._interface(str(definition.get("class", "")), kind, name)
         parts = {
-            key: self._fields(definition.get(key))
+            key: self._part(definition, key)
             for key in ("goal", "result", "feedback", "request", "response")
         }
-        self.library.describe(
+        self._describe(
             Service(type_, parts["request"], parts["response"], external=True)
             if is_service
             else Action(type_, parts["goal"], parts["result"], parts["feedback"], external=True)
@@ -157,14 +180,20 @@ class _Reader:
         called: Literal["action", "service"] = "service" if is_service else "action"
         server = str(definition.get("name", name))
         if _topic(server) != server:
-            self.report.report("renamed", self._at(server), name=server, new=_topic(server))
+            self.report.report("renamed", self.content.at(server), name=server, new=_topic(server))
         return Communication(called, _topic(server), type_)
+
+    def _describe(self, interface: Interface) -> None:
+        if not self.library.describe(interface):
+            what, reason = f"what is said of `{interface.type}`", "in ROS it has other fields"
+            place = self.content.at(str(interface.type))
+            self.report.report("left-out", place, what=what, reason=reason)
 
     def _interface(self, written: str, kind: str, name: str) -> Named:
         type_ = qualified(written, kind)
         if not re.search(r"[/.]", written):
             what = f"the package of `{written}` is not said"
-            place = self._at(written or name)
+            place = self.content.at(written or name)
             self.report.report("assumed", place, what=what, assumed=f"`{type_}`")
         return type_
 
@@ -172,62 +201,86 @@ class _Reader:
         directions: tuple[tuple[Literal["in", "out"], str], ...] = (
             ("in", "inputs"),
             ("out", "outputs"),
+            ("in", "dependencies"),
         )
+        heard: set[str] = set()
         for direction, key in directions:
             seen: dict[str, Type] = {}
-            for port in _dicts(api.get(key)):
-                message = port.get("msg", port.get("msg_def"))
-                message = message if isinstance(message, dict) else {}
+            for port in self.content.objects(api, key):
+                message = self.content.inside(port, "msg" if "msg" in port else "msg_def")
                 topic = str(port.get("topic", ""))
                 type_ = self._interface(str(message.get("class", "")), "message", topic)
-                fields = self._fields(message.get("fields"))
-                if fields:
-                    self.library.describe(Message(type_, fields, external=True))
+                fields = self._fields(message)
+                constants = tuple(self._constants(message))
+                if fields or constants:
+                    self._describe(Message(type_, fields, True, constants))
                 if seen.setdefault(topic, type_) != type_:
                     what, reason = f"topic `{topic}` of `{type_}`", f"it carries `{seen[topic]}`"
-                    self.report.report("left-out", self._at(topic), what=what, reason=reason)
+                    self.report.report("left-out", self.content.at(topic), what=what, reason=reason)
                     continue
+                if key == "dependencies":
+                    if topic in heard:
+                        continue
+                    what = f"what is done with `{topic}` is not said"
+                    assumed = "that it is listened to"
+                    self.report.report(
+                        "assumed", self.content.at(topic), what=what, assumed=assumed
+                    )
+                heard.add(topic)
                 yield FunctionPort(direction, _topic(topic), type_)
 
     def _params(self, described: dict[str, Any]) -> Iterator[Param]:
         names: Names = value_names()
-        for param in _dicts(described.get("param_list")):
+        for param in self.content.objects(described, "param_list"):
             written = str(param.get("name", ""))
-            name = names.new(written)
-            if not is_plain(written):
-                self.report.report("renamed", self._at(written), name=written, new=name)
+            name = names.exact(written)
+            if name != written:
+                self.report.report("renamed", self.content.at(written), name=written, new=name)
             value = param.get("value")
             type_ = _param_type(str(param.get("class", "")), value)
             default: Expression | None = None
             if isinstance(value, (bool, int, float, str)):
-                whole = type_ == FLOAT and type(value) is int
-                default = Value(float(value) if whole else value, _TYPES[type(value)])
+                default = Value(value, _TYPES[type(value)])
             elif value is not None:
                 what = f"the value of `{written}`"
                 reason = "it is no number, text or truth value"
-                self.report.report("left-out", self._at(written), what=what, reason=reason)
+                self.report.report("left-out", self.content.at(written), what=what, reason=reason)
             yield Param(name, type_, default, doc=_line(param.get("description")))
 
-    def _fields(self, described: object) -> tuple[Field, ...]:
-        if isinstance(described, dict):
-            described = described.get("fields")
-        return tuple(
-            Field(
-                str(field.get("name", "")),
-                data_type(str(field.get("class", ""))),
-                doc=_line(field.get("description")),
-            )
-            for field in _dicts(described)
-            if re.fullmatch(r"[A-Za-z]\w*", str(field.get("name", "")), re.ASCII)
-        )
+    def _constants(self, message: dict[str, Any]) -> Iterator[Constant]:
+        for constant in self.content.objects(message, "constants"):
+            name, value = str(constant.get("name", "")), constant.get("value")
+            if is_plain(name) and isinstance(value, (bool, int, float, str)):
+                type_ = data_type(str(constant.get("class", "")))
+                doc = _line(constant.get("description"))
+                known = Value(value, _TYPES[type(value)])
+                if type_ == DURATION and not isinstance(value, (bool, str)):
+                    known = Value(round(value * 1_000_000_000), DURATION)
+                yield Constant(name, type_, known, doc)
+            else:
+                reason = "it is no name with a number, text or truth value"
+                what = f"constant `{name}`"
+                self.report.report("left-out", self.content.at(name), what=what, reason=reason)
 
-    def _at(self, word: str) -> Span:
-        """Where a text stands in the file for the first time, without its quotes."""
-        text = json.dumps(word, ensure_ascii=False)
-        start = self.source.text.find(text)
-        if start < 0:
-            return Span(self.source, 0, min(1, len(self.source.text)))
-        return Span(self.source, start + 1, start + len(text) - 1)
+    def _part(self, definition: dict[str, Any], key: str) -> tuple[Field, ...]:
+        """The fields of a goal or the like: in an object, or without one around them."""
+        if isinstance(definition.get(key), list):
+            return self._fields({"fields": definition[key]})
+        return self._fields(self.content.inside(definition, key))
+
+    def _fields(self, described: dict[str, Any]) -> tuple[Field, ...]:
+        fields = []
+        for field in self.content.objects(described, "fields"):
+            name = str(field.get("name", ""))
+            if not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
+                reason = "no field can be called so"
+                self.report.report(
+                    "left-out", self.content.at(name), what=f"field `{name}`", reason=reason
+                )
+                continue
+            type_ = data_type(str(field.get("class", "")))
+            fields.append(Field(name, type_, doc=_line(field.get("description"))))
+        return tuple(fields)
 
 
 def _param_type(class_: str, value: object) -> Type:
@@ -240,15 +293,13 @@ def _param_type(class_: str, value: object) -> Type:
     return type_ if fits or type(value) not in _TYPES else _TYPES[type(value)]
 
 
-def _dicts(items: object) -> list[dict[str, Any]]:
-    return [item for item in items if isinstance(item, dict)] if isinstance(items, list) else []
-
-
 def _line(text: object) -> str:
     return " ".join(str(text).split()) if text else ""
 
 
 def _topic(name: str) -> str:
     """A name that ROS takes."""
+    if _TOPIC.fullmatch(name):
+        return name
     plain = re.sub(r"[^A-Za-z0-9_/]+", "_", name).strip("_/")
     return plain if plain[:1].isalpha() else f"n_{plain}"

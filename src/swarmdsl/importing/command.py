@@ -2,107 +2,89 @@
 
 from __future__ import annotations
 
-import tempfile
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.format import formatted
-from swarmdsl.importing import import_adf, import_scxml
-from swarmdsl.naming import snake_case
-from swarmdsl.printer import UnprintableError, print_system
-from swarmdsl.reading import read_source
-from swarmdsl.source import Source
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.format.files import Layout
+from swarmdsl.format.files import write as write_layouts
+from swarmdsl.importing.files import package_of, read_files
+from swarmdsl.importing.ros import import_ros, library_functions
+from swarmdsl.importing.text import checked, text_of
+from swarmdsl.importing.update import Guess
+from swarmdsl.importing.update.on_disk import read_existing, updated
 from swarmdsl.staging import Staging
+
+Format = Literal["scxml", "adf", "amf", "ros"]
+# What a package of ROS does not say of the functions in it.
+_OF_FUNCTIONS = ("communication", "category")
 
 
 @dataclass(frozen=True)
 class Imported:
-    """What came of an import: the text of the model, None where there is none."""
+    """What came of an import: the text of a model, or what becomes of the files of one.
+
+    `layouts` are those of the files that change; `is_new` says that there was no such file.
+    """
 
     report: Diagnostics
     files: int
     text: str | None = None
+    layouts: Sequence[Layout] = ()
+    is_new: bool = True
 
 
 def run(
-    format_: Literal["scxml", "adf"],
+    format_: Format,
     paths: Sequence[Path],
     described: Sequence[Path],
     out: Path | None,
     *,
     force: bool,
+    dry_run: bool = False,
 ) -> Imported:
-    """Read the files and write the model, unless something is wrong.
+    """Read the files and write the model, or update it where it exists.
 
-    The text is not written where the check of it would find an error.
+    Nothing is written where the check of it would find an error, or in a dry run.
     """
     report = Diagnostics()
-    if out is not None and not force and out.exists():
-        path = out.as_posix()
-        way = "choose another name, or use `--force`"
-        report.report("would-overwrite", path=path, reason="it exists already", help=way)
-    sources = [read_source(path, None, report) for path in paths]
-    adfs = [read_source(path, None, report) for path in described]
-    files = len(paths) + len(described)
-    if report.has_errors:
-        return Imported(report, files)
-    read, known = _present(sources), _present(adfs)
-    name = _package(out or paths[0])
-    if format_ == "adf":
-        system = import_adf(read, name, report)
+    existing = read_existing(out, report) if out is not None else None
+    name = package_of(out or paths[0])
+    guesses: set[Guess] = set()
+    if format_ == "ros":
+        functions = library_functions() | (existing.functions() if existing is not None else {})
+        system, files = import_ros(paths, name, functions, report)
+        guesses.update((each.name, what) for each in system.functions for what in _OF_FUNCTIONS)
+        guesses.update((each.name, "kind") for each in system.components)
     else:
-        system = import_scxml(read, known, name, report)
+        known = existing.system if existing is not None and format_ == "scxml" else None
+        system, files = read_files(format_, paths, described, name, known, guesses, report)
+    text = text_of(system, paths[0], report)
+    if text is None:
+        return Imported(report, files)
+    if existing is not None:
+        layouts = updated(existing, text, guesses, report, complete=format_ == "ros", force=force)
+        if not (report.has_errors or dry_run):
+            write_layouts(layouts, report)
+        made = [] if report.has_errors else layouts
+        return Imported(report, files, text, made, is_new=False)
+    checked(text, out or Path(f"{name}.swarm"), report)
     if report.has_errors:
         return Imported(report, files)
-    if not (system.machines or system.functions or system.components):
-        report.report("nothing-to-import", path=paths[0].as_posix())
-        return Imported(report, files)
-    try:
-        plain = print_system(system)
-    except UnprintableError as fault:
-        report.report("no-model", path=paths[0].as_posix(), reason=str(fault))
-        return Imported(report, files)
-    text = formatted(Source(f"{name}.swarm", plain), report) or plain
-    _check(text, out or Path(f"{name}.swarm"), report)
-    if not report.has_errors and out is not None:
+    if out is not None and not dry_run:
         _write(out, text, report)
-    return Imported(report, files, None if report.has_errors else text)
-
-
-def _present(sources: Sequence[Source | None]) -> list[Source]:
-    return [source for source in sources if source is not None]
-
-
-def _package(path: Path) -> str:
-    """The package of a model, after the file that it is in or comes from."""
-    name = snake_case(path.name.partition(".")[0])
-    return name if name[:1].isalpha() else f"model_{name}".rstrip("_")
-
-
-def _check(text: str, out: Path, report: Diagnostics) -> None:
-    """Report what is an error in the model that was made: it has no place in the files read."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / out.name
-        path.write_text(text, encoding="utf-8")
-        for found in compiler.check([path]).report:
-            if found.severity is Severity.ERROR:
-                line = (
-                    found.primary.span.source.line_text(found.primary.span.line).strip()
-                    if (found.primary is not None)
-                    else ""
-                )
-                reason = f"{found.message} ({found.code}) in `{line}`"
-                report.report("no-model", path=out.as_posix(), reason=reason)
+    layouts = [Layout(str(out), b"", text.encode())] if out is not None else []
+    return Imported(report, files, text, layouts)
 
 
 def _write(out: Path, text: str, report: Diagnostics) -> None:
     try:
         with Staging() as staging:
-            staging.add(out, text.encode())
+            # A link stays one: the empty file that it leads to is replaced.
+            staging.add(Path(os.path.realpath(out)), text.encode())
             for _ in staging.move_in_place():
                 pass
     except OSError as error:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.calls import Monitor
 from swarmdsl.importing.drafts import OUTCOMES, Draft
+from swarmdsl.importing.idioms import Ends, contents
 from swarmdsl.importing.names import Names
-from swarmdsl.ir import Event, Named
+from swarmdsl.ir import Event, Named, Type
 from swarmdsl.naming import snake_case
 from swarmdsl.scxml.document import Document, Node
+from swarmdsl.source import Span
 
 _BRIDGE = "bridge/events/"
 _INTERNAL = ("done.", "error.")
@@ -17,30 +21,66 @@ _INTERNAL = ("done.", "error.")
 class Events:
     """The events of all documents that are read together."""
 
-    def __init__(self, names: Names) -> None:
+    def __init__(self, names: Names, of_model: Iterable[Event] = ()) -> None:
         self.names = names
         self.known: dict[str, Event] = {}
         self.topics: dict[str, Named] = {}
+        self._by_words: dict[str, list[str]] = {}
+        self._words_of = 0
+        self._types: dict[str, Type] = {}
+        # The names of those of which a document does not say with which topic they go.
+        self.guessed: set[str] = set()
+        self._by_name = {event.name: event for event in of_model}
+        self._by_topic = {event.incoming_topic: event for event in of_model}
 
-    def collect(self, top: Draft, document: Document, report: Diagnostics) -> None:
-        """Find the events of one document, and pair them with the topics of its monitors."""
+    def take(self, event: Event, place: Span, report: Diagnostics) -> None:
+        """Take an event as the portable profile says it is."""
+        known = self.known.setdefault(event.name, event)
+        self.names.taken.add(event.name)
+        if (known.type, known.topic, known.swarm) != (event.type, event.topic, event.swarm):
+            what = f"event `{event.name}` of `{event.type}` on `{event.topic}`"
+            reason = f"another document has it with `{known.type}` on `{known.topic}`"
+            report.report("left-out", place, what=what, reason=reason)
+
+    def collect(self, top: Draft, ends: Ends, document: Document, report: Diagnostics) -> None:
+        """Find the events of one document, and pair them with the topics of its monitors.
+
+        Those of which only the machine itself hears are none: its delays, ends and activities.
+        """
         monitored: dict[str, Monitor] = {}
         for draft in top.walk():
             self._pair(draft, monitored, document, report)
         first: dict[str, Node] = {}
         for draft in top.walk():
             for edge in draft.edges:
-                if edge.event and _is_plain(edge.event):
+                if edge.event and _is_plain(edge.event) and not _is_own(edge.event, draft, ends):
                     first.setdefault(edge.event, edge.node)
-            for node in _contents(draft):
+            for node in contents(draft):
                 if node.name in ("send", "raise") and node.get("event"):
                     first.setdefault(node.attributes["event"], node)
+        for draft in top.walk():
+            for edge in draft.edges:
+                event = edge.event or ""
+                if not event.endswith(".*") or event.startswith(_INTERNAL):
+                    continue
+                beginning = event.removesuffix(".*")
+                known = (f"{each}." for each in (*first, *self.known))
+                if not any(each.startswith(f"{beginning}.") for each in known):
+                    first[beginning] = edge.node
         for text, node in first.items():
             if text in self.known:
                 continue
-            name = self.names.of(text)
             monitor = monitored.get(text)
+            heard = self._by_topic.get(monitor.topic) if monitor is not None else None
+            if heard is not None and monitor is not None and heard.type == monitor.type:
+                self.known[text] = heard
+                continue
+            name = self.names.of(text)
             if monitor is None:
+                self.guessed.add(name)
+                if name in self._by_name:
+                    self.known[text] = self._by_name[name]
+                    continue
                 type_ = Named("std_msgs", "Empty")
                 place = document.at(node, "event", text)
                 what = f"no topic goes with event `{text}`"
@@ -58,13 +98,25 @@ class Events:
             self.known[text] = Event(name, carried, topic.removeprefix(_BRIDGE), swarm)
 
     def meant_by(self, descriptor: str) -> list[str]:
-        """The names of the events that a descriptor of a transition stands for."""
-        beginning = descriptor.removesuffix("*").removesuffix(".")
-        return [
-            event.name
-            for text, event in self.known.items()
-            if not beginning or text == beginning or text.startswith(f"{beginning}.")
-        ]
+        """The names of the events that a descriptor of a transition stands for.
+
+        A descriptor stands for all events of which it is the first words (SCXML 3.12.1).
+        """
+        if self._words_of != len(self.known):
+            self._words_of = len(self.known)
+            self._by_words = {"": [event.name for event in self.known.values()]}
+            for text, event in self.known.items():
+                words = text.split(".")
+                for count in range(1, len(words) + 1):
+                    self._by_words.setdefault(".".join(words[:count]), []).append(event.name)
+        return self._by_words.get(descriptor.removesuffix("*").removesuffix("."), [])
+
+    def message(self, name: str) -> Named | None:
+        """What an event of the model carries."""
+        if len(self._types) != len(self.known):
+            self._types = {event.name: event.type for event in self.known.values()}
+        type_ = self._types.get(name)
+        return type_ if isinstance(type_, Named) else None
 
     def _pair(
         self,
@@ -94,12 +146,11 @@ class Events:
                 report.report("left-out", document.at(monitor.node), what=what, reason=reason)
 
 
+def _is_own(event: str, draft: Draft, ends: Ends) -> bool:
+    does = draft.said("activity") is not None and event.startswith(("do.", "gives."))
+    return does or event in draft.timers or event in ends
+
+
 def _is_plain(event: str) -> bool:
     """Whether it is an event of the system, and not one of the machine itself."""
     return not (event.startswith(_INTERNAL) or event in OUTCOMES or event.endswith("*"))
-
-
-def _contents(draft: Draft) -> list[Node]:
-    inside = [*draft.entry, *draft.exit]
-    inside += [child for edge in draft.edges for child in edge.node.children]
-    return [node for each in inside for node in each.walk()]

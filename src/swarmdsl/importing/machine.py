@@ -2,39 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.activities import Activities
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.conditions import expression, tree_of
-from swarmdsl.importing.drafts import OUTCOMES, Draft, Edge
+from swarmdsl.importing.content import Content, all_of
+from swarmdsl.importing.data import MachineData
+from swarmdsl.importing.drafts import Draft, Edge
 from swarmdsl.importing.events import Events
-from swarmdsl.importing.names import is_plain, type_names, value_names
+from swarmdsl.importing.expressions import UnsayableError
+from swarmdsl.importing.idioms import Ends
+from swarmdsl.importing.names import is_plain, type_names
+from swarmdsl.importing.portable import Described, comment_of, doc_of, docs_of
+from swarmdsl.importing.triggers import Triggers
 from swarmdsl.ir import (
+    Activity,
     Assignment,
-    DoneTrigger,
-    Effect,
-    EventTrigger,
     Expression,
     Literal,
-    OutcomeTrigger,
-    Send,
     State,
     StateKind,
     StateMachine,
     Transition,
     Trigger,
-    Type,
-    Variable,
 )
 from swarmdsl.ir.types import BOOL
 from swarmdsl.scxml.document import Document, Node
-
-
-class _LeftOutError(Exception):
-    """Something has no place in a model; `reason` says why."""
-
-    def __init__(self, reason: str) -> None:
-        self.reason = reason
 
 
 class MachineMaker:
@@ -43,65 +37,70 @@ class MachineMaker:
     def __init__(
         self,
         document: Document,
+        top: Draft,
+        described: Described,
         events: Events,
+        ends: Ends,
         activities: Activities,
         report: Diagnostics,
     ) -> None:
         self.document = document
+        self.top = top
         self.events = events
+        self.described = described
         self.activities = activities
         self.report = report
-        self.types: dict[str, Type] = {}
-        self.first: dict[str, Expression] = {}
-        self.variables = value_names()
+        self.data = MachineData(document, top, described, activities.library, report)
+        self.content = Content(document, events, self.data, report)
         self.paths: dict[Draft, str] = {}
         self.wrapped: set[Draft] = set()
-        self.targets: set[Draft | None] = set()
+        self.targets = {
+            target
+            for draft in top.walk()
+            for target in (draft.initial, *(edge.target for edge in draft.edges))
+        }
+        self.triggers = Triggers(events, ends, self.paths, self.wrapped, self.data)
+        # What is left on the way may change before anything else is done.
+        left = [node for draft in top.walk() for node in draft.exit]
+        self.changed_on_exit = self.content.changed(left)
 
-    def machine(self, top: Draft, name: str) -> StateMachine:
+    def machine(self, name: str) -> StateMachine:
         """The machine; all that is not taken over is reported."""
-        self._read_data(top.node)
-        for draft in top.walk():
-            self.targets |= {draft.initial, *(edge.target for edge in draft.edges)}
-        self._name(top)
+        top = self.top
+        self._name()
         states = self._states(top, "")
         assert top.initial is not None
         for key, type_ in self.activities.keys.items():
-            self.types.setdefault(key, type_)
+            self.data.types.setdefault(key, type_)
+        endless = not any(child.kind is StateKind.FINAL for child in top.children)
         return StateMachine(
             name,
             self.paths[top.initial],
             states,
-            tuple(
-                Variable(self.variables.of(each), type_, self.first.get(each))
-                for each, type_ in self.types.items()
-            ),
-            endless=not any(child.kind is StateKind.FINAL for child in top.children),
+            self.data.variables(),
+            self.data.params(),
+            endless=self.described.endless if self.described else endless,
+            doc=self.described.doc,
+            docs=docs_of(top),
         )
 
-    def _read_data(self, root: Node) -> None:
-        for model in root.children:
-            for data in model.children if model.name == "datamodel" else ():
-                name, value = data.get("id", ""), data.get("expr", data.text.strip())
-                tree = tree_of(value)
-                known = expression(tree, {}, str) if tree is not None else None
-                if not is_plain(name) or not isinstance(known, Literal):
-                    reason = f"`{value}` is no number, text or truth value"
-                    self._left_out(data, f"data `{name}`", reason)
-                    continue
-                self.first[name] = known
-                self.types[name] = known.type
-
-    def _name(self, top: Draft) -> None:
+    def _name(self) -> None:
         names = type_names()
-        for draft in top.walk():
-            if draft is top:
+        given: set[tuple[Draft | None, str]] = set()
+        for draft in self.top.walk():
+            if draft is self.top:
+                continue
+            vertex = draft.said("vertex")
+            exact = vertex.get("name", draft.id) if vertex is not None else draft.id
+            if self.described and is_plain(exact) and (draft.parent, exact) not in given:
+                given.add((draft.parent, exact))
+                draft.name = exact
                 continue
             draft.name = names.new(draft.id or draft.kind.value)
             if draft.id and not is_plain(draft.id):
                 place = self.document.at(draft.node, "id")
                 self.report.report("renamed", place, name=draft.id, new=draft.name)
-        self._place(top, "")
+        self._place(self.top, "")
 
     def _place(self, outer: Draft, path: str) -> None:
         for draft in outer.children:
@@ -115,7 +114,8 @@ class MachineMaker:
     def _needs_region(self, draft: Draft) -> bool:
         """Whether it is more than a region can be, which nothing leads to."""
         plain = draft.kind is StateKind.COMPOSITE and draft not in self.targets
-        return not plain or bool(draft.edges or draft.entry or draft.exit)
+        does = draft.edges or draft.entry or draft.exit or draft in self.data.active
+        return not plain or bool(does)
 
     def _states(self, outer: Draft, path: str) -> tuple[State, ...]:
         parallel = outer.kind is StateKind.PARALLEL
@@ -127,7 +127,11 @@ class MachineMaker:
         state = self._state(draft)
         if draft not in self.wrapped:
             return State(
-                state.id, state.name, StateKind.REGION, initial=state.initial, states=state.states
+                *(state.id, state.name, StateKind.REGION),
+                initial=state.initial,
+                states=state.states,
+                doc=state.doc,
+                docs=state.docs,
             )
         return State(
             state.id.removesuffix(f".{state.name}"),
@@ -139,12 +143,15 @@ class MachineMaker:
 
     def _state(self, draft: Draft) -> State:
         path = self.paths[draft]
-        activity = None
-        if isinstance(draft.call, Call):
-            activity = self.activities.activity(draft.call, self.variables)
         transitions = self._transitions(draft)
         if draft.kind is StateKind.HISTORY:
-            transitions = transitions[:1] or self._to_first(draft)
+            transitions = self._default(draft)
+        submachine = draft.said("submachine")
+        active = self.data.active.get(draft)
+        entry, exit_ = self.content.effects(draft.entry), self.content.effects(draft.exit)
+        if active is not None:
+            entry = (Assignment(active, (), Literal(True, BOOL)), *entry)
+            exit_ = (*exit_, Assignment(active, (), Literal(False, BOOL)))
         return State(
             path,
             draft.name,
@@ -152,107 +159,100 @@ class MachineMaker:
             initial=self.paths[draft.initial] if draft.initial is not None else None,
             states=self._states(draft, path),
             transitions=transitions,
-            activity=activity,
-            entry=self._effects(draft.entry),
-            exit=self._effects(draft.exit),
+            activity=self._activity(draft),
+            entry=entry,
+            exit=exit_,
+            submachine=submachine.get("name") if submachine is not None else None,
             deep=draft.node.get("type") == "deep",
+            doc=doc_of(draft.about) or comment_of(draft.node),
+            docs=docs_of(draft),
         )
 
-    def _to_first(self, draft: Draft) -> tuple[Transition, ...]:
+    def _activity(self, draft: Draft) -> Activity | None:
+        if isinstance(draft.call, Call):
+            return self.activities.activity(draft.call, self.data.names)
+        said = draft.said("activity")
+        return self.activities.said(said, self.data) if said is not None else None
+
+    def _default(self, draft: Draft) -> tuple[Transition, ...]:
+        """The transition of a history: where it leads the first time."""
         assert draft.parent is not None
         target = draft.parent.initial or draft.parent.children[0]
+        for edge in draft.edges[:1]:
+            target = edge.target or target
+            for node in edge.does:
+                reason = "nothing is done on the way in a model"
+                self.content.left_out(node, f"`<{node.name}>`", reason)
         return (Transition((), None, (), self.paths[target]),)
 
     def _transitions(self, draft: Draft) -> tuple[Transition, ...]:
+        if draft.kind is StateKind.HISTORY:
+            return ()
         together: dict[tuple[Node, Draft | None], list[Edge]] = {}
         for edge in draft.edges:
             together.setdefault((edge.node, edge.target), []).append(edge)
-        made = []
+        made: list[Transition] = []
         for edges in together.values():
             try:
-                made.append(self._transition(edges, draft))
-            except _LeftOutError as fault:
-                self._left_out(edges[0].node, "this transition", fault.reason)
+                made += self._of_element(edges, draft)
+            except UnsayableError as fault:
+                self.content.left_out(edges[0].node, "this transition", fault.reason)
         return tuple(made)
 
-    def _transition(self, edges: list[Edge], draft: Draft) -> Transition:
-        """The transition that an element is; each of its events is an edge."""
+    def _of_element(self, edges: list[Edge], draft: Draft) -> Iterator[Transition]:
+        """The transitions that an element is; each of its events is an edge."""
         edge = edges[0]
-        triggers = tuple(dict.fromkeys(t for each in edges for t in self._triggers(each, draft)))
+        triggers = self.triggers.of(edges, draft)
         copied = edge.node.name != "transition"
-        cond = edge.node.get("cond") if not copied else None
-        guard = self._expression(cond, edge.node, "cond") if cond else None
-        effects = self._effects(edge.node.children) if not copied else ()
+        event = self.triggers.message(triggers)
+        guard = self.data.condition(edge.node, event) if not copied else None
         target = self.paths[edge.target] if edge.target is not None else None
-        if target is None and not effects:
-            raise _LeftOutError("it leads nowhere and does nothing")
+        inside = edge.target is not None and draft in edge.target.around()
+        internal = inside and (
+            edge.node.get("type") == "internal"
+            if draft.kind is StateKind.COMPOSITE
+            else draft.kind is StateKind.PARALLEL and edge.content is not None
+        )
+        does = edge.does if not copied else []
+        ways = list(self.content.ways(does, event, self.changed_on_exit if target else set()))
+        for conditions, nodes in ways:
+            effects = self.content.effects(nodes, event)
+            if target is None and not effects:
+                if not self._holds_back(edges, draft):
+                    if len(ways) > 1:
+                        continue
+                    raise UnsayableError("it leads nowhere and does nothing")
+                effects = (Assignment(self.data.ignored, (), Literal(True, BOOL)),)
+                fault = "it does nothing but keep other transitions from being taken: it assigns"
+                place = self.document.at(edge.node)
+                self.report.report("repaired-dialect", place, fault=fault)
+            yield Transition(
+                triggers,
+                self._guard([*([guard] if guard else []), *conditions], triggers, target, draft),
+                effects,
+                target,
+                internal,
+                comment_of(edge.node),
+            )
+
+    def _holds_back(self, edges: list[Edge], draft: Draft) -> bool:
+        """Whether another transition would be taken, were there none of these."""
+        others = [e.event for e in draft.edges if e.node is not edges[0].node]
+        others += [e.event for outer in draft.around() for e in outer.edges]
+        heard = {name for event in others if event for name in self.events.meant_by(event)}
+        own = {name for edge in edges if edge.event for name in self.events.meant_by(edge.event)}
+        return bool(heard & own)
+
+    def _guard(
+        self,
+        guards: list[Expression],
+        triggers: tuple[Trigger, ...],
+        target: str | None,
+        draft: Draft,
+    ) -> Expression | None:
+        """What must hold; one without events says so, unless the state is left at once."""
+        if guards or triggers or draft.kind is StateKind.CHOICE:
+            return all_of(guards)
         at_once = draft.kind is StateKind.SIMPLE and draft.call is None
-        waits = bool(triggers) or guard is not None or draft.kind is StateKind.HISTORY
-        if not waits and (target is None or not at_once):
-            guard = Literal(True, BOOL)
-        internal = edge.node.get("type") == "internal" and draft.kind is StateKind.COMPOSITE
-        internal = internal and edge.target in list(draft.walk())[1:]
-        return Transition(triggers, guard, effects, target, internal)
-
-    def _triggers(self, edge: Edge, draft: Draft) -> tuple[Trigger, ...]:
-        event = edge.event
-        path = self.paths[draft]
-        if event is None:
-            return ()
-        if event in OUTCOMES:
-            return (OutcomeTrigger(path, event),) if isinstance(draft.call, Call) else ()
-        if event.startswith("done.state."):
-            return (self._done(event.removeprefix("done.state."), draft),)
-        if event.startswith(("done.", "error.")):
-            raise _LeftOutError(f"a model has no event `{event}`")
-        names = self.events.meant_by(event)
-        if not names:
-            raise _LeftOutError(f"no event is called `{event}`")
-        return tuple(map(EventTrigger, names))
-
-    def _done(self, identifier: str, draft: Draft) -> Trigger:
-        if identifier in draft.ids and draft.children:
-            return DoneTrigger(self.paths[draft], None)
-        for child in draft.children if draft.kind is StateKind.PARALLEL else ():
-            if identifier in child.ids and child not in self.wrapped:
-                return DoneTrigger(self.paths[child], None)
-        raise _LeftOutError(f"the end of `{identifier}` is known there only")
-
-    def _expression(self, text: str, node: Node, attribute: str) -> Expression:
-        tree = tree_of(text)
-        if tree is None:
-            raise _LeftOutError(f"`{text}` has no meaning in a model")
-        known = set(self.types)
-        made = expression(tree, self.types, self.variables.of)
-        for name, type_ in self.types.items():
-            if name not in known:
-                place = self.document.at(node, attribute)
-                what = f"nothing is said of `{name}`"
-                self.report.report("assumed", place, what=what, assumed=f"a variable of `{type_}`")
-        return made
-
-    def _effects(self, nodes: list[Node]) -> tuple[Effect, ...]:
-        made: list[Effect] = []
-        for node in nodes:
-            try:
-                made.append(self._effect(node))
-            except _LeftOutError as fault:
-                self._left_out(node, f"`<{node.name}>`", fault.reason)
-        return tuple(made)
-
-    def _effect(self, node: Node) -> Effect:
-        if node.name == "assign" and is_plain(node.get("location", "")):
-            value = self._expression(node.get("expr", node.text.strip()), node, "expr")
-            name = node.attributes["location"]
-            self.types.setdefault(name, getattr(value, "type", None) or BOOL)
-            return Assignment(self.variables.of(name), (), value)
-        event = self.events.known.get(node.get("event", ""))
-        others = set(node.attributes) - {"event", "id"}
-        if node.name in ("send", "raise") and event is not None and not others:
-            if node.children:
-                raise _LeftOutError("it carries data")
-            return Send(event.name, ())
-        raise _LeftOutError("a model has no such effect")
-
-    def _left_out(self, node: Node, what: str, reason: str) -> None:
-        self.report.report("left-out", self.document.at(node), what=what, reason=reason)
+        at_once = at_once and draft.said("activity") is None
+        return None if at_once and target is not None else Literal(True, BOOL)

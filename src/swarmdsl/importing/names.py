@@ -23,6 +23,7 @@ class Names:
         self.style = style
         self.taken: set[str] = set()
         self.given: dict[str, str] = {}
+        self.numbers: dict[str, int] = {}
 
     def of(self, text: str) -> str:
         """The name of a thing; the same for the same text."""
@@ -30,18 +31,26 @@ class Names:
             self.given[text] = self.new(text)
         return self.given[text]
 
+    def exact(self, text: str) -> str:
+        """The name itself, where the language takes it; else one that no other thing has."""
+        if not is_plain(text) or text in self.taken:
+            return self.new(text)
+        self.taken.add(text)
+        return text
+
     def new(self, text: str) -> str:
-        """A name that no other thing has."""
+        """A name that no other thing has, in the usual style."""
         ascii_ = text.encode("ascii", "ignore").decode()
         name = self.style(re.sub(r"[^A-Za-z0-9]+", "_", ascii_))
         if not name or not name[0].isalpha():
             name = self.style(f"n_{name}") if name else self.style("unnamed")
         if name in keywords():
             name += "_"
-        number, free = 1, name
+        number, free = self.numbers.get(name, 1), name
         while free in self.taken:
             number += 1
             free = f"{name}{number}"
+        self.numbers[name] = number
         self.taken.add(free)
         return free
 

@@ -6,7 +6,7 @@ import re
 from functools import partial
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.scxml.document import Document, parse
+from swarmdsl.scxml.document import SCXML, Document, parse
 from swarmdsl.source import Source, Span
 
 # Each keeps the length of the text, so that places stay what they are: the quote that the Modelio
@@ -41,8 +41,9 @@ def read(source: Source, report: Diagnostics) -> Document | None:
     Each repair is reported; what cannot be repaired is reported as in any other document.
     """
     found = Diagnostics()
-    document = parse(source, found)
+    document = _parsed(source, found)
     if document is not None:
+        report.include(found)
         return document
     text = source.text
     repairs = Diagnostics()
@@ -51,9 +52,20 @@ def read(source: Source, report: Diagnostics) -> Document | None:
             place = Span(source, *match.span())
             repairs.report("malformed-xml", _trimmed(place), fault=fault)
         text = pattern.sub(partial(_as_long, replacement), text)
-    mended = parse(Source(source.name, text, source.path), Diagnostics()) if repairs else None
+    mended = _parsed(Source(source.name, text, source.path), repairs) if repairs else None
     report.include(found if mended is None else repairs)
     return mended
+
+
+def _parsed(source: Source, report: Diagnostics) -> Document | None:
+    """Parse a file; elements without a namespace are taken for those of SCXML, with a warning."""
+    document = parse(source, report, (SCXML, ""))
+    if document is not None and not document.root.namespace:
+        fault = "the namespace of SCXML is missing"
+        report.report("repaired-dialect", document.at(document.root), fault=fault)
+        for node in document.root.walk():
+            node.namespace = node.namespace or SCXML
+    return document
 
 
 def _as_long(replacement: str, match: re.Match[str]) -> str:

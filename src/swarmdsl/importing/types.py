@@ -11,6 +11,8 @@ from swarmdsl.ir.types import PRIMITIVES
 _VALUES = ("Bool", "Int", "UInt", "Double", "String")
 _SWARMROS = {"EventHeader", "NodeInfo", "SimpleEvent", *_VALUES, *(f"ArrayOf{v}" for v in _VALUES)}
 _ARRAY = re.compile(r"(.+)\[(\d*)\]")
+_WRITTEN_ARRAY = re.compile(r"(.+)\[(<=)?(\d{,9})\]")
+_WRITTEN_NAME = re.compile(r"([A-Za-z_][\w.-]*)/([A-Za-z_]\w*)", re.ASCII)
 _ALIASES = {"number": "float64", "boolean": "bool", "float": "float64", "int": "int32"}
 _ALIASES |= {"double": "float64", "integer": "int32", "String": "string"}
 MISSPELT = {"stds_msgs": "std_msgs"}
@@ -19,7 +21,7 @@ MISSPELT = {"stds_msgs": "std_msgs"}
 
 def qualified(text: str, kind: str) -> Named:
     """The interface that a class means; `kind` is message, service or action."""
-    words = re.findall(r"[A-Za-z][A-Za-z0-9_]*", text)
+    words = re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text)
     name = words[-1] if words else "Empty"
     if len(words) > 1:
         return Named(MISSPELT.get(words[0], words[0]), name)
@@ -39,3 +41,17 @@ def data_type(text: str) -> Type:
     if name == "Header":
         return Named("std_msgs", name)
     return qualified(text, "message")
+
+
+def written_type(text: str) -> Type | None:
+    """The type that `str(type)` writes; None for a text that is no type."""
+    array = _WRITTEN_ARRAY.fullmatch(text)
+    if array is not None:
+        element = written_type(array[1])
+        size = int(array[3]) if array[3] else None
+        return Array(element, size, bool(array[2])) if element is not None else None
+    name, bounded, bound = text.partition("<=")
+    if name in PRIMITIVES and bound.isdigit() == bool(bounded):
+        return Primitive(name, int(bound) if bounded else None)
+    named = _WRITTEN_NAME.fullmatch(text)
+    return Named(named[1], named[2]) if named is not None else None

@@ -6,10 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
-from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
-from swarmdsl.exchange.scxml.portable import portable
 from swarmdsl.exchange.scxml.profile import HELP
-from swarmdsl.exchange.scxml.xml import document
+from swarmdsl.exchange.xml import document
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
 
@@ -27,6 +25,9 @@ class Options:
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """The files of each machine."""
+    # Imported here because other targets use single modules of this package.
+    from swarmdsl.exchange.scxml.portable import portable
+
     for machine in system.machines:
         if options.profile != "cpswarm":
             text = document(portable(machine, system))
@@ -38,6 +39,8 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
 def _in_dialect(
     machine: StateMachine, system: System, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
+    from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
+
     found = Diagnostics()
     tree = cpswarm(machine, system, found)
     if tree is not None:
@@ -46,10 +49,12 @@ def _in_dialect(
     elif options.profile == "cpswarm":
         report.include(found)
     else:
-        _report_left_out(machine, found, report)
+        _report_left_out(file_name(machine), machine, found, report)
 
 
-def _report_left_out(machine: StateMachine, found: Diagnostics, report: Diagnostics) -> None:
+def _report_left_out(
+    path: str, machine: StateMachine, found: Diagnostics, report: Diagnostics
+) -> None:
     """Warn that one of two files is missing, at the first thing that stands in its way."""
     first, *others = _errors(found)
     notes = [first.message]
@@ -61,7 +66,7 @@ def _report_left_out(machine: StateMachine, found: Diagnostics, report: Diagnost
         related=first.related,
         notes=tuple(notes),
         help=HELP,
-        path=file_name(machine),
+        path=path,
     )
 
 

@@ -24,7 +24,8 @@ from swarmdsl.exchange.scxml.threads import (
     shape,
 )
 from swarmdsl.exchange.scxml.userdata import missing
-from swarmdsl.exchange.scxml.xml import SCXML, add, add_comment, add_text, root
+from swarmdsl.exchange.scxml.xml import SCXML, add, add_text, root
+from swarmdsl.exchange.xml import add_comment
 from swarmdsl.features import used_features
 from swarmdsl.generator import Feature
 from swarmdsl.ir import Activity, Event, Named, Policy, State, StateMachine, System

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator
 from functools import reduce
 
 from swarmdsl.exchange.scxml.events import Events
-from swarmdsl.ir import Binary, Expression, State, StateKind, Transition, Unary
+from swarmdsl.ir import Binary, Expression, Literal, State, StateKind, Transition, Unary
 from swarmdsl.ir.types import BOOL
 
 
@@ -35,14 +35,13 @@ def inward(
         if region_entered(transition, around) is not region:
             continue
         for event in events.of_transition(transition, around):
-            guards = [
-                earlier.guard
+            # One that is never taken is written too: it comes back when the document is read.
+            refused = [
+                Unary("not", earlier.guard or Literal(True, BOOL), BOOL)
                 for earlier in around.transitions[:index]
                 if event in events.of_transition(earlier, around)
             ]
-            if None not in guards:
-                refused = (Unary("not", guard, BOOL) for guard in guards if guard)
-                yield event, _all(refused, transition.guard), transition
+            yield event, _all(refused, transition.guard), transition
 
 
 def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:

@@ -13,7 +13,8 @@ from lxml import etree
 from swarmdsl.exchange.constants import params_by_name
 from swarmdsl.exchange.policy import goal_policy, result_policy
 from swarmdsl.exchange.scxml.effects import effects_of
-from swarmdsl.exchange.scxml.xml import add_payload, legal
+from swarmdsl.exchange.scxml.interfaces import describe_interfaces
+from swarmdsl.exchange.scxml.xml import add_doc, add_payload
 from swarmdsl.ir import (
     Activity,
     EventTrigger,
@@ -23,7 +24,11 @@ from swarmdsl.ir import (
     StateKind,
     StateMachine,
     System,
+    Type,
+    Variable,
+    doc_of,
 )
+from swarmdsl.ir.docs import Docs
 from swarmdsl.translate import Dialect, translate
 
 
@@ -31,12 +36,16 @@ def describe_machine(
     root: etree._Element, machine: StateMachine, system: System, data: Mapping[str, str]
 ) -> None:
     """Say of the machine, and of the events and functions that it uses, what SCXML cannot."""
-    _doc(root, machine.doc)
+    add_payload(root, "model", package=system.name)
+    add_doc(root, machine.doc)
+    _add_initial(root, machine.docs)
     if machine.endless:
         add_payload(root, "endless")
     used = set(_events(machine))
+    types: list[Type] = []
     for event in system.events:
         if event.name in used:
+            types.append(event.type)
             element = add_payload(
                 root,
                 "event",
@@ -45,10 +54,11 @@ def describe_machine(
                 topic=event.topic,
                 swarm="true" if event.swarm else "false",
             )
-            _doc(element, event.doc)
+            add_doc(element, event.doc)
     called = {state.activity.function for state in machine.walk() if state.activity is not None}
     for function in system.functions:
         if function.name in called:
+            types.append(function.communication.type)
             element = add_payload(
                 root,
                 "function",
@@ -58,20 +68,29 @@ def describe_machine(
                 server=function.communication.name,
                 type=str(function.communication.type),
             )
-            _doc(element, function.doc)
+            add_doc(element, function.doc)
     for tag, items in (("parameter", machine.params), ("variable", machine.variables)):
         for item in items:
+            types.append(item.type)
+            unset = isinstance(item, Variable) and item.initial is None
             element = add_payload(
-                root, tag, name=item.name, type=str(item.type), location=data[item.name]
+                *(root, tag),
+                name=item.name,
+                type=str(item.type),
+                location=data[item.name],
+                # The value in the document is then the default of the type.
+                initial="default" if unset else None,
             )
-            _doc(element, item.doc)
+            add_doc(element, item.doc)
+    describe_interfaces(root, types, system)
 
 
 def describe_state(
     element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
 ) -> None:
     """Say of a state what SCXML cannot."""
-    _doc(element, state.doc)
+    add_doc(element, state.doc)
+    _add_initial(element, state.docs)
     name = state.name if state.name != element.get("id") else None
     kind = state.kind.value if state.kind is StateKind.CHOICE else None
     if name or kind:
@@ -83,11 +102,18 @@ def describe_state(
         _activity(element, state.activity, params_by_name(machine.params), dialect)
 
 
+def _add_initial(parent: etree._Element, docs: Docs) -> None:
+    """What is said of the first state; not called `initial`, as above."""
+    text = doc_of(docs, "initial")
+    if text:
+        add_doc(add_payload(parent, "first"), text)
+
+
 def _activity(
     parent: etree._Element, activity: Activity, params: Mapping[str, Param], dialect: Dialect
 ) -> None:
     element = add_payload(parent, "activity", function=activity.function)
-    _doc(element, activity.doc)
+    add_doc(element, activity.doc)
     goal = add_payload(
         element,
         "goal",
@@ -116,8 +142,3 @@ def _events(machine: StateMachine) -> Iterator[str]:
     for effect in effects_of(machine):
         if isinstance(effect, Send):
             yield effect.event
-
-
-def _doc(parent: etree._Element, text: str) -> None:
-    if text:
-        add_payload(parent, "doc").text = legal(text)

@@ -18,7 +18,8 @@ from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.inward import inward, region_entered
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
-from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, add_comment, root
+from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
+from swarmdsl.exchange.xml import add_comment
 from swarmdsl.ir import (
     Assignment,
     Effect,

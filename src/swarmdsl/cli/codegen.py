@@ -1,0 +1,76 @@
+"""`swarmc codegen`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import conclude
+
+_FILE = click.Path(path_type=Path)
+
+
+@click.command(epilog="Example: swarmc codegen --env ROS --scxml sar.xml --adf uav.json -o out")
+@click.option(
+    "--env",
+    "-e",
+    type=click.Choice(["ROS"], case_sensitive=False),
+    default="ROS",
+    show_default=True,
+    help="What the packages are for.",
+)
+@click.option(
+    "--scxml", "--src", type=_FILE, required=True, metavar="FILE", help="The state machine."
+)
+@click.option("--adf", type=_FILE, metavar="FILE", help="Describes the functions that it calls.")
+@click.option(
+    "--output",
+    "-o",
+    "--target",
+    "out",
+    type=_FILE,
+    required=True,
+    metavar="DIR",
+    help="The folder for the packages.",
+)
+@click.option(
+    "--mode", type=click.Choice(["simulation"]), help="Add a launch file for Gazebo and a world."
+)
+@click.option(
+    "--package", default="fsm_behaviour", show_default=True, help="The name of the package."
+)
+@click.option(
+    "--language",
+    type=click.Choice(["cpp", "python"]),
+    default="cpp",
+    show_default=True,
+    help="The language of skeletons.",
+)
+@click.option("--force", is_flag=True, help="Overwrite generated files that were edited.")
+@options.diagnostics_format
+@options.debug
+def codegen(
+    env: str,
+    scxml: Path,
+    adf: Path | None,
+    out: Path,
+    mode: str | None,
+    package: str,
+    language: str,
+    force: bool,
+    format_: str,
+) -> int:
+    """Generate ROS packages from SCXML and ADF files, as the CPSwarm code generator does.
+
+    To keep the model that is made of them on the way, use `swarmc import scxml`.
+    """
+    from swarmdsl.codegen import codegen as generate
+
+    simulation = mode is not None
+    result = generate(
+        scxml, adf, out, package, language=language, simulation=simulation, force=force
+    )
+    return conclude(result, format_, sys.stdout)

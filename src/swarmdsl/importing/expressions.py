@@ -1,0 +1,246 @@
+"""Expressions of ECMAScript, as far as the language has them too.
+
+The types of what they are made of decide what they mean: a number is a duration in milliseconds
+where it stands for a duration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from swarmdsl.importing.shapes import (
+    COMPARISONS,
+    OPERATORS,
+    Types,
+    copied,
+    is_event,
+    is_name,
+    number,
+    operator_of,
+    remainder,
+)
+from swarmdsl.ir import (
+    Array,
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    ParamRef,
+    Primitive,
+    Type,
+    Unary,
+    VariableRef,
+)
+from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
+from swarmdsl.scxml.ecmascript import Unreadable, parse, unquoted
+
+# How many values each takes, or more.
+_FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1}
+_NO_NAMES = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
+
+_SHOWN = 80
+_TEXTS = ("string", "wstring")
+
+
+class UnsayableError(Exception):
+    """The language has no such thing; `reason` says why, as a clause."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason)
+        self.reason = reason
+
+
+class Expressions:
+    """Reads the expressions of one document.
+
+    `refer` gives what a name means where a value of some type is wanted, and `inside` the
+    condition that a state is active. `field` gives the type of a field, None for an unknown one.
+    """
+
+    def __init__(
+        self,
+        types: Mapping[str, Type],
+        refer: Callable[[str, Type], VariableRef | ParamRef],
+        field: Callable[[Type | None, str], Type | None],
+        inside: Callable[[str], Expression],
+    ) -> None:
+        self.types = types
+        self.refer = refer
+        self.field = field
+        self.inside = inside
+
+    def read(self, text: str, wanted: Type | None, event: Type | None = None) -> Expression:
+        """The expression, where `event` is the message at hand. Raises UnsayableError."""
+        try:
+            return _Reading(self, event).expression(parse(text), wanted)
+        except Unreadable as error:
+            reason = str(error)
+        except UnsayableError as error:
+            reason = error.reason
+        shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
+        raise UnsayableError(f"`{shown}` has no meaning in a model: {reason}")
+
+    def type(self, text: str) -> Type | None:
+        """The type of an expression, as far as it does not depend on what is wanted."""
+        try:
+            return Types(self.types, self.field, None).of(parse(text))
+        except Unreadable:
+            return None
+
+
+def path(text: str) -> tuple[str, ...]:
+    """The name of a variable and the fields below it that a location stands for.
+
+    Raises UnsayableError.
+    """
+    names = text.strip().split(".")
+    if not all(name.isidentifier() and name.isascii() for name in names):
+        raise UnsayableError(f"`{text}` is no variable or field of one")
+    return tuple(names)
+
+
+def constant(text: str, wanted: Type | None) -> Expression:
+    """An expression that depends on nothing. Raises UnsayableError."""
+
+    def refer(name: str, wanted: Type) -> VariableRef:
+        raise UnsayableError(f"`{name}` is not known in advance")
+
+    def inside(state: str) -> Expression:
+        raise UnsayableError("states are not known in advance")
+
+    return Expressions({}, refer, lambda type_, field: None, inside).read(text, wanted)
+
+
+class _Reading:
+    """Reads one expression."""
+
+    def __init__(self, known: Expressions, event: Type | None) -> None:
+        self.known = known
+        self.event = event
+        self.types = Types(known.types, known.field, event)
+
+    def expression(self, tree: Any, wanted: Type | None) -> Expression:
+        children = tree.children
+        match tree.data:
+            case "number":
+                return number(str(children[0]), wanted)
+            case "text":
+                return Literal(unquoted(children[0]), STRING)
+            case "name":
+                return self._name(str(children[0]), wanted)
+            case "member":
+                return self._member(tree)
+            case "sign":
+                return self._sign(str(children[0]), children[1], wanted)
+            case "both" | "either" as word:
+                left, right = (self.expression(each, BOOL) for each in children)
+                return Binary("and" if word == "both" else "or", left, right, BOOL)
+            case "operation":
+                return self._operation(tree, wanted)
+            case "call":
+                return self._call(tree, wanted)
+        raise UnsayableError("there is nothing like it")
+
+    def _name(self, name: str, wanted: Type | None) -> Expression:
+        if name in ("true", "false"):
+            return Literal(name == "true", BOOL)
+        if name in _NO_NAMES:
+            raise UnsayableError(f"`{name}` is no value")
+        return self.known.refer(name, wanted or BOOL)
+
+    def _member(self, tree: Any) -> Expression:
+        base, name = tree.children[0], str(tree.children[1])
+        if is_event(tree):
+            if self.event is None:
+                raise UnsayableError("it is not known what came with the event")
+            return EventData(self.event)
+        if base.data == "name" and str(base.children[0]) in (*_NO_NAMES, "Math"):
+            raise UnsayableError(f"`{base.children[0]}.{name}` is no value")
+        unknown = base.data == "name" and str(base.children[0]) not in self.known.types
+        if unknown and name != "length":
+            raise UnsayableError(f"nothing is said of `{base.children[0]}`")
+        owner = self.expression(base, STRING if name == "length" else None)
+        type_ = getattr(owner, "type", None)
+        kind = type_.name if isinstance(type_, Primitive) else ""
+        if name == "length" and (kind in _TEXTS or isinstance(type_, Array)):
+            return Call("len", (owner,), INT)
+        # Times have fields in ROS.
+        if isinstance(type_, Array) or (kind and kind not in ("time", "duration")):
+            raise UnsayableError(f"`{type_}` has no `{name}`")
+        return FieldAccess(owner, name, self.known.field(type_, name))
+
+    def _sign(self, sign: str, operand: Any, wanted: Type | None) -> Expression:
+        if sign == "!":
+            return Unary("not", self.expression(operand, BOOL), BOOL)
+        if sign == "typeof":
+            raise UnsayableError("types are known in advance")
+        value = self.expression(operand, wanted if wanted != BOOL else INT)
+        if sign == "+":
+            return value
+        if isinstance(value, Literal) and not isinstance(value.value, (bool, str)):
+            return Literal(-value.value, value.type)
+        return Unary("-", value, value.type)
+
+    def _operation(self, tree: Any, wanted: Type | None) -> Expression:
+        left, sign, right = tree.children
+        rest = remainder(tree)
+        if rest is not None:
+            return self._arithmetic("%", *rest, wanted)
+        operator = OPERATORS.get(str(sign), str(sign))
+        if operator == "%":
+            raise UnsayableError("`%` of a negative number is another one in a model")
+        if operator not in COMPARISONS:
+            return self._arithmetic(operator, left, right, wanted)
+        hint = self.types.common(left, right) or INT
+        return Binary(operator, self.expression(left, hint), self.expression(right, hint), BOOL)
+
+    def _arithmetic(self, operator: str, left: Any, right: Any, wanted: Type | None) -> Expression:
+        open_ = wanted in (None, BOOL)
+        plain = INT if open_ else wanted
+        first, second = self.types.of(left), self.types.of(right)
+        if operator in ("+", "-"):
+            hint = self.types.common(left, right) if open_ else wanted
+            values = [self.expression(each, hint or plain) for each in (left, right)]
+        elif DURATION in (first, second) or wanted == DURATION:
+            # A duration times a number, or divided by one; of two numbers, the first is meant.
+            is_second = first != DURATION and (
+                second == DURATION or (left.data != "number" and operator == "*")
+            )
+            both = operator == "/" and (second == DURATION or wanted not in (None, BOOL, DURATION))
+            values = [
+                self.expression(left, DURATION if both or not is_second else INT),
+                self.expression(right, DURATION if is_second or both else INT),
+            ]
+        else:
+            values = [self.expression(each, plain) for each in (left, right)]
+        known = self.types.of_operation(operator, first, second)
+        return Binary(operator, values[0], values[1], known or getattr(values[0], "type", None))
+
+    def _call(self, tree: Any, wanted: Type | None) -> Expression:
+        callee, *arguments = tree.children
+        meant = operator_of(callee, arguments)
+        if meant == "sqrt":
+            return Call("sqrt", (self.expression(arguments[0], FLOAT),), FLOAT)
+        if meant is not None:
+            return self._arithmetic(meant, arguments[0], arguments[1], wanted)
+        if is_name(callee, "In") and [e.data in ("text", "name") for e in arguments] == [True]:
+            # The null data model has no quotes around the id (SCXML, B.1.2).
+            return self.known.inside(unquoted(arguments[0].children[0]))
+        if callee.data == "member" and is_name(callee.children[0], "Math"):
+            name = str(callee.children[1])
+            least = _FUNCTIONS.get(name, 0)
+            if least == 2 <= len(arguments) or least == 1 == len(arguments):
+                open_ = wanted in (None, BOOL)
+                hint = (self.types.common(*arguments) or INT) if open_ else wanted
+                hint = FLOAT if name == "sqrt" else hint
+                return Call(name, tuple(self.expression(e, hint) for e in arguments), hint)
+            if least:
+                raise UnsayableError(f"`Math.{name}` is of other values")
+            raise UnsayableError(f"there is no `Math.{name}`")
+        inner = copied(tree)
+        if inner is not None:
+            return self.expression(inner, wanted)
+        raise UnsayableError("only some functions of `Math` can be called")

@@ -1,0 +1,49 @@
+"""The files that are imported: what they say, and what the model of them is called."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Literal
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.importing import import_adf, import_scxml
+from swarmdsl.ir import System
+from swarmdsl.naming import snake_case
+from swarmdsl.reading import read_source
+from swarmdsl.source import Source
+
+MOST = 16 * 2**20
+"""How many bytes a file of others may have."""
+
+
+def read_files(
+    format_: Literal["scxml", "adf", "amf"],
+    paths: Sequence[Path],
+    described: Sequence[Path],
+    name: str,
+    known: System | None,
+    guesses: set[tuple[str, str]],
+    report: Diagnostics,
+) -> tuple[System, int]:
+    """What the files say, and how many they are; an empty system where one cannot be read."""
+    files = len(paths) + len(described)
+    sources, adfs = read_sources(paths, report), read_sources(described, report)
+    if report.has_errors:
+        return System(name), files
+    if format_ == "scxml":
+        return import_scxml(sources, adfs, name, report, known, guesses), files
+    category: Literal["abstraction", "swarm"] = "swarm" if format_ == "amf" else "abstraction"
+    return import_adf(sources, name, report, category, guesses), files
+
+
+def read_sources(paths: Sequence[Path], report: Diagnostics) -> list[Source]:
+    """The texts of the files that can be read, each read once: one may be a pipe."""
+    sources = (read_source(path, None, report, "a file", MOST) for path in paths)
+    return [source for source in sources if source is not None]
+
+
+def package_of(path: Path) -> str:
+    """The package of a model, after the file that it is in or comes from."""
+    name = snake_case(path.absolute().name.partition(".")[0])
+    return name if name[:1].isalpha() else f"model_{name}".rstrip("_")

@@ -1,0 +1,182 @@
+"""What all files that are read together say of functions, devices and interfaces."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable
+
+from swarmdsl.dataclass import replace
+from swarmdsl.importing.calls import Call
+from swarmdsl.importing.names import Names, type_names, value_names
+from swarmdsl.importing.types import data_type
+from swarmdsl.ir import (
+    Action,
+    Communication,
+    Component,
+    Field,
+    Function,
+    Interface,
+    Literal,
+    Message,
+    Named,
+    Policy,
+    Service,
+    System,
+    Type,
+)
+from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
+from swarmdsl.ros.interface_file import Kind
+from swarmdsl.ros.standard import lookup
+from swarmdsl.syntax import ActionType, MessageType, ServiceType
+from swarmdsl.syntax import Field as Described
+
+
+class Library:
+    """The functions, devices and interfaces of all that is read together."""
+
+    def __init__(self) -> None:
+        self.names: Names = value_names()
+        self.functions: dict[tuple[str, str, Named], Function] = {}
+        self.by_name: dict[str, tuple[str, str, Named]] = {}
+        self.interfaces: dict[Named, Interface] = {}
+        self.devices: Names = type_names()
+        self.components: list[Component] = []
+        # What nobody has said: the name of a declaration, and what of it.
+        self.guesses: set[tuple[str, str]] = set()
+        self._known = System("")
+
+    def know(self, system: System) -> None:
+        """Take what a model has beside what is described: calls are of its functions too."""
+        others = {name for each in system.components for name in each.operations}
+        others |= {n for m in system.members for part in m.parts for n in part.operations}
+        others |= {function.name for function in self.functions.values()}
+        functions = tuple(each for each in system.functions if each.name not in others)
+        self._known = replace(system, functions=functions)
+        for function in functions:
+            call = function.communication
+            self.functions.setdefault((call.paradigm, call.name, call.type), function)
+            self.names.taken.add(function.name)
+        for interface in system.interfaces:
+            self.interfaces.setdefault(interface.type, interface)
+
+    def new_functions(self) -> tuple[Function, ...]:
+        """Those that are not known from a model."""
+        return tuple(each for each in self.functions.values() if each not in self._known.functions)
+
+    def new_interfaces(self) -> tuple[Interface, ...]:
+        """Those that are not known from a model."""
+        known = self._known.interfaces
+        return tuple(each for each in self.interfaces.values() if each not in known)
+
+    def describe(self, interface: Interface) -> bool:
+        """Take what is said of an interface; False where ROS comes with it, and has it otherwise.
+
+        What ROS itself says of services and actions is enough.
+        """
+        standard = lookup(interface.type)
+        if standard is None:
+            self.interfaces.setdefault(interface.type, interface)
+        elif isinstance(interface, Message) and isinstance(standard, MessageType):
+            if [each.name for each in interface.fields] != [str(e.name) for e in standard.fields]:
+                return False
+            self.interfaces.setdefault(interface.type, interface)
+        return True
+
+    def interface(self, call: Call) -> Interface | None:
+        """What is known of the interface that a call goes by."""
+        known = self.interfaces.get(call.type)
+        kind: Kind = "srv" if call.paradigm == "service" else "action"
+        standard = lookup(call.type, kind) if known is None else None
+        match standard:
+            case ActionType(goal=goal, result=result):
+                fields = _standard_fields(goal), _standard_fields(result)
+                return Action(call.type, *fields, (), external=True)
+            case ServiceType(request=goal, response=result):
+                fields = _standard_fields(goal), _standard_fields(result)
+                return Service(call.type, *fields, external=True)
+        return known
+
+    def message(self, type_: Type | None) -> Message | None:
+        """What is known of a message."""
+        known = self.interfaces.get(type_) if isinstance(type_, Named) else None
+        if isinstance(known, Message) or not isinstance(type_, Named):
+            return known if isinstance(known, Message) else None
+        match lookup(type_, "msg"):
+            case MessageType(fields=fields):
+                return Message(type_, _standard_fields(fields), external=True)
+        return None
+
+    def add(self, function: Function) -> None:
+        """Take a function that an ADF file or a document describes."""
+        call = function.communication
+        self.functions[call.paradigm, call.name, call.type] = function
+
+    def take(self, function: Function) -> None:
+        """Take a function that the portable profile names; ADF says more of one, if it is there."""
+        call = function.communication
+        key = (call.paradigm, call.name, call.type)
+        if key not in self.functions:
+            self.names.taken.add(function.name)
+            self.functions[key] = function
+        self.by_name[function.name] = key
+
+    def called(self, name: str) -> Function | None:
+        """The function that the portable profile calls so."""
+        return self.functions.get(self.by_name[name]) if name in self.by_name else None
+
+    def function(self, call: Call) -> Function:
+        """The function that a call asks for, made where nothing is known of it."""
+        known = self.functions.get((call.paradigm, call.name, call.type))
+        if known is None:
+            name = call.function
+            if all(each.name != name for each in self._known.functions):
+                name = self.names.new(call.function or call.name.rpartition("/")[2])
+            self.guesses.add((name, "category"))
+            known = Function(
+                name,
+                "abstraction" if call.name.startswith("cmd/") else "swarm",
+                Communication(call.paradigm, call.name, call.type),
+                (),
+                (),
+            )
+            self.add(known)
+        return known
+
+    def learn(self, calls: list[Call]) -> None:
+        """Name the fields of goals that are only ever given as values in their order."""
+        by_type: dict[tuple[str, Named], list[Call]] = {}
+        for call in calls:
+            by_type.setdefault((call.paradigm, call.type), []).append(call)
+        for (paradigm, type_), same in by_type.items():
+            counts = {len(c.goal_items) if c.goal is Policy.FIXED else 0 for c in same}
+            values = [literal(item) for item in same[0].goal_items]
+            literals = [value for value in values if value is not None]
+            if self.interface(same[0]) is not None or len(counts) > 1 or counts == {0}:
+                continue
+            if len(literals) < len(values):
+                continue
+            fields = tuple(Field(f"value{i}", v.type) for i, v in enumerate(literals, 1))
+            results = dict.fromkeys(item for call in same for item in call.result_items)
+            stored = tuple(Field(name, STRING) for name in results)
+            self.interfaces[type_] = (
+                Action(type_, fields, stored, (), external=True)
+                if paradigm == "action"
+                else Service(type_, fields, stored, external=True)
+            )
+
+
+def _standard_fields(fields: Iterable[Described]) -> tuple[Field, ...]:
+    return tuple(
+        Field(str(field.name), data_type(f"{field.type.name}{field.type.array}"))
+        for field in fields
+    )
+
+
+def literal(text: str) -> Literal | None:
+    """A value as Python writes it; None for anything that would have to be computed."""
+    try:
+        value = ast.literal_eval(text)
+    except (ValueError, SyntaxError, MemoryError, RecursionError):
+        return None
+    types = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+    return Literal(value, types[type(value)]) if type(value) in types else None

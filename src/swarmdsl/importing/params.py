@@ -1,0 +1,252 @@
+"""Parameter files of ROS: names, values and comments to params.
+
+The YAML is that of version 1.1, as ROS reads it. A map in a map is a namespace of parameters;
+`ros__parameters` is what ROS 2 puts between the name of a node and its parameters.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+
+import yaml
+
+from swarmdsl.dataclass import dataclass, field
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.importing.names import Names, is_plain, value_names
+from swarmdsl.ir import Array, Literal, Param, Primitive, Type
+from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
+from swarmdsl.source import Source, Span
+
+_OF_A_NODE = "ros__parameters"
+_TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+# Of what has more, or is deeper, somebody has made a bomb of aliases.
+_MOST = 10_000
+_DEEPEST = 32
+_COMMENT = re.compile(r"(?P<indent>[ \t]*)#+(?:[ \t]+(?P<text>.*))?")
+_BEHIND = re.compile(r"(?:.*\s)?#+[ \t]*(?P<text>.*)")
+_CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
+_TAG = "tag:yaml.org,2002:"
+_PLAIN = {f"{_TAG}{name}" for name in ("bool", "int", "float", "str", "timestamp")}
+
+
+@dataclass(eq=False)
+class Owner:
+    """The params of one node, by the names that ROS has for them; `doc` stands above all."""
+
+    doc: str = ""
+    params: dict[str, Param] = field(default_factory=dict)
+    names: Names = field(default_factory=value_names)
+
+
+@dataclass(eq=False)
+class _Entry:
+    """A parameter as it is written; `node` is empty where none is named."""
+
+    node: str
+    name: str
+    key: yaml.Node
+    value: yaml.Node
+    doc: list[str]
+
+
+def read_params(
+    source: Source, package: str, owners: dict[str, Owner], report: Diagnostics
+) -> None:
+    """Add the params in a file to those of its package, or of the nodes that it names."""
+    reader = _Reader(source, report)
+    try:
+        deep = _too_deep(source.text)
+        if deep is not None:
+            reader.fault(deep, "it is nested too deeply")
+            return
+        top = yaml.compose(source.text, Loader=yaml.SafeLoader)
+    except yaml.MarkedYAMLError as error:
+        mark = error.problem_mark or error.context_mark
+        reader.fault(mark.index if mark else 0, error.problem or error.context or "")
+        return
+    except yaml.reader.ReaderError as error:
+        reader.fault(error.position, error.reason)
+        return
+    if top is not None and not isinstance(top, yaml.MappingNode):
+        reader.left_out(top, "this file", "it is no map of parameters")
+    elif top is not None:
+        reader.read(top)
+        for entry in reader.entries:
+            owner = owners.setdefault(entry.node or package, Owner())
+            if reader.header:
+                owner.doc, reader.header = f"{owner.doc}\n{reader.header}".strip(), ""
+            reader.add(entry, owner)
+
+
+def _too_deep(text: str) -> int | None:
+    """Where a text is nested deeper than a parameter file is, which would exhaust the stack."""
+    depth = 0
+    for event in yaml.parse(text, Loader=yaml.SafeLoader):
+        depth += isinstance(event, yaml.CollectionStartEvent)
+        depth -= isinstance(event, yaml.CollectionEndEvent)
+        if depth > 2 * _DEEPEST:
+            return event.start_mark.index if event.start_mark is not None else 0
+    return None
+
+
+class _Reader:
+    """Reads one file; `header` is the comment at its top with a blank line below."""
+
+    def __init__(self, source: Source, report: Diagnostics) -> None:
+        self.entries: list[_Entry] = []
+        self.header = ""
+        self._source = source
+        self._report = report
+        # Up to where comments have been read, what they may still be about, and those that wait
+        # for what they are about.
+        self._end = 0
+        self._last: list[str] | None = None
+        self._waiting: list[str] = []
+
+    def read(self, top: yaml.MappingNode) -> None:
+        """Find all parameters and their comments."""
+        self._map(top, "", "", 1)
+        self._comments(len(self._source.text), -1)
+
+    def _map(self, node: yaml.MappingNode, whose: str, prefix: str, depth: int) -> None:
+        for key, value in node.value:
+            self._comments(key.start_mark.index, key.start_mark.column)
+            self._end = max(self._end, key.end_mark.index)
+            word = key.value if isinstance(key, yaml.ScalarNode) else "<<"
+            name = f"{prefix}{word}"
+            if len(self.entries) == _MOST or depth > _DEEPEST:
+                self.left_out(key, f"`{name}`", "no parameter file has so much in it")
+                return
+            if word == "<<":
+                self.left_out(key, f"`{Span(self._source, *_extent(key)).text}`", "it is no name")
+            elif value.tag == f"{_TAG}map" and not value.value:
+                self.left_out(key, f"`{name}`", "there is nothing in it")
+            elif value.tag == f"{_TAG}map" and isinstance(value, yaml.MappingNode):
+                self._last = None
+                if word == _OF_A_NODE:
+                    node_name = prefix.rstrip("/").rpartition("/")[2]
+                    self._map(value, "" if "*" in node_name else node_name, "", depth + 1)
+                else:
+                    self._map(value, whose, f"{name}/", depth + 1)
+            else:
+                entry = _Entry(whose, name, key, value, self._waiting)
+                self.entries.append(entry)
+                self._waiting, self._last = [], entry.doc
+                line_end = self._source.text.find("\n", self._end)
+                self._comments(min(value.start_mark.index, line_end + 1), -1)
+                self._end = max(self._end, _end(value))
+
+    def _comments(self, until: int, column: int) -> None:
+        """Give the comments before a place to what they are about.
+
+        That is what they stand behind, or what they are further in than that place, else what
+        comes there.
+        """
+        if until <= self._end:
+            return
+        behind, *lines = self._source.text[self._end : until].split("\n")
+        if self._end == 0:
+            lines = self._after_header([behind, *lines])
+        elif (found := _BEHIND.fullmatch(behind)) and found["text"].strip():
+            (self._waiting if self._last is None else self._last).append(found["text"].strip())
+        self._end = until
+        for line in lines:
+            found = _COMMENT.fullmatch(line)
+            if found is None or not found["text"]:
+                continue
+            inside = self._last is not None and len(found["indent"]) > column
+            about = self._last if inside and self._last is not None else self._waiting
+            about.append(found["text"].strip())
+
+    def _after_header(self, lines: list[str]) -> list[str]:
+        blank = [number for number, line in enumerate(lines[:-1]) if not line.strip()]
+        cut = blank[-1] if blank else 0
+        comments = filter(None, map(_COMMENT.fullmatch, lines[:cut]))
+        self.header = "\n".join(found["text"].strip() for found in comments if found["text"])
+        return lines[cut:]
+
+    def add(self, entry: _Entry, owner: Owner) -> None:
+        """Add a param to those of its owner; what it cannot be is reported."""
+        if entry.name in owner.params:
+            self.left_out(entry.key, f"`{entry.name}`", "it has a value already")
+            return
+        type_, default = self._value(entry)
+        if type_ is None:
+            return
+        plain = is_plain(entry.name) and entry.name not in owner.names.taken
+        name = entry.name if plain else owner.names.new(entry.name)
+        owner.names.taken.add(name)
+        if name != entry.name:
+            self._report.report("renamed", self._at(entry.key), name=entry.name, new=name)
+        doc = _CONTROL.sub(" ", "\n".join(entry.doc))
+        owner.params[entry.name] = Param(name, type_, default, doc, self._at(entry.key))
+
+    def _value(self, entry: _Entry) -> tuple[Type | None, Literal | None]:
+        node = entry.value
+        if isinstance(node, yaml.SequenceNode):
+            known = {type(each) for each in map(_scalar, node.value)}
+            element = FLOAT if known == {int, float} else None
+            if len(known) == 1:
+                element = _TYPES.get(known.pop())
+            if element is None:
+                self.left_out(entry.key, f"`{entry.name}`", "its values have no type in common")
+                return None, None
+            what = f"the value of `{entry.name}`"
+            self.left_out(entry.key, what, "a model has no values of arrays")
+            return Array(element), None
+        value = _scalar(node)
+        if value is None:
+            self.left_out(entry.key, f"`{entry.name}`", "its value is not of a type")
+            return None, None
+        type_ = _TYPES[type(value)]
+        if not _can_be_written(value):
+            what = f"the value of `{entry.name}`"
+            reason = f"a model has no such {'text' if isinstance(value, str) else 'number'}"
+            self.left_out(entry.key, what, reason)
+            return type_, None
+        return type_, Literal(value, type_)
+
+    def left_out(self, node: yaml.Node, what: str, reason: str) -> None:
+        """Report what does not become a param."""
+        self._report.report("left-out", self._at(node), what=what, reason=reason)
+
+    def fault(self, at: int, reason: str) -> None:
+        """Report that the file cannot be read from a place on."""
+        at = min(at, len(self._source.text))
+        place = Span(self._source, at, min(at + 1, len(self._source.text)))
+        self._report.report("not-yaml", place, reason=reason)
+
+    def _at(self, node: yaml.Node) -> Span:
+        return Span(self._source, *_extent(node))
+
+
+def _extent(node: yaml.Node) -> tuple[int, int]:
+    return node.start_mark.index, node.end_mark.index
+
+
+def _end(node: yaml.Node) -> int:
+    """Where a value ends: a block is said to end where the next thing begins."""
+    inner = node.value
+    if isinstance(node, yaml.CollectionNode) and not node.flow_style and inner:
+        last = inner[-1]
+        return _end(last[1] if isinstance(last, tuple) else last)
+    return node.end_mark.index
+
+
+def _scalar(node: yaml.Node) -> bool | int | float | str | None:
+    if not isinstance(node, yaml.ScalarNode) or node.tag not in _PLAIN:
+        return None
+    if node.tag == f"{_TAG}timestamp":
+        return str(node.value)  # to ROS it is a text
+    try:
+        value = yaml.constructor.SafeConstructor().construct_object(node)
+    except (ValueError, KeyError):
+        return str(node.value)
+    return value if type(value) in _TYPES else str(node.value)
+
+
+def _can_be_written(value: float | str) -> bool:
+    if isinstance(value, str):
+        return _CONTROL.search(value) is None
+    return math.isfinite(value) and (type(value) is float or -(2**63) <= value < 2**63)

@@ -1,0 +1,154 @@
+"""Folders of ROS packages: their interfaces, and the parameters of their nodes.
+
+A node is a function where one has the name of the package, as those of the CPSwarm libraries
+have; else a component.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from swarmdsl import compiler, resources
+from swarmdsl.dataclass import replace
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.importing.files import MOST
+from swarmdsl.importing.names import type_names
+from swarmdsl.importing.params import Owner, read_params
+from swarmdsl.ir import (
+    Action,
+    Component,
+    Constant,
+    Field,
+    Function,
+    Interface,
+    Literal,
+    Message,
+    Named,
+    Primitive,
+    Service,
+    System,
+)
+from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
+from swarmdsl.link_types import written_type
+from swarmdsl.reading import read_source
+from swarmdsl.ros.interface_file import InterfaceFile, parse_interface
+from swarmdsl.ros.package_folder import find_interfaces, find_parameters
+from swarmdsl.ros.standard import lookup
+from swarmdsl.ros.values import Values
+from swarmdsl.source import Source, Span
+from swarmdsl.syntax import ActionType, MessageType, ServiceType, Value
+from swarmdsl.syntax import Constant as WrittenConstant
+from swarmdsl.syntax import Field as WrittenField
+
+_TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+
+
+def import_ros(
+    folders: Sequence[Path], name: str, functions: Mapping[str, Function], report: Diagnostics
+) -> tuple[System, int]:
+    """What the packages in the folders describe, and how many files that are.
+
+    `functions` are those that a package may be the node of.
+    """
+    interfaces: dict[Named, Interface] = {}
+    owners: dict[str, Owner] = {}
+    files = 0
+    for folder in folders:
+        parameters = find_parameters(folder) if folder.is_dir() else []
+        found = find_interfaces(folder, None, report, required=not parameters)
+        files += len(found) + len(parameters)
+        for each in found:
+            source = read_source(each.path, None, report, "a file", MOST)
+            if source is not None and lookup(Named(each.package, each.name), each.kind) is None:
+                read = parse_interface(source, each.package, each.name, each.kind, report)
+                _add(_interface(read, report), interfaces, source, report)
+        for file in parameters:
+            source = read_source(file.path, None, report, "a file", MOST)
+            if source is not None:
+                read_params(source, file.package, owners, report)
+    system = System(
+        name,
+        tuple(interfaces.values()),
+        functions=tuple(
+            replace(known, params=tuple(owner.params.values()), doc=known.doc or owner.doc)
+            for known, owner in ((functions.get(name), owner) for name, owner in owners.items())
+            if known is not None
+        ),
+        components=tuple(_components(owners, functions)),
+    )
+    return system, files
+
+
+def _add(
+    new: Interface, interfaces: dict[Named, Interface], source: Source, report: Diagnostics
+) -> None:
+    known = interfaces.setdefault(new.type, new)
+    if known != new:
+        what, reason = f"`{new.type}`", "something else is called so already"
+        report.report("left-out", Span(source, 0, 0), what=what, reason=reason)
+
+
+def _interface(read: InterfaceFile, report: Diagnostics) -> Interface:
+    declared = read.declaration
+    package, _, name = str(declared.name).partition("/")
+    type_ = Named(package, name)
+
+    def fields(written: Iterable[WrittenField]) -> tuple[Field, ...]:
+        return tuple(_field(field, read.defaults) for field in written)
+
+    if not isinstance(declared, MessageType):
+        for constant in (each for part in read.constants.values() for each in part):
+            what, reason = f"constant `{constant.name}`", "in a model only messages have some"
+            report.report("left-out", constant.name.span, what=what, reason=reason)
+    match declared:
+        case MessageType(fields=written):
+            constants = tuple(map(_constant, read.constants["fields"]))
+            return Message(type_, fields(written), True, constants, declared.doc)
+        case ServiceType(request=request, response=response):
+            return Service(type_, fields(request), fields(response), True, declared.doc)
+        case ActionType(goal=goal, result=result, feedback=feedback):
+            parts = fields(goal), fields(result), fields(feedback)
+            return Action(type_, *parts, True, declared.doc)
+
+
+def _field(field: WrittenField, defaults: Mapping[WrittenField, Values]) -> Field:
+    type_ = written_type(field.type)
+    assert type_ is not None  # a file of ROS says the package of each
+    doc = field.doc
+    if field in defaults:
+        # ROS 2 alone has them, and a model of data has no place for them.
+        doc = "\n".join(filter(None, (doc, f"Default: {_text(defaults[field])}")))
+    return Field(str(field.name), type_, doc)
+
+
+def _text(values: Values) -> str:
+    if isinstance(values, tuple):
+        return f"[{', '.join(map(_text, values))}]"
+    return str(values.value).lower() if isinstance(values.value, bool) else str(values.value)
+
+
+def _constant(constant: WrittenConstant) -> Constant:
+    type_, value = written_type(constant.type), constant.value.tree
+    assert isinstance(type_, Primitive)
+    assert isinstance(value, Value)
+    literal = Literal(value.value, _TYPES[type(value.value)])
+    return Constant(str(constant.name), type_, literal, constant.doc)
+
+
+def _components(
+    owners: Mapping[str, Owner], functions: Mapping[str, Function]
+) -> Iterator[Component]:
+    """The nodes that are no functions: what they do is not known."""
+    names = type_names()
+    for package, owner in owners.items():
+        if package not in functions and owner.params:
+            params = tuple(owner.params.values())
+            yield Component(names.new(package), "virtual", (), params, doc=owner.doc)
+
+
+def library_functions() -> dict[str, Function]:
+    """The functions in the library that comes with swarmdsl, by their names."""
+    system = compiler.check([resources.library()]).system
+    assert system is not None
+    return {function.name: function for function in system.functions}

@@ -1,0 +1,46 @@
+"""What was imported as the text of a model, and whether that is a good one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics, Severity
+from swarmdsl.format import formatted
+from swarmdsl.importing.update import read_model
+from swarmdsl.ir import System
+from swarmdsl.load import Project
+from swarmdsl.printer import UnprintableError, print_system
+from swarmdsl.source import Source
+from swarmdsl.validate import validate
+
+
+def text_of(system: System, path: Path, report: Diagnostics) -> str | None:
+    """The text of a system in the canonical layout; None where there is none."""
+    if not (report.has_errors or _says_something(system)):
+        report.report("nothing-to-import", path=path.as_posix())
+    if report.has_errors:
+        return None
+    try:
+        plain = print_system(system)
+    except UnprintableError as fault:
+        report.report("no-model", path=path.as_posix(), reason=str(fault))
+        return None
+    return formatted(Source(f"{system.name}.swarm", plain), report) or plain
+
+
+def _says_something(system: System) -> bool:
+    return bool(system.machines or system.functions or system.components or system.interfaces)
+
+
+def checked(text: str, path: Path, report: Diagnostics) -> Project | None:
+    """The model with this text; None where it has an error, which has no place in what was read."""
+    found = Diagnostics()
+    project = read_model(path, found, texts={str(path): text}, names=found).project
+    validate(project, found)
+    for error in found:
+        if error.severity is Severity.ERROR:
+            place = error.primary.span if error.primary is not None else None
+            line = place.source.line_text(place.line).strip() if place is not None else ""
+            reason = f"{error.message} ({error.code}) in `{line}`"
+            report.report("no-model", path=path.as_posix(), reason=reason)
+    return None if report.has_errors else project

@@ -1,0 +1,155 @@
+"""Imports into a model that is there already: what an import has is merged into it.
+
+An import is text of the language too, so that two models are merged, declaration by declaration.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.enums import underlying
+from swarmdsl.format.tokens import tokenize
+from swarmdsl.importing.update.declarations import merge_component, merge_event, merge_function
+from swarmdsl.importing.update.edits import Edits
+from swarmdsl.importing.update.interfaces import is_described, merge_interface
+from swarmdsl.importing.update.known import Key, Model, groups_before, of_group, read_model
+from swarmdsl.importing.update.merging import Guess, Merge, written
+from swarmdsl.ir import Array, Primitive, Type
+from swarmdsl.load import File
+from swarmdsl.syntax import (
+    Component,
+    Declaration,
+    EnumType,
+    Event,
+    Function,
+    Interface,
+    StateMachine,
+)
+
+
+def update(
+    model: Model,
+    imported: Model,
+    report: Diagnostics,
+    guesses: Collection[Guess] = (),
+    *,
+    complete: bool = True,
+    force: bool = False,
+) -> Mapping[str, str]:
+    """The new texts of the files of a model that an import changes, by the names of their sources.
+
+    What the model has and the import does not say stays, and all comments. `complete` says whether
+    the format of the import has all of an interface, also that it has no fields, and bounds of
+    texts and arrays; `guesses` what it only made up.
+    """
+    updater = _Updater(model, report, guesses, complete, force)
+    for key, (_, new) in imported.declared.items():
+        updater.declaration(key, new)
+    return {edits.source.name: edits.text() for edits in updater.edits.values() if edits}
+
+
+class _Updater:
+    def __init__(
+        self,
+        model: Model,
+        report: Diagnostics,
+        guesses: Collection[Guess],
+        complete: bool,
+        force: bool,
+    ) -> None:
+        self.edits: dict[File, Edits] = {}
+        self._model = model
+        self._report = report
+        self._guesses = guesses
+        self._complete = complete
+        self._force = force
+        self._merges: dict[File, Merge] = {}
+
+    def declaration(self, key: Key, new: Declaration) -> None:
+        """Change a declaration of the model, or add it."""
+        file, old = self._model.declared.get(key, (None, None))
+        if file is None or old is None:
+            if self._complete or not isinstance(new, Interface) or is_described(new):
+                self._add(key[0], new)
+        elif not file.library:
+            self._merge(self._merge_of(file), old, new)
+        elif self._differs(file, old, new):
+            if isinstance(new, Interface):
+                reason = f"`{file.package}` describes it otherwise, and is not the model's own"
+                self._report.report("left-out", None, what=f"`{key[1]}`", reason=reason)
+            else:
+                self._add(key[0], new)
+
+    def _differs(self, file: File, old: Declaration, new: Declaration) -> bool:
+        """Whether what a library has is not what is imported."""
+        edits = Edits(file.source)
+        found = Diagnostics()
+        trial = Merge(edits, self._plain, self._guesses, found, force=True, is_trial=True)
+        self._merge(trial, old, new)
+        return bool(edits)
+
+    def _merge_of(self, file: File) -> Merge:
+        if file not in self._merges:
+            edits = self.edits.setdefault(file, Edits(file.source))
+            self._merges[file] = Merge(edits, self._plain, self._guesses, self._report, self._force)
+        return self._merges[file]
+
+    def _merge(self, merge: Merge, old: Declaration, new: Declaration) -> None:
+        match old, new:
+            case Function(), Function():
+                merge_function(merge, old, new)
+            case Event(), Event():
+                merge_event(merge, old, new)
+            case Component(), Component():
+                merge_component(merge, old, new)
+            case StateMachine(), StateMachine():
+                _merge_machine(merge, old, new)
+            case _ if isinstance(old, Interface) and isinstance(new, Interface):
+                merge_interface(merge, old, new)
+
+    def _add(self, group: str, new: Declaration) -> None:
+        """Add a declaration below the last of its group, or of those that usually stand before."""
+        file = self._model.file
+        edits = self.edits.setdefault(file, Edits(file.source))
+        model = file.model
+        declared = [(of_group(old), old) for old in model.declarations]
+        same = [old for each, old in declared if each == group]
+        before = same or [old for each, old in declared if each in groups_before(group)]
+        if before:
+            last = max(before, key=lambda old: old.span.start)
+            together = isinstance(last, Event) and isinstance(new, Event) and not new.doc
+            edits.below(last.span.end, written(new) if together else f"\n{written(new)}")
+            return
+        top = [*([model.package] if model.package is not None else []), *model.imports]
+        end = top[-1].span.end if top else len(file.source.text)
+        edits.below(end, f"\n{written(new)}")
+
+    def _plain(self, type_: Type) -> Type:
+        """A type as the import can say it: enums are numbers, and there may be no bounds."""
+        if isinstance(type_, Array):
+            size = type_.size if self._complete or not type_.bounded else None
+            return Array(self._plain(type_.element), size, type_.bounded and self._complete)
+        if isinstance(type_, Primitive):
+            return type_ if self._complete else Primitive(type_.name)
+        _, declared = self._model.declared.get(("interface", str(type_)), (None, None))
+        return underlying(declared) if isinstance(declared, EnumType) else type_
+
+
+def _merge_machine(merge: Merge, old: StateMachine, new: StateMachine) -> None:
+    """Leave a machine as it is: nobody knows what of it was written by hand."""
+    if _words(old.span.text) == _words(new.span.text):
+        return
+    if merge.force:
+        merge.edits.replace(old.span, new.span.text)
+        return
+    reason = "it is another one in what is imported"
+    way = "use `--force` to have that one"
+    merge.kept(old.name.span, f"state machine `{old.name}`", reason, way)
+
+
+def _words(text: str) -> list[str]:
+    return [token.text for token in tokenize(text) if not token.is_comment]
+
+
+__all__ = ["Guess", "Key", "Model", "read_model", "update"]

@@ -1,0 +1,149 @@
+"""What an update changes in the events, functions and components of a model."""
+
+from __future__ import annotations
+
+from swarmdsl.importing.update.merging import Merge, commented, of_class, written
+from swarmdsl.importing.update.values import default_change
+from swarmdsl.naming import snake_case
+from swarmdsl.syntax import (
+    Communication,
+    Component,
+    Event,
+    Function,
+    FunctionPort,
+    Param,
+    Port,
+)
+from swarmdsl.topics import topic_of
+
+
+def merge_event(merge: Merge, old: Event, new: Event) -> None:
+    """Change an event, unless what goes with it was made up."""
+    merge.documentation(old, new)
+    if (str(new.name), "topic") in merge.guesses:
+        return
+    merge.type(old.type, new.type)
+    topic = topic_of(new)
+    if topic_of(old) != topic:
+        if old.topic is not None:
+            merge.edits.replace(old.topic.span, f'"{topic}"')
+        else:
+            merge.edits.insert(old.span.end, f' on "{topic}"')
+    if new.swarm and not old.swarm:
+        merge.edits.insert(old.span.start, "swarm ")
+    elif old.swarm and not new.swarm:
+        merge.word_at(old.span.start, "")
+
+
+def merge_function(merge: Merge, old: Function, new: Function) -> None:
+    """Change how a function is called, its topics and its params."""
+    merge.documentation(old, new)
+    name = str(new.name)
+    if (name, "category") not in merge.guesses and old.category != new.category:
+        colon, _ = merge.tokens.code(old.name.span.end, 2)
+        merge.word_at(colon.start + 1, new.category)
+    calls = of_class(old.items, Communication)
+    if (name, "communication") not in merge.guesses:
+        merge.items(
+            calls,
+            of_class(new.items, Communication),
+            lambda _: 0,
+            lambda one, other: _merge_call(merge, one, other),
+            merge.inside(old.name.span.end),
+        )
+    merge.items(
+        of_class(old.items, FunctionPort),
+        of_class(new.items, FunctionPort),
+        lambda port: (port.direction, str(port.topic)),
+        lambda one, other: merge.type(one.type, other.type),
+        merge.last(calls, old.name.span.end),
+    )
+    _merge_params(merge, old, new, {})
+
+
+def _merge_call(merge: Merge, old: Communication, new: Communication) -> None:
+    if old.paradigm != new.paradigm:
+        merge.word_at(old.span.start, new.paradigm)
+    merge.word(old.name.span, new.name.span)
+    merge.type(old.type, new.type)
+
+
+def merge_component(merge: Merge, old: Component, new: Component) -> None:
+    """Change the kind of a component, its ports and its params."""
+    merge.documentation(old, new)
+    if (str(new.name), "kind") not in merge.guesses and old.kind != new.kind:
+        merge.word_at(old.span.start, new.kind)
+    inherited = _bases(old)
+    own = of_class(old.items, Port)
+    known = [*(port for base in inherited for port in of_class(base.items, Port)), *own]
+    flows: dict[tuple[str, str], Port | None] = {
+        flow: port for port in known for flow in _flows(port)
+    }
+    taken = {str(port.name) for port in known}
+    add = merge.below(own[-1]) if own else merge.last(old.items, old.name.span.end)
+    for port in of_class(new.items, Port):
+        flow, *_ = _flows(port)
+        if flow not in flows:
+            add(_named_otherwise(port, taken))
+        found = flows.get(flow)
+        if found in own:
+            merge.documentation(found, port)
+            merge.type(found.type, port.type)
+        flows[flow] = None  # what comes again is the same
+    params = {str(p.name): p for base in inherited for p in of_class(base.items, Param)}
+    _merge_params(merge, old, new, params)
+
+
+def _merge_params(
+    merge: Merge,
+    old: Function | Component,
+    new: Function | Component,
+    inherited: dict[str, Param],
+) -> None:
+    params = of_class(old.items, Param)
+    own = {str(param.name) for param in params}
+
+    def is_new(param: Param) -> bool:
+        base = inherited.get(str(param.name))
+        if base is None or str(param.name) in own:
+            return True
+        return default_change(base, param, merge.folding) is not None
+
+    merge.items(
+        params,
+        [param for param in of_class(new.items, Param) if is_new(param)],
+        lambda param: str(param.name),
+        merge.default,
+        merge.last(old.items, old.name.span.end),
+    )
+
+
+def _bases(component: Component) -> list[Component]:
+    """The components that one extends, the first of all first."""
+    chain: list[Component] = []
+    base = component.base.target if component.base is not None else None
+    while base is not None and base not in chain:
+        chain.insert(0, base)
+        base = base.base.target if base.base is not None else None
+    return chain
+
+
+def _flows(port: Port) -> list[tuple[str, str]]:
+    """The directions of a port, each with its topic."""
+    topic = str(port.topic) if port.topic is not None else snake_case(port.name)
+    directions = ("in", "out") if port.direction == "inout" else (port.direction,)
+    return [(direction, topic) for direction in directions]
+
+
+def _named_otherwise(port: Port, taken: set[str]) -> str:
+    """A port with a name that no other has; its topic stays."""
+    name, number = str(port.name), 1
+    while name in taken:
+        number += 1
+        name = f"{port.name}{number}"
+    taken.add(name)
+    if name == port.name:
+        return written(port)
+    ((_, topic), *_) = _flows(port)
+    text = f'{port.direction} {name} : {port.type.span.text} on "{topic}"'
+    return f"{commented(port.doc)}\n{text}" if port.doc else text

@@ -1,0 +1,131 @@
+"""A model on disk that an import goes into: what it is, and what its files become."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Collection, Mapping
+from functools import cached_property
+from pathlib import Path
+
+from swarmdsl import compiler
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics, Severity
+from swarmdsl.format.files import Layout, layout_of
+from swarmdsl.importing.update import Guess, Key, Model, read_model, update
+from swarmdsl.ir import Communication, Function, Named, System
+from swarmdsl.project import find_settings
+from swarmdsl.project.settings import Settings
+from swarmdsl.reading import read_bytes
+from swarmdsl.syntax import Function as Declared
+from swarmdsl.validate import validate
+
+
+@dataclass(eq=False)
+class Existing:
+    """A model as it is on disk."""
+
+    path: Path
+    settings: Settings
+    model: Model
+
+    @cached_property
+    def system(self) -> System | None:
+        """What it means; None where it has errors."""
+        return compiler.check([self.path], self.settings).system
+
+    def operations(self) -> set[Key]:
+        """The functions and services that are operations: they are declared with their owners."""
+        if self.system is None:
+            return set()
+        names = {name for component in self.system.components for name in component.operations}
+        for member in self.system.members:
+            names |= {name for part in member.parts for name in part.operations}
+        offered = list(map(self.system.function, names))
+        return {("function", function.name) for function in offered} | {
+            ("interface", str(function.communication.type)) for function in offered
+        }
+
+    def functions(self) -> dict[str, Function]:
+        """Those that are declared in it, by name; how they are called is not told."""
+        call = Communication("action", "unknown", Named("std_msgs", "Empty"))
+        return {
+            str(declared.name): Function(str(declared.name), declared.category, call, (), ())
+            for file, declared in self.model.declared.values()
+            if isinstance(declared, Declared) and not file.library
+        }
+
+
+def read_existing(path: Path, report: Diagnostics) -> Existing | None:
+    """The model in a file; None where there is none yet, or it cannot be read.
+
+    Only what cannot be read of it is reported: an import may bring what is missing. A device or
+    pipe is neither read, which might never end, nor written.
+    """
+    if not os.path.lexists(path):
+        return None
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        reason = "it is no regular file"
+        report.report("cannot-write", path=path, reason=reason, help="without -o it goes to stdout")
+        return None
+    content = read_bytes(path, None, report)
+    if content is None or not content.strip():
+        return None
+    found = Diagnostics()
+    settings = find_settings([path], found)
+    model = read_model(path, found, settings.libraries)
+    report.include(one for one in found if one.severity is Severity.ERROR)
+    return None if report.has_errors else Existing(path, settings, model)
+
+
+def updated(
+    existing: Existing,
+    text: str,
+    guesses: Collection[Guess],
+    report: Diagnostics,
+    *,
+    complete: bool,
+    force: bool,
+) -> list[Layout]:
+    """What becomes of the files that an import changes, whose text is that of a model.
+
+    What would be a mistake then, and is none now, is reported.
+    """
+    place = existing.path.with_name(f"{existing.path.name}.import")
+    imported = read_model(place, Diagnostics(), texts={str(place): text})
+    for key in existing.operations():
+        imported.declared.pop(key, None)
+    texts = update(existing.model, imported, report, guesses, complete=complete, force=force)
+    layouts = [_layout(name, changed, report) for name, changed in texts.items()]
+    made = [layout for layout in layouts if layout is not None]
+    after = {layout.name: layout.after.decode().replace("\r\n", "\n") for layout in made}
+    new = _mistakes(existing, after) - _mistakes(existing, {}) if made else Counter()
+    for code, message in new:
+        report.report("no-model", path=existing.path.as_posix(), reason=f"{message} ({code})")
+    return [layout for layout in made if layout.changed]
+
+
+def _layout(name: str, text: str, report: Diagnostics) -> Layout | None:
+    """A file with another text, which gets the canonical layout and keeps its line ends."""
+    before = Path(name).read_bytes()
+    windows = before.partition(b"\n")[0].endswith(b"\r")
+    content = text.replace("\n", "\r\n") if windows else text
+    found = Diagnostics()
+    made = layout_of(name, content.encode(), found)
+    if made is None:
+        for fault in found:
+            reason = f"{fault.message} ({fault.code})"
+            report.report("no-model", path=name, reason=reason)
+        return None
+    return Layout(name, before, made.after)
+
+
+def _mistakes(existing: Existing, texts: Mapping[str, str]) -> Counter[tuple[str, str]]:
+    """The errors in the model, with these texts of files in place of those on disk."""
+    report = Diagnostics()
+    libraries = existing.settings.libraries
+    model = read_model(existing.path, report, libraries, texts, names=report)
+    validate(model.project, report)
+    return Counter(
+        (found.code, found.message) for found in report if found.severity is Severity.ERROR
+    )

@@ -1,0 +1,92 @@
+"""Values of params and constants: whether two are the same, and how to write one as another."""
+
+from __future__ import annotations
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.folding import Folded, Folding
+from swarmdsl.inference.fitting import is_float, is_number, is_text, range_of
+from swarmdsl.ir import Literal
+from swarmdsl.ir.types import DURATION, FLOAT, INT, Named, Primitive, Type
+from swarmdsl.printer.expressions import expression
+from swarmdsl.source import Span
+from swarmdsl.syntax import Constant, OperatorUse, Param, Value
+
+_NANOSECONDS = 1_000_000_000
+
+
+@dataclass(frozen=True)
+class DefaultChange:
+    """What is to be changed of a param.
+
+    `type` is the place of the type and the new one, `place` that of the value, empty where there
+    is none yet. `computed` says that the value is more than a number or text.
+    """
+
+    place: Span
+    value: str | None
+    type: tuple[Span, str] | None
+    computed: bool
+
+
+def default_change(
+    old: Param | Constant, new: Param | Constant, folding: Folding
+) -> DefaultChange | None:
+    """What is to be changed to make an old param say what a new one says; None for nothing.
+
+    A number is a number: a type that was chosen for it stays as long as the value fits. A length
+    of time is in seconds where nothing says it, as it is in ROS.
+    """
+    tree = new.default.tree if isinstance(new, Param) and new.default else None
+    if isinstance(new, Constant):
+        tree = new.value.tree
+    wanted = folding.value(tree) if tree is not None else None
+    known = old.value if isinstance(old, Constant) else old.default
+    before = folding.value(known.tree) if known is not None and known.tree is not None else None
+    type_ = old.type.type
+    changed = None
+    if not _holds(type_, new.type.type, wanted):
+        changed, type_ = (old.type.span, new.type.span.text), new.type.type
+    if type_ == DURATION != new.type.type and wanted is not None:
+        assert not isinstance(wanted, str)
+        wanted = round(wanted * _NANOSECONDS)
+    if wanted == before and isinstance(wanted, bool) == isinstance(before, bool):
+        wanted = None
+    if changed is None and wanted is None:
+        return None
+    end = old.type.span.end
+    place = known.span if known is not None else Span(old.type.span.source, end, end)
+    computed = known is not None and not _is_literal(known.tree)
+    return DefaultChange(place, _text(wanted, type_), changed, computed and wanted is not None)
+
+
+def _holds(old: Type | None, new: Type | None, value: Folded | None) -> bool:
+    """Whether a type can stay what it is where another one is imported."""
+    if old == new or old is None:
+        return True
+    if is_text(old) and is_text(new):
+        bound = old.bound if isinstance(old, Primitive) else None
+        return bound is None or not isinstance(value, str) or len(value) <= bound
+    if not is_number(new) or isinstance(value, (bool, str)):
+        return False
+    if value is None or is_float(old) or isinstance(old, Named):
+        return is_number(old) or isinstance(old, Named) or old == DURATION
+    if old == DURATION:
+        return abs(value * _NANOSECONDS) < 2**63
+    return is_number(old) and value == int(value) and int(value) in (range_of(old) or range(2**8))
+
+
+def _text(value: Folded | None, type_: Type | None) -> str | None:
+    """A value as it is written for a type."""
+    if value is None:
+        return None
+    if type_ == DURATION:
+        return expression(Literal(value, DURATION))
+    if isinstance(value, float) and not is_float(type_):
+        return expression(Literal(int(value), INT))
+    return expression(Literal(value, FLOAT))
+
+
+def _is_literal(tree: object) -> bool:
+    if isinstance(tree, OperatorUse) and len(tree.operands) == 1:
+        return _is_literal(tree.operands[0])
+    return isinstance(tree, Value)

@@ -1,0 +1,175 @@
+"""What target adf writes of a model comes back, in the form of D5.4."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import fields, is_dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import adf
+from swarmdsl.exchange.constants import constant
+from swarmdsl.exchange.description import value_class
+from swarmdsl.importing import import_adf
+from swarmdsl.ir import Action, Array, Function, Literal, Message, Param, Primitive, Service, System
+from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING, Type
+from swarmdsl.ros.standard import lookup
+from swarmdsl.source import Source
+
+from ..printer.round_trip import printed_and_compiled
+from ..printer.systems import systems
+
+ROOT = Path(__file__).resolve().parents[2]
+CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
+APPENDIX = CORPUS / "adf" / "head_d54.json"
+EXAMPLES = sorted(path.parent for path in (ROOT / "examples").glob("*/README.md"))
+
+
+def written(system: System) -> str:
+    (file,) = adf.emit(system, adf.Options(), Diagnostics())
+    return file.text
+
+
+def read_again(system: System, folder: Path) -> System:
+    back = import_adf([Source("robot.json", written(system))], system.name, Diagnostics())
+    return printed_and_compiled(back, folder)
+
+
+def carried(system: System) -> System:
+    """What the file carries: functions, and the interfaces that it describes for them."""
+    known = {interface.type: interface for interface in system.interfaces}
+    kept: dict[Type, Action | Service | Message] = {}
+    functions = tuple(map(_plain, system.functions))
+    for function in functions:
+        call = function.communication
+        # What has no fields there is not told from what is not known.
+        empty = (
+            Action(call.type, (), (), (), external=True)
+            if call.paradigm == "action"
+            else Service(call.type, (), (), external=True)
+        )
+        kept[call.type] = known.get(call.type, empty)
+        for port in function.ports:
+            message = known.get(port.type)
+            if isinstance(message, Message) and (message.fields or message.constants):
+                kept.setdefault(port.type, message)
+    plain = System(
+        system.name,
+        # What ROS comes with is not described again, unless it is a message with fields.
+        tuple(
+            replace(each, doc="", external=True)
+            for each in kept.values()
+            if isinstance(each, Message) or lookup(each.type) is None
+        ),
+        functions=functions,
+    )
+    made = _in_ros_1(plain)
+    assert isinstance(made, System)
+    return made
+
+
+def _plain(function: Function) -> Function:
+    """Without documentation of calls and topics; inputs first, and a topic with one type."""
+    types: dict[tuple[str, str], Type] = {}
+    return replace(
+        function,
+        communication=replace(function.communication, doc=""),
+        ports=tuple(
+            replace(port, doc="")
+            for direction in ("in", "out")
+            for port in function.ports
+            if port.direction == direction
+            and types.setdefault((direction, port.topic), port.type) == port.type
+        ),
+        params=tuple(map(_param, function.params)),
+    )
+
+
+def _param(param: Param) -> Param:
+    """A number is a number in the file, of whatever type, and a duration one of seconds."""
+    types: dict[str, Type] = {"string": STRING, "boolean": BOOL}
+    type_ = types.get(value_class(param.type), FLOAT)
+    if param.default is None:
+        return replace(param, type=type_)
+    value = constant(param.default, {})
+    assert value is not None
+    kind = INT if type(value) is int else type_
+    return replace(param, type=type_, default=Literal(value, kind))
+
+
+def _in_ros_1(node: Any) -> Any:
+    """The same without bounds, with documentation in one line."""
+    match node:
+        case Primitive():
+            return Primitive("string" if node.name == "wstring" else node.name)
+        case Array(element=element, size=size, bounded=bounded):
+            return Array(_in_ros_1(element), None if bounded else size)
+        case tuple():
+            return tuple(map(_in_ros_1, node))
+    if not is_dataclass(node) or isinstance(node, type):
+        return node
+    values = {field.name: _in_ros_1(getattr(node, field.name)) for field in fields(node)}
+    if "doc" in values:
+        values["doc"] = " ".join(values["doc"].split())
+    return replace(node, **values)
+
+
+def check(system: System, folder: Path) -> None:
+    wanted, back = carried(system), carried(read_again(system, folder))
+    assert back.functions == wanted.functions
+    assert set(back.interfaces) == set(wanted.interfaces)
+
+
+@pytest.mark.parametrize("model", EXAMPLES, ids=lambda path: path.name)
+def test_examples(model: Path, tmp_path: Path) -> None:
+    system = compiler.check([model]).system
+    assert system is not None
+    if system.functions:
+        check(system, tmp_path)
+
+
+@pytest.mark.filterwarnings("ignore:Gen")
+@settings(
+    max_examples=100,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    phases=[Phase.generate],  # shrinking would take minutes
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+# Names that a package of another model cannot have.
+@given(systems().filter(lambda s: bool(s.functions) and s.name not in ("my-model", "event")))
+def test_whatever_functions_are_like(tmp_path: Path, system: System) -> None:
+    check(system, tmp_path)
+
+
+# What is wrong with the file itself, and is repaired with a warning.
+REPAIRS = {
+    "TakeOff": "cpswarm_msgs/TakeOff",
+    "Empty": "std_srvs/Empty",
+    "stds_msgs/Header": "std_msgs/Header",
+}
+
+
+def repaired(content: Any) -> Any:
+    if isinstance(content, dict):
+        return {key: repaired(each) for key, each in content.items()}
+    if isinstance(content, list):
+        return [repaired(each) for each in content]
+    return REPAIRS.get(content, content) if isinstance(content, str) else content
+
+
+@pytest.mark.skipif(not APPENDIX.exists(), reason=f"no {APPENDIX} (set SWARMDSL_CORPUS)")
+def test_the_appendix_of_d5_4(tmp_path: Path) -> None:
+    text = APPENDIX.read_text(encoding="utf-8")
+    report = Diagnostics()
+    system = import_adf([Source("appendix.json", text)], "appendix", report)
+
+    assert {found.name for found in report} == {"renamed", "assumed"}
+    assert json.loads(written(printed_and_compiled(system, tmp_path))) == repaired(json.loads(text))
