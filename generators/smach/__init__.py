@@ -1,7 +1,8 @@
 """ROS 1: a catkin package whose nodes run the state machines with SMACH."""
 
-from swarmdsl.generator import ALL_FEATURES, Feature, Generator
+from swarmdsl.generator import Generator
 
+from .mapping import MAPPING
 from .options import Options
 from .package import chosen_machines
 from .render import emit
@@ -11,6 +12,6 @@ generator = Generator(
     summary="ROS 1 (noetic): a catkin package that runs the state machines with SMACH",
     emit=emit,
     options_type=Options,
-    supports=ALL_FEATURES - {Feature.INTO_STATE, Feature.HISTORY, Feature.INTERNAL},
     machines=chosen_machines,
+    mapping=MAPPING,
 )

@@ -1,85 +1,43 @@
-"""The call of a function: a SimpleActionState or a ServiceState."""
+"""The call of a function: an ActionState or a ServiceState."""
 
 from __future__ import annotations
 
-from swarmdsl.dataclass import dataclass, field
-from swarmdsl.ir import Activity, Communication, Literal, OutcomeTrigger, State
+from swarmdsl.ir import Activity, Communication, Literal, State
+from swarmdsl.python_source import Call, Source, comments, layout
 
-from .expressions import field_name, keys, python_expression
-from .module import CANCELLED, Module
-from .python import Call, Source, comments, layout
+from .expressions import field_name, python_expression
+from .module import Module
 from .statements import STEP, assign
 
-
-@dataclass
-class _Interface:
-    """The keywords of the state's constructor, and the userdata its callbacks need."""
-
-    keywords: list[tuple[str, object]] = field(default_factory=list)
-    inputs: list[str] = field(default_factory=list)
-    outputs: list[str] = field(default_factory=list)
-
-    def finished(self) -> tuple[tuple[str, object], ...]:
-        """All keywords, the keys last."""
-        found = [*self.keywords]
-        for word, names in (("input_keys", self.inputs), ("output_keys", self.outputs)):
-            if names:
-                found.append((word, list(dict.fromkeys(names))))
-        return tuple(found)
+Keywords = tuple[tuple[str, object], ...]
 
 
-def activity_call(state: State, module: Module) -> tuple[Call, tuple[str, ...]]:
-    """The state that calls the function of `state`, and how it can end by itself.
-
-    `cancelled` is how an action ends that its server preempted; it is told from `aborted`
-    only where the model does.
-    """
+def activity_call(state: State, keywords: Keywords, module: Module) -> Call:
+    """The state that calls the function of `state`; `keywords` say what else it does."""
     activity = state.activity
     assert activity is not None
     call = module.system.function(activity.function).communication
-    module.imports.module("smach_ros")
-    interface = _Interface()
     if call.paradigm == "service":
-        _fill(state, activity, call, "request", interface, module)
-        _store_response(state, activity, interface, module)
+        class_ = module.own("services", "ServiceState")
         type_ = module.imports.interface(call.type, "srv")
-        arguments = (call.name, Source(type_))
-        service = Call("smach_ros.ServiceState", arguments, interface.finished())
-        return service, ("succeeded", "aborted")
-    _fill(state, activity, call, "goal", interface, module)
-    cancelled = _handles_preempted(state)
-    _store_result(state, activity, interface, module, cancelled)
-    keywords = interface.finished()
-    if cancelled:
-        keywords += (("outcomes", [CANCELLED]),)
-    type_ = module.imports.interface(call.type, "msg", "Action")
-    action = Call("smach_ros.SimpleActionState", (call.name, Source(type_)), keywords)
-    return action, ("succeeded", "aborted", *([CANCELLED] if cancelled else []))
+        sent, got = "request", "response"
+    else:
+        class_ = module.own("actions", "ActionState")
+        type_ = module.imports.interface(call.type, "msg", "Action")
+        sent, got = "goal", "result"
+    given = (*_sent(state, activity, call, sent, module), *_got(state, activity, got, module))
+    return Call(class_, (call.name, Source(type_)), (*given, *keywords))
 
 
-def _handles_preempted(state: State) -> bool:
-    return any(
-        isinstance(trigger, OutcomeTrigger) and trigger.outcome == "preempted"
-        for transition in state.transitions
-        for trigger in transition.triggers
-    )
-
-
-def _fill(
-    state: State,
-    activity: Activity,
-    call: Communication,
-    word: str,
-    interface: _Interface,
-    module: Module,
-) -> None:
+def _sent(
+    state: State, activity: Activity, call: Communication, word: str, module: Module
+) -> Keywords:
     """Where the content of the goal or request comes from."""
     if activity.goal_callback is not None:
-        name = _callback(activity, activity.goal_callback, f"userdata, {word}", interface, module)
-        interface.keywords.append((f"{word}_cb", _step(name, module)))
-        return
+        name = _callback(activity, activity.goal_callback, f"userdata, {word}", module)
+        return ((f"{word}_cb", Source(name)),)
     if not activity.arguments:
-        return
+        return ()
     kind = "msg" if word == "goal" else "srv"
     message = Call(
         module.imports.interface(call.type, kind, word.capitalize()),
@@ -90,93 +48,36 @@ def _fill(
         ),
     )
     if all(isinstance(value, Literal) for _, value in activity.arguments):
-        interface.keywords.append((word, message))
-        return
+        return ((word, message),)
     name = module.add_function(
         (state.id, word),
         f"userdata, {word}",
         [layout(message, 1, f"{STEP}return ")],
         comments(activity.origin),
     )
-    interface.keywords.append((f"{word}_cb", _step(name, module)))
-    interface.inputs += [key for _, value in activity.arguments for key in keys(value)]
+    return ((f"{word}_cb", Source(name)),)
 
 
-def _store_response(
-    state: State, activity: Activity, interface: _Interface, module: Module
-) -> None:
-    """What becomes of the response of a service, when there was one."""
+def _got(state: State, activity: Activity, word: str, module: Module) -> Keywords:
+    """What becomes of the result or response; it is stored only when the call succeeded."""
     if activity.result_callback is not None:
-        name = _callback(
-            activity, activity.result_callback, "userdata, response", interface, module
-        )
-    elif activity.results:
-        name = module.add_function(
-            (state.id, "response"),
-            "userdata, response",
-            _store(activity, "response", 1, interface, module),
-            comments(activity.origin),
-        )
-    else:
-        return
-    interface.keywords.append(("response_cb", _step(name, module)))
-
-
-def _store_result(
-    state: State, activity: Activity, interface: _Interface, module: Module, cancelled: bool
-) -> None:
-    """What becomes of the result of an action; only that of a successful one is stored."""
-    parameters = "userdata, status, result"
-    body: list[str] = []
-    if activity.result_callback is not None:
-        callback = _callback(activity, activity.result_callback, parameters, interface, module)
-        if not cancelled:
-            interface.keywords.append(("result_cb", _aborting(callback, module)))
-            return
-        body.append(f"{STEP}{callback}({parameters})")
-    elif activity.results:
-        body.append(f"{STEP}if status == GoalStatus.SUCCEEDED:")
-        body += _store(activity, "result", 2, interface, module)
-    if cancelled:
-        body.append(f"{STEP}if status in (GoalStatus.PREEMPTED, GoalStatus.RECALLED):")
-        body += [f"{STEP * 2}return {CANCELLED!r}", f"{STEP}return None"]
-    if not body:
-        return
-    if cancelled or activity.results:
-        module.imports.name("actionlib_msgs.msg", "GoalStatus")
-    name = module.add_function((state.id, "result"), parameters, body, comments(activity.origin))
-    by_user = activity.result_callback is not None
-    interface.keywords.append(
-        ("result_cb", _aborting(name, module) if by_user else _step(name, module))
-    )
-
-
-def _step(callback: str, module: Module) -> Call:
-    return Call(module.own("states", "step"), (Source(callback),))
-
-
-def _aborting(callback: str, module: Module) -> Call:
-    return Call(module.own("states", "aborting"), (Source(callback),))
-
-
-def _store(
-    activity: Activity, source: str, depth: int, interface: _Interface, module: Module
-) -> list[str]:
+        status = "status, " if word == "result" else ""
+        parameters = f"userdata, {status}{word}"
+        name = _callback(activity, activity.result_callback, parameters, module)
+        return ((f"{word}_cb", Source(name)),)
+    if not activity.results:
+        return ()
     lines: list[str] = []
     for result in activity.results:
-        value = f"{source}.{field_name(result.field)}"
-        lines += assign(result.variable, result.path, value, depth, module)
-        interface.outputs.append(result.variable)
-        interface.inputs += [result.variable] if result.path else []
-    return lines
+        value = f"{word}.{field_name(result.field)}"
+        lines += assign(result.variable, result.path, value, 1, module)
+    said = comments(activity.origin)
+    name = module.add_function((state.id, word), f"userdata, {word}", lines, said)
+    return (("store", Source(name)),)
 
 
-def _callback(
-    activity: Activity, name: str, parameters: str, interface: _Interface, module: Module
-) -> str:
-    """A callback of the user, who may read and write all there is."""
+def _callback(activity: Activity, name: str, parameters: str, module: Module) -> str:
+    """A callback of the user."""
     module.callbacks.append((name, parameters, activity.origin))
     module.imports.name(module.imports.types.package, "callbacks")
-    interface.inputs += module.keys
-    interface.outputs += module.keys
     return f"callbacks.{name}"

@@ -9,16 +9,13 @@ from swarmdsl.ir import (
     Array,
     Binary,
     Call,
-    EventData,
     Expression,
     FieldAccess,
     Literal,
     Named,
-    ParamRef,
     Primitive,
     Type,
     Unary,
-    VariableRef,
 )
 from swarmdsl.ir.types import DURATION, FLOATS
 from swarmdsl.translate import Dialect, python_literal, translate
@@ -53,16 +50,6 @@ def parts(expression: Expression) -> list[Expression]:
             for argument in arguments:
                 found += parts(argument)
     return found
-
-
-def keys(expression: Expression) -> list[str]:
-    """The userdata keys an expression reads: variables and params."""
-    return [p.name for p in parts(expression) if isinstance(p, (VariableRef, ParamRef))]
-
-
-def uses_event(expression: Expression) -> bool:
-    """Whether it needs the message of the triggering event."""
-    return any(isinstance(part, EventData) for part in parts(expression))
 
 
 def field_name(name: str) -> str:

@@ -6,38 +6,38 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import Named
-
-from .python import WIDTH
+from swarmdsl.python_source import WIDTH
 
 # Names that generated modules use for something else.
 _TAKEN = (
+    "AT_ONCE",
+    "ActionState",
     "Concurrence",
-    "Condition",
-    "Decision",
     "Event",
-    "GoalStatus",
-    "Monitor",
-    "STAYS",
+    "Final",
+    "History",
+    "Machine",
+    "On",
+    "ServiceState",
+    "State",
     "StateMachine",
-    "Timer",
-    "Wait",
-    "aborting",
     "build",
     "callbacks",
     "concurrence",
     "copy",
     "event",
     "events",
+    "goal",
     "initial_userdata",
     "machine",
     "math",
+    "message",
+    "request",
     "require",
+    "response",
     "result",
     "rospy",
     "smach",
-    "smach_ros",
-    "status",
-    "step",
     "userdata",
 )
 _TAKEN_MODULE = "this module"

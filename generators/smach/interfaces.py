@@ -19,10 +19,10 @@ from swarmdsl.ir import (
     System,
     Type,
 )
+from swarmdsl.python_source import comment_lines
 from swarmdsl.source import Span
 
 from .module import TARGET
-from .python import comment_lines
 
 
 def own_interfaces(system: System) -> list[Interface]:

@@ -6,14 +6,13 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import Param, StateMachine, System, Variable
+from swarmdsl.ir import StateMachine, System
 from swarmdsl.naming import snake_case
 from swarmdsl.source import Span
 
 from .imports import Imports
 
 TARGET = "smach"
-CANCELLED = "cancelled"
 PREEMPTED = "preempted"
 
 
@@ -28,18 +27,13 @@ class Entry:
 
 @dataclass(frozen=True)
 class Container:
-    """A function that builds a StateMachine or a Concurrence.
-
-    `variable` is what the container is called in it; `initial` the label of the first state
-    where that is not the one added first.
-    """
+    """A function that builds a StateMachine or a Concurrence, called `variable` in it."""
 
     function: str
     doc: str
     variable: str
     construction: str
     entries: tuple[Entry, ...]
-    initial: str | None = None
 
 
 @dataclass(frozen=True)
@@ -65,14 +59,7 @@ class Module:
     functions: list[Function] = field(default_factory=list)
     callbacks: list[tuple[str, str, Span | None]] = field(default_factory=list)
     sent: dict[str, None] = field(default_factory=dict)
-    message_keys: dict[tuple[str, str], str] = field(default_factory=dict)
     _names: set[str] = field(default_factory=set)
-
-    @property
-    def keys(self) -> list[str]:
-        """The userdata keys of the model: params and variables."""
-        named: list[Param | Variable] = [*self.machine.params, *self.machine.variables]
-        return [item.name for item in named]
 
     def function_name(self, *words: str) -> str:
         """A name for a private function, unlike those given before."""
@@ -105,13 +92,6 @@ class Module:
         """How the module writes an event; needs its import."""
         self.imports.name(self.imports.types.package, "events")
         return f"events.{self.events[name]}"
-
-    def message_key(self, event: str, region: str) -> str:
-        """The userdata key that holds the last message of an event that a region took."""
-        if (event, region) not in self.message_keys:
-            taken = {*self.keys, *self.message_keys.values()}
-            self.message_keys[event, region] = fresh(f"{snake_case(event)}_event", taken)
-        return self.message_keys[event, region]
 
     def unsupported(self, construct: str, at: Span | None, hint: str | None = None) -> None:
         """Report what this target cannot express."""

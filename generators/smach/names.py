@@ -26,11 +26,17 @@ from .module import TARGET, fresh
 
 # What smach.UserData has as methods cannot be read as a value.
 _USERDATA = ("extract", "keys", "merge", "update")
-_MODULES = ("callbacks", "containers", "events", "states")
+# The ROS parameters of every node.
+_OF_NODES = ("introspection", "timeouts")
+_MODULES = (
+    *("actions", "callbacks", "chart", "containers", "engine", "events", "node", "services"),
+    "states",
+)
 # A package of such a name would hide what the nodes import.
 _IMPORTED = (
-    *("copy", "functools", "math", "sys", "threading", "traceback"),
-    *("actionlib", "actionlib_msgs", "rospy", "smach", "smach_ros"),
+    *("collections", "copy", "dataclasses", "enum", "heapq", "itertools", "math", "sys"),
+    *("threading", "traceback", "typing"),
+    *("actionlib", "actionlib_msgs", "genpy", "rospy", "smach", "smach_ros"),
 )
 _PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
 # The messages that ROS makes of an action.
@@ -82,6 +88,11 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
     for named in keys:
         if not is_python_name(named.name) or named.name.startswith("_") or named.name in _USERDATA:
             _bad(report, named.name, "a key of userdata", named.origin)
+    for param in machine.params:
+        if param.name in _OF_NODES:
+            _bad(
+                report, param.name, "a ROS parameter: all nodes have one of that name", param.origin
+            )
     for state in machine.walk():
         activity = state.activity
         if activity is None:

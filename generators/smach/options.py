@@ -34,6 +34,10 @@ def _line_fault(name: str) -> Callable[[str], str | None]:
     return lambda value: None if value.strip() and value.isprintable() else fault
 
 
+def _seconds_fault(value: int) -> str | None:
+    return None if value > 0 else f"`{value}` is no time to wait: at least 1 (second)"
+
+
 @dataclass(frozen=True)
 class Options:
     """The options of the target."""
@@ -49,3 +53,22 @@ class Options:
     email: str = option(
         "maintainer@example.org", "e-mail address of the maintainer", check=_email_fault
     )
+    simulation: bool = option(
+        False, "whether to write launch files for Gazebo, with the worlds of the environments"
+    )
+    missing_server: int = option(
+        10, "seconds to wait for the server of an action or service", check=_seconds_fault
+    )
+    dead_server: int = option(
+        5, "seconds without a sign of life until a goal counts as aborted", check=_seconds_fault
+    )
+    cancel: int = option(5, "seconds to wait for the end of a cancelled goal", check=_seconds_fault)
+
+    @property
+    def timeouts(self) -> dict[str, int]:
+        """How long nodes wait, in seconds, by the names of their ROS parameters."""
+        return {
+            "missing_server": self.missing_server,
+            "dead_server": self.dead_server,
+            "cancel": self.cancel,
+        }

@@ -8,16 +8,18 @@ from pathlib import Path
 
 from jinja2 import Environment
 
+import swarmdsl
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
+from swarmdsl.python_source import docstring
 from swarmdsl.templates import environment
 
 from .interface_packages import InterfacePackage
 from .interfaces import definition, file_name
+from .launch_files import launch_files
 from .options import Options
 from .package import manifest
-from .python import docstring, one_line
 from .view import PackageView, package_view
 
 
@@ -57,16 +59,22 @@ def _interfaces(
 
 def _files(package: PackageView) -> Iterator[OutputFile]:
     root, source = package.name, f"{package.name}/src/{package.name}"
-    common = {"package": package, "header": package.header}
+    common = {"package": package, "header": package.header, "timeouts": package.timeouts}
     yield OutputFile(f"{root}/package.xml", package.manifest)
     yield OutputFile(f"{root}/CMakeLists.txt", _fill("package/CMakeLists.txt", **common))
     yield OutputFile(f"{root}/setup.py", _fill("package/setup.py", **common))
     init = _fill("package/src/package/__init__.py", doc=docstring(package.doc), **common)
     yield OutputFile(f"{source}/__init__.py", init)
-    for module in ("containers", "states"):
+    for module in package.modules:
         yield OutputFile(
             f"{source}/{module}.py", _fill(f"package/src/package/{module}.py", **common)
         )
+    yield from _engine(f"{source}/engine", package.header)
+    yield OutputFile(f"{root}/README.md", _fill("package/README.md", **common))
+    yield from launch_files(package)
+    if package.robots:
+        text = _fill("package/test/test_machine.py", **common)
+        yield OutputFile(f"{root}/test/test_machine.py", text, executable=True)
     if package.events:
         yield OutputFile(f"{source}/events.py", _fill("package/src/package/events.py", **common))
     if package.callbacks:
@@ -75,10 +83,16 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
     for machine in package.machines:
         text = _fill("package/src/package/machine.py", machine=machine, **common)
         yield OutputFile(f"{source}/{machine.module}.py", text, origin=machine.origin)
-        required = one_line(tuple(f"~{name}" for name in machine.required_params))
-        text = _fill("package/scripts/node", machine=machine, required=required, **common)
+        text = _fill("package/scripts/node", machine=machine, **common)
         path = f"{root}/scripts/{machine.module}"
         yield OutputFile(path, text, executable=True, origin=machine.origin)
+
+
+def _engine(folder: str, header: str) -> Iterator[OutputFile]:
+    """The engine that charts run on."""
+    for file in sorted(Path(swarmdsl.__file__).with_name("runtime").glob("*.py")):
+        text = f"# {header}\n{file.read_text(encoding='utf-8')}"
+        yield OutputFile(f"{folder}/{file.name}", text)
 
 
 def _fill(template: str, **values: object) -> str:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.ir import Assignment, Effect, Named, Send
+from swarmdsl.python_source import Call, Source, layout
 
-from .expressions import EVENT, USERDATA, field_name, keys, python_expression, uses_event
+from .expressions import USERDATA, field_name, python_expression
 from .module import Module
-from .python import Call, Source, layout
 
 STEP = "    "
 
@@ -61,38 +61,3 @@ def _send(send: Send, depth: int, module: Module) -> str:
         ),
     )
     return layout(Call(f"{module.event(send.event)}.send", (message,)), depth, STEP * depth)
-
-
-def effect_reads(effects: Iterable[Effect]) -> list[str]:
-    """The userdata keys that effects read."""
-    found: list[str] = []
-    for effect in effects:
-        match effect:
-            case Assignment(variable=variable, path=path, value=value):
-                found += keys(value) + ([variable] if path else [])
-            case Send(arguments=arguments):
-                found += [key for _, value in arguments for key in keys(value)]
-    return found
-
-
-def effect_writes(effects: Iterable[Effect]) -> list[str]:
-    """The userdata keys that effects write."""
-    return [effect.variable for effect in effects if isinstance(effect, Assignment)]
-
-
-def effects_use_event(effects: Iterable[Effect]) -> bool:
-    """Whether effects need the message of the triggering event."""
-    return any(
-        uses_event(value)
-        for effect in effects
-        for value in (
-            [effect.value]
-            if isinstance(effect, Assignment)
-            else [value for _, value in effect.arguments]
-        )
-    )
-
-
-def load_event(key: str, depth: int = 1) -> str:
-    """Give the stored message of an event its name in expressions."""
-    return f"{STEP * depth}{EVENT} = {USERDATA}.{key}"

@@ -7,18 +7,38 @@ from collections.abc import Iterable
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
-from swarmdsl.ir.types import DURATION
+from swarmdsl.ir.types import DURATION, Primitive
+from swarmdsl.python_source import (
+    Call,
+    Source,
+    comments,
+    docstring,
+    file_name,
+    layout,
+    one_line,
+    place,
+)
 from swarmdsl.source import Span
 
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
 from .interface_packages import InterfacePackage, interface_packages
+from .launch import world_file
 from .module import TARGET, Container, Function, Module
 from .options import Options
-from .python import Call, Source, comments, docstring, file_name, layout
+from .readme import Rows, uses
+from .robots import Fleet, Robot, fleets, robots
 from .statements import STEP
 from .structure import build
+
+TIME = Primitive("time")
+# What Python has of a ROS parameter for values of a type; for all others it is an int.
+_KINDS = {
+    "bool": "bool",
+    **dict.fromkeys(("float32", "float64", "duration", "time"), "float"),
+    **dict.fromkeys(("string", "wstring"), "str"),
+}
 
 
 @dataclass(frozen=True)
@@ -36,13 +56,15 @@ class MachineView:
     name: str
     module: str
     doc: str
+    place: str
+    uses: tuple[tuple[str, Rows], ...]
     header: str
     imports: tuple[str, ...]
     containers: tuple[Container, ...]
     functions: tuple[Function, ...]
     values: tuple[Value, ...]
     sent: tuple[str, ...]
-    required_params: tuple[str, ...]
+    start: str
     required_callbacks: str
     origin: Span | None
 
@@ -68,6 +90,35 @@ class PackageView:
     callbacks: tuple[tuple[str, str], ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
+    modules: tuple[str, ...]
+    timeouts: dict[str, int]
+    robots: tuple[Robot, ...]
+    fleets: tuple[Fleet, ...]
+    simulation: bool
+
+    @property
+    def simulations(self) -> list[str]:
+        """The launch files that simulate a swarm."""
+        worlds = [fleet for fleet in self.fleets if self.simulation and world_file(fleet)]
+        return [f"{fleet.name}_simulation" for fleet in worlds]
+
+    @property
+    def folders(self) -> list[str]:
+        """The folders that are installed."""
+        return ["launch", "param", *(["world"] if self.simulations else [])]
+
+    @property
+    def kept(self) -> list[tuple[str, str]]:
+        """The files of the user, and what they are for."""
+        found = []
+        if self.callbacks:
+            found.append((f"src/{self.name}/callbacks.py", "callbacks that the model names"))
+        for fleet in self.fleets:
+            about = f"params of single robots of swarm `{fleet.swarm.name}`"
+            found.append((f"param/{fleet.name}/*.yaml", about))
+            if self.simulation and (world := world_file(fleet)):
+                found.append((f"world/{world}", "the world that Gazebo simulates"))
+        return found
 
 
 def package_view(system: System, options: Options, report: Diagnostics) -> PackageView | None:
@@ -92,9 +143,12 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     doc = system.doc or f"Behaviour of {system.name}."
     event_imports = Imports(types)
     event_views = _event_views(events, constants, event_imports)
+    made = robots(system, {machine.name for machine in machines})
     depends = [
         ("buildtool_depend", "python3-setuptools"),
         *(("exec_depend", needed) for needed in package.dependencies(used)),
+        *([("exec_depend", "roslaunch"), ("test_depend", "rostest")] if made else []),
+        *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
     ]
     return PackageView(
         name=name,
@@ -106,6 +160,11 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         callbacks=tuple(callbacks.items()),
         interfaces=interfaces,
         manifest=package.manifest(name, doc, depends, options),
+        modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
+        timeouts=options.timeouts,
+        robots=tuple(made),
+        fleets=tuple(fleets(system, made)),
+        simulation=options.simulation,
     )
 
 
@@ -139,16 +198,25 @@ def _machine_view(
         name=machine.name,
         module=name,
         doc=docstring(machine.doc or f"State machine {machine.name}."),
+        place=place(machine.origin),
+        uses=uses(system, machine),
         header=_header(system, [machine.origin]),
         imports=tuple(imports.lines()),
         containers=tuple(module.containers),
         functions=tuple(module.functions),
         values=values,
         sent=tuple(module.event(event) for event in module.sent),
-        required_params=tuple(p.name for p in machine.params if p.default is None),
+        start=layout(_start(name, machine), 1, STEP),
         required_callbacks=layout(call, 1, STEP) if required else "",
         origin=machine.origin,
     )
+
+
+def _start(module: str, machine: StateMachine) -> Call:
+    """What a node does: run the machine of the module."""
+    required = tuple(f"~{param.name}" for param in machine.params if param.default is None)
+    arguments = (module, Source(module), *([required] if required else []))
+    return Call("node.run", arguments)
 
 
 def _values(module: Module) -> tuple[Value, ...]:
@@ -166,29 +234,35 @@ def _values(module: Module) -> tuple[Value, ...]:
         )
         statement = f"{STEP}{USERDATA}.{variable.name} = {text}"
         found.append(Value(statement, comments(variable.origin, variable.doc)))
-    for (event, _), key in module.message_keys.items():
-        type_ = module.system.event(event).type
-        statement = f"{STEP}{USERDATA}.{key} = {default_value(type_, module.imports)}"
-        found.append(Value(statement, ()))
     return tuple(found)
 
 
 def _param_value(param: Param, module: Module) -> object:
-    module.imports.module("rospy")
+    """What a param is at the start of a node: a ROS parameter, as a value of its type."""
+    is_array = isinstance(param.type, Array)
     element = param.type.element if isinstance(param.type, Array) else param.type
-    if isinstance(element, Named):
-        module.unsupported(f"a param of type `{param.type}`", param.origin)
     default = param.default
-    arguments: tuple[object, ...] = (f"~{param.name}",)
-    if param.type != DURATION:
-        if default is not None:
-            arguments += (Source(python_expression(default, module.imports)),)
-        return Call("rospy.get_param", arguments)
-    if isinstance(default, Literal):
-        arguments += (default.milliseconds / 1000,)
+    kind = Source(_KINDS.get(element.name, "int") if isinstance(element, Primitive) else "dict")
+    arguments: tuple[object, ...] = (f"~{param.name}", [kind] if is_array else kind)
+    if default is not None and param.type == DURATION:
+        seconds = f"({python_expression(default, module.imports)}).to_sec()"
+        literal = default.milliseconds / 1000 if isinstance(default, Literal) else None
+        arguments += (Source(seconds) if literal is None else literal,)
     elif default is not None:
-        arguments += (Source(f"({python_expression(default, module.imports)}).to_sec()"),)
-    return Call("rospy.Duration", (Call("rospy.get_param", arguments),))
+        arguments += (Source(python_expression(default, module.imports)),)
+    given = Call(module.own("states", "param"), arguments)
+    if isinstance(element, Named):
+        made = module.own("states", "message")
+        first = [Source(module.imports.interface(element, "msg"))]
+    elif element in (DURATION, TIME):
+        module.imports.module("rospy")
+        made, first = f"rospy.{str(element).capitalize()}", []
+    else:
+        return given
+    if not is_array:
+        return Call(made, (*first, given))
+    each = one_line(Call(made, (*first, Source("each"))))
+    return Source(f"[{each} for each in {one_line(given)}]")
 
 
 def _events(system: System, machines: list[StateMachine], report: Diagnostics) -> list[Event]:

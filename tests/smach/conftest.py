@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import importlib
 import importlib.util
+import itertools
 import os
 import subprocess
 import sys
@@ -43,6 +44,7 @@ def _load(name: str) -> ModuleType:
 
 
 fake_ros = _load("fake_ros")
+active = _load("active")
 
 
 def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
@@ -146,67 +148,37 @@ class Robot:
 
     def active(self) -> list[str]:
         """The labels of the active states without children, by their path."""
-        return sorted(_active(self.machine, ""))
+        return list(active.paths(self.machine))
 
     def wait_in(self, *paths: str) -> None:
         """Wait until exactly these states are active, and those that wait do so."""
         self.world.wait_until(
-            lambda: self.active() == sorted(paths) and _settled(self.machine),
+            lambda: self.active() == sorted(paths) and active.settled(self.machine),
             f"{list(paths)} expected, {self.active()} active",
         )
 
 
-def _active(container: Any, path: str) -> Iterator[str]:
-    for label in _running(container):
-        child = container.get_children()[label]
-        if hasattr(child, "get_children"):
-            yield from _active(child, f"{path}{label}/")
-        else:
-            yield f"{path}{label}"
-
-
-def _running(container: Any) -> list[str]:
-    """The labels of the running children; the real and the stand-in container keep them alike."""
-    children = container.get_children()
-    if hasattr(container, "_child_outcomes"):
-        return [label for label, outcome in container._child_outcomes.items() if outcome is None]
-    current = getattr(container, "_current_label", getattr(container, "_current", None))
-    return [current] if current in children else []
-
-
-def _settled(container: Any) -> bool:
-    """Whether every active monitor listens."""
-    for label in _running(container):
-        child = container.get_children()[label]
-        if hasattr(child, "get_children"):
-            if not _settled(child):
-                return False
-        elif hasattr(child, "offer") and child not in child._event._waiting:
-            return False
-    return True
-
-
 @pytest.fixture
-def build(
-    smach_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def start_package(
+    smach_path: tuple[str, ...], monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Callable[..., Robot]]:
-    """Generate a system, import what was generated and build a machine."""
+    """Import a generated package and build a machine of it; each time anew."""
     made: list[Robot] = []
     imported = {"smach", "smach_ros"}
 
-    def build(system: System, module: str, **params: Any) -> Robot:
-        files, report = emit(system)
-        assert not list(report)
-        package = files[0].path.partition("/")[0]
-        for file in files:
-            path = tmp_path / "out" / file.path
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(file.text, encoding="utf-8")
+    def forget() -> None:
+        for name in list(sys.modules):
+            if name.partition(".")[0] in imported:
+                del sys.modules[name]
+
+    def start_package(folder: Path, module: str, system: System, **params: Any) -> Robot:
+        forget()
+        package = folder.name
         world = fake_ros.World(system)
         world.params.update(params)
-        monkeypatch.syspath_prepend(str(tmp_path / "out" / package / "src"))
-        for folder in smach_path:
-            monkeypatch.syspath_prepend(folder)
+        monkeypatch.syspath_prepend(str(folder / "src"))
+        for place in smach_path:
+            monkeypatch.syspath_prepend(place)
         for name, fake in world.modules.items():
             monkeypatch.setitem(sys.modules, name, fake)
         imported.add(package)
@@ -215,12 +187,29 @@ def build(
         made.append(robot)
         return robot
 
-    yield build
+    yield start_package
     for robot in made:
         robot.machine.request_preempt()
-    for name in list(sys.modules):
-        if name.partition(".")[0] in imported:
-            del sys.modules[name]
+    forget()
+
+
+@pytest.fixture
+def build(start_package: Callable[..., Robot], tmp_path: Path) -> Callable[..., Robot]:
+    """Generate a system, import what was generated and build a machine."""
+    roots = (tmp_path / (f"out{number}" if number else "out") for number in itertools.count())
+
+    def build(system: System, module: str, **params: Any) -> Robot:
+        files, report = emit(system)
+        assert not list(report)
+        package = files[0].path.partition("/")[0]
+        root = next(roots)
+        for file in files:
+            path = root / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+        return start_package(root / package, module, system, **params)
+
+    return build
 
 
 @pytest.fixture

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import keyword
 import threading
 import time
 from collections import defaultdict
 from collections.abc import Iterable
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from swarmdsl import ir
+from swarmdsl.defaults import default_value
 from swarmdsl.ir import Array, Field, Named, Primitive, System
 
-WAIT = 5.0
+WAIT = 20.0
 
 
 class GoalStatus:
@@ -20,14 +22,24 @@ class GoalStatus:
     PREEMPTING, RECALLING, RECALLED, LOST = range(6, 10)
 
 
+class CommState:
+    PENDING, DONE = 1, 7
+
+
 class Duration:
     __slots__ = ("secs",)
 
-    def __init__(self, secs: float = 0.0) -> None:
-        self.secs = secs
+    def __init__(self, secs: float = 0.0, nsecs: int = 0) -> None:
+        self.secs = secs + nsecs / 1e9
 
     def to_sec(self) -> float:
         return self.secs
+
+    def is_zero(self) -> bool:
+        return self.secs == 0.0
+
+    def to_nsec(self) -> int:
+        return round(self.secs * 1e9)
 
     def __add__(self, other: Any) -> Any:
         return type(other)(self.secs + other.secs)
@@ -37,6 +49,17 @@ class Duration:
 
     def __mul__(self, factor: float) -> Duration:
         return Duration(self.secs * factor)
+
+    def __truediv__(self, other: Any) -> Any:
+        if isinstance(other, Duration):
+            return self.secs / other.secs
+        return Duration(self.secs / other)
+
+    def __neg__(self) -> Duration:
+        return Duration(-self.secs)
+
+    def __abs__(self) -> Duration:
+        return Duration(abs(self.secs))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Duration) and self.secs == other.secs
@@ -60,12 +83,14 @@ class Duration:
 class Time(Duration):
     __slots__ = ()
 
+    clock = staticmethod(time.monotonic)
+
     def __bool__(self) -> bool:
         return self.secs != 0.0
 
     @staticmethod
     def now() -> Time:
-        return Time(time.monotonic())
+        return Time(Time.clock())
 
     def __add__(self, other: Duration) -> Time:
         return Time(self.secs + other.secs)
@@ -99,6 +124,28 @@ class Call:
             threading.Thread(target=self.on_done, args=(status, result), daemon=True).start()
 
 
+def field_name(name: str) -> str:
+    """A field's name in Python, as genpy makes it."""
+    return f"{name}_" if keyword.iskeyword(name) or name == "self" else name
+
+
+def spread(fields: dict[str, Any]) -> dict[str, Any]:
+    """Messages that are dictionaries as objects."""
+    return {
+        name: SimpleNamespace(**spread(value)) if isinstance(value, dict) else value
+        for name, value in fields.items()
+    }
+
+
+def fill(message: Any, values: list[dict[str, Any]]) -> None:
+    """What `genpy.message.fill_message_args` does with one dictionary."""
+    for field, value in values[0].items():
+        if isinstance(value, dict):
+            fill(getattr(message, field), [value])
+        else:
+            setattr(message, field, value)
+
+
 class World:
     """What the machine under test lives in.
 
@@ -112,6 +159,7 @@ class World:
         self.answers: dict[str, list[str]] = defaultdict(list)
         self.deaf: set[str] = set()
         self.log: list[tuple[str, str]] = []
+        self.calls: list[Call] = []
         self.sent: list[tuple[str, Any]] = []
         self.modules: dict[str, ModuleType] = {}
         self.ended = threading.Event()
@@ -159,6 +207,7 @@ class World:
     def start(self, call: Call) -> None:
         with self._changed:
             self.log.append(("call", call.name))
+            self.calls.append(call)
             self._active[call.name] = call
             self._changed.notify_all()
         if self.answers[call.name]:
@@ -227,24 +276,44 @@ class World:
                     raise ServiceException(self.name)
                 return call.result
 
-        class SimpleActionClient:
+        class Goal:
+            """The handle of a goal, which is its own list of known goals too."""
+
+            def __init__(self, call, transition_cb):
+                self.call = call
+                call.on_done = lambda *_: transition_cb(self)
+                self.comm_state_machine = self.action_goal = self.goal_id = self
+                self.id = id(self)
+
+            def get_comm_state(self):
+                return CommState.PENDING if self.call.status is None else CommState.DONE
+
+            def get_terminal_state(self):
+                return self.call.status
+
+            def get_result(self):
+                return self.call.result
+
+            def cancel(self):
+                world.cancel(self.call)
+
+        class ActionClient:
             def __init__(self, name, spec):
                 self.name = name
-                self.call: Call | None = None
+                self.goal: Goal | None = None
 
             def wait_for_server(self, timeout):
                 return True
 
-            def send_goal(self, goal, done_cb, active_cb, feedback_cb):
-                self.call = Call(self.name, goal, self.name in world.deaf)
-                self.call.on_done = done_cb
-                world.start(self.call)
+            def send_goal(self, goal, transition_cb):
+                call = Call(self.name, goal, self.name in world.deaf)
+                self.goal = Goal(call, transition_cb)
+                world.start(call)
+                return self.goal
 
-            def cancel_goal(self):
-                world.cancel(self.call)
-
-            def get_state(self):
-                return self.call.status
+            @property
+            def last_status_msg(self):
+                return SimpleNamespace(status_list=[self.goal])
 
         def get_param(name, *default):
             return world.params.get(name, *default) if default else world.params[name]
@@ -259,7 +328,7 @@ class World:
             world.log.append(("shutdown", reason))
             world.ended.set()
 
-        core = self._module("rospy.core", add_client_shutdown_hook=hooks.append, _in_shutdown=False)
+        core = self._module("rospy.core", _in_shutdown=False)
         self._module(
             "rospy",
             Time=Time,
@@ -274,6 +343,8 @@ class World:
             has_param=world.params.__contains__,
             get_rostime=Time.now,
             init_node=nothing,
+            on_shutdown=hooks.append,
+            resolve_name=lambda name: name,
             spin=lambda: self.ended.wait(WAIT),
             signal_shutdown=end,
             is_shutdown=self.ended.is_set,
@@ -285,9 +356,12 @@ class World:
             core=core,
         )
         self._module("roslib", load_manifest=nothing)
-        actionlib = {"SimpleActionClient": SimpleActionClient, "GoalStatus": GoalStatus}
-        self._module("actionlib", **actionlib)
-        self._module("actionlib.simple_action_client", **actionlib)
+        self._module("genpy.message", fill_message_args=fill)
+        # The real smach_ros imports the simple client, for parts of it that are not used here.
+        self._module("actionlib", ActionClient=ActionClient, CommState=CommState)
+        self._module(
+            "actionlib.simple_action_client", SimpleActionClient=None, GoalStatus=GoalStatus
+        )
         self._module("actionlib_msgs.msg", GoalStatus=GoalStatus)
         # What the real smach_ros imports for parts of it that are not used here.
         self._module("actionlib.simple_action_server", SimpleActionServer=None)
@@ -311,24 +385,39 @@ class World:
             call = function.communication
             if self.system.interface(call.type) is None:
                 define = self._service if call.paradigm == "service" else self._action
-                define(call.type.package, call.type.name, (), ())
+                define(call.type.package, call.type.name, None, None)
+        for machine in self.system.machines:
+            for item in (*machine.params, *machine.variables):
+                type_ = item.type.element if isinstance(item.type, Array) else item.type
+                if isinstance(type_, Named) and self.system.interface(type_) is None:
+                    self.message(type_.package, type_.name, None)
         for event in self.system.events:
             if isinstance(event.type, Named) and self.system.interface(event.type) is None:
-                self.message(event.type.package, event.type.name, ())
+                self.message(event.type.package, event.type.name, None)
 
-    def message(self, package: str, name: str, fields: Iterable[Field], kind: str = "msg") -> type:
-        """Make a message class that takes its fields by name and nothing else."""
-        world, types = self, {field.name: field.type for field in fields}
+    def message(
+        self, package: str, name: str, fields: Iterable[Field] | None, kind: str = "msg"
+    ) -> type:
+        """Make a message class that takes its fields by name and nothing else.
+
+        With None for the fields they are not known, and it takes any.
+        """
+        world, types = self, {field_name(field.name): field.type for field in fields or ()}
 
         def __init__(message: Any, **values: Any) -> None:  # noqa: N807
             unknown = values.keys() - types.keys()
-            assert not unknown, f"{name} has no field {unknown}"
+            assert fields is None or not unknown, f"{name} has no field {unknown}"
+            given = values if fields is not None else {**spread(known), **values}
+            for field in given.keys() - types.keys():
+                setattr(message, field, given[field])
             for field, type_ in types.items():
                 value = values[field] if field in values else world.default(type_)
                 setattr(message, field, value)
 
+        known = {} if fields is not None else default_value(Named(package, name), self.system)
+        slots = tuple(types) if fields is not None else ("__dict__",)
         # Slots as genpy makes them: smach wraps what has a `__dict__` to keep it constant.
-        members = {"__init__": __init__, "__slots__": tuple(types), "result_class": None}
+        members = {"__init__": __init__, "__slots__": slots, "result_class": None}
         class_ = type(name, (), members)
         self._module(f"{package}.{kind}", **{name: class_})
         return class_
@@ -338,8 +427,10 @@ class World:
         match type_:
             case Named(package=package, name=name):
                 module = self.modules.get(f"{package}.msg")
-                class_ = getattr(module, name, None) or self.message(package, name, ())
+                class_ = getattr(module, name, None) or self.message(package, name, None)
                 return class_()
+            case Array(element=element, size=int(size), bounded=False):
+                return [self.default(element) for _ in range(size)]
             case Array():
                 return []
             case Primitive(name="string"):

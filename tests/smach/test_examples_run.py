@@ -10,7 +10,7 @@ def test_uav_mission(example: Callable[..., Any]) -> None:
     uav = example("search_and_rescue", "uav_search")
     world = uav.world
     uav.start()
-    uav.wait_in("Mission/Mission/Idle", "Mission/MissionAbort")
+    uav.wait_in("Mission/Idle")
     world.publish("bridge/events/mission_start")
     assert world.wait_for("cmd/takeoff").content.altitude == 2.5
     world.finish("cmd/takeoff")

@@ -1,6 +1,5 @@
 """What generated machines do on entry, on exit, without a trigger and without a target."""
 
-import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -61,7 +60,7 @@ def test_exit_effects_and_entry_in_this_order(robot: Run) -> None:
     )
     work.start()
     work.world.finish("work")
-    work.wait_in("Outer/Outer/B/Go")
+    work.wait_in("Outer/B")
     work.world.publish("go", id="x")
     assert work.ended() == "End"
     assert _said(work) == [
@@ -91,7 +90,7 @@ def test_exit_of_all_that_an_outer_transition_leaves(robot: Run) -> None:
     )
     work.start()
     work.world.wait_for("work")
-    work.wait_in("Both/Both/Left/A/A", "Both/Stop")
+    work.wait_in("Both/Left/A")
     work.world.publish("stop")
     assert work.ended() == "End"
     assert _said(work) == ["into Both", "into A", "out of A", "out of Both", "effect"]
@@ -109,7 +108,7 @@ def test_exit_when_the_node_shuts_down(robot: Run) -> None:
         }"""
     )
     work.start()
-    work.wait_in("A/Go")
+    work.wait_in("A")
     assert work.preempt() == "preempted"
     assert _said(work) == ["out"]
 
@@ -150,7 +149,7 @@ def test_effects_on_a_state_that_waits_for_nothing(robot: Run) -> None:
         }"""
     )
     work.start()
-    work.wait_in("A/A")
+    work.wait_in("A")
     assert _said(work) == ["in"]
 
 
@@ -216,9 +215,9 @@ statemachine Work {
 def test_condition_that_another_region_makes_true(robot: Run) -> None:
     work = robot(HEADER + CONDITION)
     work.start()
-    work.wait_in("Both/Left/A/condition", "Both/Left/A/Stop", "Both/Right/C")
+    work.wait_in("Both/Left/A", "Both/Right/C")
     work.world.publish("go", level=-6)  # 10 for a moment only: steps are seen as a whole
-    work.wait_in("Both/Left/A/condition", "Both/Left/A/Stop", "Both/Right/D")
+    work.wait_in("Both/Left/A", "Both/Right/D")
     work.world.publish("go", level=7)
     assert work.world.wait_for("ask").content.times == 107
     work.world.finish("ask")
@@ -228,7 +227,7 @@ def test_condition_that_another_region_makes_true(robot: Run) -> None:
 def test_condition_is_preempted(robot: Run) -> None:
     work = robot(HEADER + CONDITION)
     work.start()
-    work.wait_in("Both/Left/A/condition", "Both/Left/A/Stop", "Both/Right/C")
+    work.wait_in("Both/Left/A", "Both/Right/C")
     work.world.publish("stop")
     assert work.ended() == "Bad"
 
@@ -302,7 +301,7 @@ def test_a_condition_that_fails_is_false(robot: Run) -> None:
         }"""
     )
     work.start()
-    work.wait_in("A/condition", "A/Go")
+    work.wait_in("A")
     assert any(what == "error" for what, _ in work.world.log)
     work.world.publish("go", level=2)
     assert work.ended() == "End"
@@ -356,7 +355,7 @@ def test_transition_without_target_stays(robot: Run) -> None:
     world = work.world
     work.start()
     world.wait_for("work")
-    work.wait_in("Outer/Outer/A/A", "Outer/Outer/A/Go", "Outer/Go")
+    work.wait_in("Outer/A")
     for name in ("x", "y"):
         world.publish("go", level=3, id=name)
     assert _said(work) == ["x", "y"]
@@ -406,13 +405,16 @@ endless statemachine Work {{
 DEEP = "initial C  state C { on Go -> Second }"
 
 
-@pytest.mark.parametrize("nested", ["on Go -> Second", DEEP])
+RIGHT = {"on Go -> Second": "Both/Right/B", DEEP: "Both/Right/B/C"}
+
+
+@pytest.mark.parametrize("nested", RIGHT)
 def test_two_regions_that_leave_on_one_event(nested: str, robot: Run) -> None:
     """The first region in the model wins, however deep the other one waits."""
     work = robot(HEADER + TWO.format(left="First", nested=nested))
     work.start()
     for _ in range(30):
-        work.world.wait_until(lambda: _waiting(work) == 2, "both regions wait")
+        work.wait_in("Both/Left/A", RIGHT[nested])
         work.world.publish("go")
         work.wait_in("First")
         work.world.publish("stop")
@@ -421,7 +423,7 @@ def test_two_regions_that_leave_on_one_event(nested: str, robot: Run) -> None:
 def test_region_that_stays_keeps_a_later_one_from_leaving(robot: Run) -> None:
     work = robot(HEADER + TWO.format(left="A2", nested="on Go -> Second"))
     work.start()
-    work.world.wait_until(lambda: _waiting(work) == 2, "both regions wait")
+    work.wait_in("Both/Left/A", "Both/Right/B")
     work.world.publish("go")
     work.wait_in("Both/Left/A2", "Both/Right/B")
     work.world.publish("go")
@@ -431,14 +433,9 @@ def test_region_that_stays_keeps_a_later_one_from_leaving(robot: Run) -> None:
 def test_two_regions_that_stay_both_take_an_event(robot: Run) -> None:
     work = robot(HEADER + TWO.format(left="A2", nested="on Go -> B2"))
     work.start()
-    work.world.wait_until(lambda: _waiting(work) == 2, "both regions wait")
+    work.wait_in("Both/Left/A", "Both/Right/B")
     work.world.publish("go")
     work.wait_in("Both/Left/A2", "Both/Right/B2")
-
-
-def _waiting(work: Any) -> int:
-    """How many states wait for the event Go."""
-    return len(sys.modules["lab_behavior.events"].GO._waiting)
 
 
 def test_only_one_of_two_ways_out_has_its_effects(robot: Run) -> None:
@@ -459,7 +456,7 @@ def test_only_one_of_two_ways_out_has_its_effects(robot: Run) -> None:
         }"""
     )
     work.start()
-    work.wait_in("Outer/Outer/A", "Outer/Stop")
+    work.wait_in("Outer/A")
     work.world.publish("go")
     work.wait_in("Inner")
     work.world.publish("stop")
@@ -488,7 +485,6 @@ def test_regions_keep_their_messages_apart(robot: Run) -> None:
           }
         }"""
     )
-    assert {"go_event", "go_event_2"} <= set(work.machine.userdata.keys())
     work.start()
     for _ in range(5):
         work.wait_in("Both/Left/A", "Both/Right/B")

@@ -1,11 +1,18 @@
 """A stand-in for smach 2.5: its rules of construction, and running without its logging.
 
-Written from its documented behaviour, for tests where the real one is not installed.
+Written from its documented behaviour, for tests where the real one is not installed;
+test_stand_in.py holds it against the real one. What that one does otherwise than documented it does
+as well where DEFECTS has the name of it: `lost-preempt`, a Concurrence that is preempted before it
+waits for its children waits for ever; `fall-through`, an outcome that is not bound ends the
+container by that name.
 """
 
 from __future__ import annotations
 
+import os
 import threading
+
+DEFECTS = set(filter(None, os.environ.get("SMACH_STAND_IN_DEFECTS", "").split(",")))
 
 
 class InvalidStateError(Exception):
@@ -21,7 +28,16 @@ class InvalidUserCodeError(Exception):
 
 
 def is_shutdown():
+    return _is_shutdown()
+
+
+def _is_shutdown():
     return False
+
+
+def set_shutdown_check(check):
+    global _is_shutdown
+    _is_shutdown = check
 
 
 class UserData:
@@ -52,28 +68,28 @@ class UserData:
 class Remapper:
     """Lets a state reach the keys it declared; the real one only logs a forbidden write."""
 
-    def __init__(self, userdata, input_keys=(), output_keys=(), remapping=()):
-        assert not remapping
-        object.__setattr__(self, "_state", (userdata, set(input_keys), set(output_keys)))
+    def __init__(self, userdata, input_keys=(), output_keys=(), remapping=None):
+        state = (userdata, set(input_keys), set(output_keys), dict(remapping or {}))
+        object.__setattr__(self, "_state", state)
 
     def __getattr__(self, name):
-        userdata, inputs, _ = self._state
+        userdata, inputs, _, remapping = self._state
         if name not in inputs:
             raise InvalidUserCodeError(f"{name} is read but not declared")
-        return userdata[name]
+        return userdata[remapping.get(name, name)]
 
     def __setattr__(self, name, value):
-        userdata, _, outputs = self._state
+        userdata, _, outputs, remapping = self._state
         if name not in outputs:
             raise InvalidUserCodeError(f"{name} is written but not declared")
-        userdata[name] = value
+        userdata[remapping.get(name, name)] = value
 
     __getitem__ = __getattr__
     __setitem__ = __setattr__
 
     def __contains__(self, name):
-        userdata, inputs, _ = self._state
-        return name in inputs and name in userdata
+        userdata, inputs, _, remapping = self._state
+        return name in inputs and remapping.get(name, name) in userdata
 
 
 class State:
@@ -108,8 +124,8 @@ class State:
 class _Container(State):
     _open: list = []
 
-    def __init__(self, outcomes):
-        super().__init__(outcomes)
+    def __init__(self, outcomes, input_keys=(), output_keys=()):
+        super().__init__(outcomes, input_keys, output_keys)
         self.userdata = UserData()
         self._states = {}
         self._remappings = {}
@@ -137,6 +153,24 @@ class _Container(State):
     def __getitem__(self, label):
         return self._states[label]
 
+    def _run_child(self, label):
+        child = self._states[label]
+        keys = (child.get_registered_input_keys(), child.get_registered_output_keys())
+        outcome = child.execute(Remapper(self.userdata, *keys, self._remappings[label]))
+        if outcome not in child.get_registered_outcomes():
+            raise InvalidTransitionError(f"{label} ended with {outcome}")
+        return outcome
+
+    def _copy_input_keys(self, parent):
+        for key in self._input_keys if parent is not None else ():
+            if key in parent:
+                self.userdata[key] = parent[key]
+
+    def _copy_output_keys(self, parent):
+        for key in self._output_keys if parent is not None else ():
+            if key in self.userdata:
+                parent[key] = self.userdata[key]
+
     def call_start_cbs(self):
         pass
 
@@ -148,8 +182,8 @@ class _Container(State):
 
 
 class StateMachine(_Container):
-    def __init__(self, outcomes):
-        super().__init__(outcomes)
+    def __init__(self, outcomes, input_keys=(), output_keys=()):
+        super().__init__(outcomes, input_keys, output_keys)
         self._lock = threading.Lock()
         self._initial_state_label = None
         self._transitions = {}
@@ -158,7 +192,7 @@ class StateMachine(_Container):
         self._running = False
 
     @staticmethod
-    def add(label, state, transitions=None):
+    def add(label, state, transitions=None, remapping=None):
         machine = StateMachine._opened(label)
         for outcome in transitions or {}:
             if outcome not in state.get_registered_outcomes():
@@ -166,6 +200,7 @@ class StateMachine(_Container):
         machine._initial_state_label = machine._initial_state_label or label
         machine._states[label] = state
         machine._transitions[label] = dict(transitions or {})
+        machine._remappings[label] = dict(remapping or {})
         return state
 
     def set_initial_state(self, labels):
@@ -174,12 +209,21 @@ class StateMachine(_Container):
     def get_initial_states(self):
         return [self._initial_state_label]
 
+    def get_internal_edges(self):
+        return [
+            (outcome, label, target)
+            for label, transitions in self._transitions.items()
+            for outcome, target in transitions.items()
+        ]
+
     def check_consistency(self):
         known = {*self._states, *self._outcomes}
         if self._initial_state_label not in self._states:
             raise InvalidStateError(f"initial state {self._initial_state_label}")
         for label, transitions in self._transitions.items():
             unbound = set(self._states[label].get_registered_outcomes()) - transitions.keys()
+            if "fall-through" in DEFECTS:
+                unbound -= self._outcomes
             if unbound:
                 raise InvalidTransitionError(f"{label} leaves {unbound} unbound")
             for target in transitions.values():
@@ -190,6 +234,8 @@ class StateMachine(_Container):
         return self._running
 
     def execute(self, parent_ud=None):
+        self.check_consistency()
+        self._copy_input_keys(parent_ud)
         with self._lock:
             self._preempted = None
             self._current = self._initial_state_label
@@ -198,6 +244,7 @@ class StateMachine(_Container):
             while True:
                 outcome = self._step()
                 if outcome is not None:
+                    self._copy_output_keys(parent_ud)
                     return outcome
         finally:
             self._running = False
@@ -212,12 +259,9 @@ class StateMachine(_Container):
                     self._preempt_requested = False
                     self._preempted = None
             state = self._states[label]
-        keys = (state.get_registered_input_keys(), state.get_registered_output_keys())
-        outcome = state.execute(Remapper(self.userdata, *keys))
+        outcome = self._run_child(label)
         with self._lock:
-            if outcome not in state.get_registered_outcomes():
-                raise InvalidTransitionError(f"{label} ended with {outcome}")
-            target = self._transitions[label][outcome]
+            target = self._transitions[label].get(outcome, outcome)
             if target in self._states:
                 self._current = target
                 return None
@@ -243,21 +287,41 @@ class StateMachine(_Container):
 
 
 class Concurrence(_Container):
-    def __init__(self, outcomes, default_outcome=None, outcome_map=None):
-        super().__init__(outcomes)
+    def __init__(
+        self,
+        outcomes,
+        default_outcome=None,
+        input_keys=(),
+        output_keys=(),
+        outcome_map=None,
+        outcome_cb=None,
+        child_termination_cb=None,
+    ):
+        super().__init__(outcomes, input_keys, output_keys)
         self._outcome_map = dict(outcome_map or {})
         if default_outcome not in outcomes or not self._outcome_map.keys() <= set(outcomes):
             raise InvalidStateError("an outcome that is not declared")
         self._default_outcome = default_outcome
+        self._outcome_cb = outcome_cb
+        self._child_termination_cb = child_termination_cb
         self._child_outcomes = {}
+        self._is_over = False
+        self._failure = None
         self._done_cond = threading.Condition()
 
     @staticmethod
-    def add(label, state):
+    def add(label, state, remapping=None):
         concurrence = Concurrence._opened(label)
         concurrence._states[label] = state
-        concurrence._remappings[label] = {}
+        concurrence._remappings[label] = dict(remapping or {})
         return state
+
+    def get_internal_edges(self):
+        return [
+            (outcome, label, ends_with)
+            for ends_with, criteria in self._outcome_map.items()
+            for label, outcome in criteria.items()
+        ]
 
     def check_consistency(self):
         for criteria in self._outcome_map.values():
@@ -269,3 +333,66 @@ class Concurrence(_Container):
         super().request_preempt()
         with self._done_cond:
             self._done_cond.notify_all()
+
+    def execute(self, parent_ud=None):
+        self.check_consistency()
+        self._copy_input_keys(parent_ud)
+        self._child_outcomes = dict.fromkeys(self._states)
+        self._is_over, self._failure = False, None
+        threads = [
+            threading.Thread(target=self._run_thread, args=(label,), daemon=True)
+            for label in self._states
+        ]
+        early = self._preempt_requested
+        for thread in threads:
+            thread.start()
+        with self._done_cond:
+            while not self._is_over and (
+                not self._preempt_requested or (early and "lost-preempt" in DEFECTS)
+            ):
+                self._done_cond.wait()
+        for label, child in self._states.items():
+            if self._child_outcomes[label] is None:
+                child.request_preempt()
+        for thread in threads:
+            thread.join()
+        if self._failure is not None:
+            raise InvalidStateError("a state failed") from self._failure
+        outcome = self._outcome()
+        self._child_outcomes = {}
+        self._copy_output_keys(parent_ud)
+        return outcome
+
+    def _run_thread(self, label):
+        outcome = failure = None
+        try:
+            outcome = self._run_child(label)
+        except Exception as error:
+            failure = error
+        with self._done_cond:
+            self._child_outcomes[label] = outcome
+            self._failure = self._failure or failure
+            ended = self._child_termination_cb or (
+                lambda outcomes: all(each is not None for each in outcomes.values())
+            )
+            if self._failure or ended(dict(self._child_outcomes)):
+                self._is_over = True
+            if all(each is not None for each in self._child_outcomes.values()):
+                self._is_over = True
+            self._done_cond.notify_all()
+
+    def _outcome(self):
+        if self._preempt_requested:
+            if not any(child.preempt_requested() for child in self._states.values()):
+                self.service_preempt()
+                return "preempted"
+            for child in self._states.values():
+                child.recall_preempt()
+        chosen, most = self._default_outcome, 0
+        for outcome, criteria in self._outcome_map.items():
+            holds = all(self._child_outcomes[label] == each for label, each in criteria.items())
+            if holds and len(criteria) > most:
+                chosen, most = outcome, len(criteria)
+        if self._outcome_cb is not None:
+            return self._outcome_cb(dict(self._child_outcomes)) or chosen
+        return chosen

@@ -4,4 +4,6 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=['sar_behavior'], package_dir={'': 'src'}))
+PACKAGES = ['sar_behavior', 'sar_behavior.engine']
+
+setup(**generate_distutils_setup(packages=PACKAGES, package_dir={'': 'src'}))

@@ -3,35 +3,37 @@
 
 import rospy
 import smach
-import smach_ros
-from actionlib_msgs.msg import GoalStatus
 from full.msg import Found, GotoAction, GotoGoal, Pose2D
 from full.srv import Beep, BeepRequest
 
 from full_behavior import events
-from full_behavior.containers import Concurrence, StateMachine
-from full_behavior.states import Decision, Monitor, Timer, step
+from full_behavior.actions import ActionState
+from full_behavior.containers import Concurrence, Machine, StateMachine
+from full_behavior.services import ServiceState
+from full_behavior.states import AT_ONCE, Final, On, State, param
 
 
 def build():
     """Build state machine Work."""
     events.SEEN.advertise()
     userdata = initial_userdata()
-    machine = StateMachine(['Stop', 'preempted'], userdata)
+    machine = Machine(['Stop'], userdata)
     with machine:
         # model.swarm:53
         # model.swarm:82
         # The battery.
         StateMachine.add(
-            'Main', _main(userdata), transitions={'Lo': 'Landing', 'preempted': 'preempted'}
+            'Main',
+            _main(),
+            transitions={'done_Landing': 'Landing', 'done_Stop': 'Stop', 'preempted': 'preempted'},
         )
         # model.swarm:85
         # model.swarm:87
         # Down.
         StateMachine.add(
             'Landing',
-            _landing(userdata),
-            transitions={'Ok': 'Stop', 'Bad': 'Main', 'preempted': 'preempted'},
+            _landing(),
+            transitions={'Ok': 'Stop', 'done': 'Main', 'preempted': 'preempted'},
         )
     return machine
 
@@ -40,7 +42,7 @@ def initial_userdata():
     """Params as ROS has them, and the first values of variables."""
     userdata = smach.UserData()
     # model.swarm:22
-    userdata.speed = rospy.get_param('~speed', 2.0)
+    userdata.speed = param('~speed', float, 2.0)
     # model.swarm:48
     userdata.where = Pose2D()
     # model.swarm:49
@@ -49,24 +51,25 @@ def initial_userdata():
     userdata.ok = False
     # model.swarm:34
     userdata.landing_tries = 0
-    userdata.seen_event = Found()
     return userdata
 
 
-def _main(userdata):
+def _main():
     """Build the regions of state Main."""
-    concurrence = Concurrence(['Lo', 'preempted'], {'Lo': {'B': 'Lo'}}, userdata)
+    concurrence = Concurrence(
+        on=[On('done.state.Main.B', 'done_Landing'), On('done.state.Main', 'done_Stop')]
+    )
     with concurrence:
         # model.swarm:54
-        Concurrence.add('A', _main_a(userdata))
+        Concurrence.add('A', _main_a())
         # model.swarm:75
-        Concurrence.add('B', _main_b(userdata))
+        Concurrence.add('B', _main_b())
     return concurrence
 
 
-def _main_a(userdata):
+def _main_a():
     """Build region Main.A."""
-    machine = StateMachine(['End', 'preempted'], userdata)
+    machine = StateMachine()
     with machine:
         # model.swarm:56
         # model.swarm:58
@@ -75,26 +78,30 @@ def _main_a(userdata):
         # What next?
         StateMachine.add(
             'Go',
-            _main_a_go(userdata),
+            ActionState(
+                'cmd/goto',
+                GotoAction,
+                goal_cb=_main_a_go_goal,
+                store=_main_a_go_result,
+                on=[
+                    On('succeeded'),
+                    On('aborted'),
+                    On('timeout', guard=lambda userdata, event: not userdata.ok),
+                    On(
+                        events.SEEN,
+                        guard=lambda userdata, event: event.state == 3 and event.id != 'x',
+                        effect=_main_a_go_seen_effect,
+                    ),
+                ],
+                after={'timeout': lambda userdata: rospy.Duration(30.0)},
+            ),
             transitions={
                 'succeeded': 'Pick',
                 'aborted': 'Pick',
-                'Seen': 'Go_Seen',
                 'timeout': 'Pick',
+                'Seen': 'Go',
                 'preempted': 'preempted',
             },
-        )
-        # model.swarm:64
-        # There is more.
-        StateMachine.add(
-            'Go_Seen',
-            Decision(
-                _main_a_go_on_seen,
-                ['Go'],
-                input_keys=['seen_event'],
-                output_keys=['where', 'tries'],
-            ),
-            transitions={'Go': 'Go', 'preempted': 'preempted'},
         )
         # model.swarm:66
         # model.swarm:68
@@ -103,132 +110,93 @@ def _main_a(userdata):
         # It does not.
         StateMachine.add(
             'Pick',
-            Decision(
-                _main_a_pick, ['Go', 'End'], input_keys=['ok', 'tries'], output_keys=['tries']
+            State(
+                on=[
+                    On(AT_ONCE, 'Go', guard=lambda userdata, event: userdata.ok),
+                    On(
+                        AT_ONCE,
+                        'Go',
+                        guard=lambda userdata, event: userdata.tries < 3,
+                        effect=_main_a_pick_go_effect,
+                    ),
+                    On(AT_ONCE, 'End'),
+                ],
             ),
             transitions={'Go': 'Go', 'End': 'End', 'preempted': 'preempted'},
         )
+        # model.swarm:73
+        StateMachine.add('End', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
-def _main_a_go(userdata):
-    """Build state Main.A.Go, with what begins and ends it."""
-    concurrence = Concurrence(
-        ['succeeded', 'aborted', 'Seen', 'timeout', 'preempted'],
-        {
-            'succeeded': {'Go': 'succeeded'},
-            'aborted': {'Go': 'aborted'},
-            'Seen': {'Seen': 'Seen'},
-            'timeout': {'timeout': 'timeout'},
-        },
-        userdata,
-    )
-    with concurrence:
-        # model.swarm:56
-        Concurrence.add(
-            'Go',
-            smach_ros.SimpleActionState(
-                'cmd/goto',
-                GotoAction,
-                goal_cb=step(_main_a_go_goal),
-                result_cb=step(_main_a_go_result),
-                input_keys=['where', 'speed'],
-                output_keys=['ok'],
-            ),
-        )
-        # model.swarm:64
-        Concurrence.add(
-            'Seen',
-            Monitor(
-                events.SEEN,
-                'Main.A.Go',
-                {'Seen': 'Main.A'},
-                choose=_main_a_go_choose_seen,
-                message_key='seen_event',
-            ),
-        )
-        # model.swarm:62
-        Concurrence.add(
-            'timeout',
-            Timer(
-                lambda userdata: rospy.Duration(30.0),
-                ['timeout'],
-                choose=_main_a_go_choose_timeout,
-                input_keys=['ok'],
-            ),
-        )
-    return concurrence
-
-
-def _main_b(userdata):
+def _main_b():
     """Build region Main.B."""
-    machine = StateMachine(['Lo', 'preempted'], userdata)
+    machine = StateMachine()
     with machine:
         # model.swarm:78
         StateMachine.add(
             'Ok',
-            Monitor(events.LOW, 'Main.B.Ok', {'Low': 'Main.B'}, choose=_main_b_ok_choose_low),
+            State(on=[On(events.LOW, guard=lambda userdata, event: event.percentage < 0.2)]),
             transitions={'Low': 'Lo', 'preempted': 'preempted'},
         )
+        # model.swarm:79
+        StateMachine.add('Lo', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
-def _landing(userdata):
-    """Build state Landing, with what begins and ends it."""
-    concurrence = Concurrence(
-        ['Ok', 'Bad', 'preempted'],
-        {'Ok': {'Landing': 'Ok'}, 'Bad': {'Landing': 'Bad'}},
-        userdata,
+def _landing():
+    """Build state Landing."""
+    machine = StateMachine(
+        on=[
+            On('final.Landing.Ok', 'Ok'),
+            On('final.Landing.Ok', 'done'),
+            On('final.Landing.Bad', 'done'),
+        ],
         on_entry=_landing_entry,
     )
-    with concurrence:
-        # model.swarm:85
-        Concurrence.add('Landing', _landing_states(userdata))
-    return concurrence
-
-
-def _landing_states(userdata):
-    """Build state Landing."""
-    machine = StateMachine(['Ok', 'Bad', 'preempted'], userdata)
     with machine:
         # model.swarm:36
         # model.swarm:38
         # Once is enough.
-        StateMachine.add(
-            'Down',
-            smach_ros.ServiceState('beep', Beep, request=BeepRequest(times=1)),
-            transitions={
-                'succeeded': 'Down_succeeded',
-                'aborted': 'Down_aborted',
-                'preempted': 'preempted',
-            },
-        )
-        # model.swarm:40
-        # Every try counts.
-        StateMachine.add(
-            'Down_succeeded',
-            Decision(
-                _landing_down_on_succeeded,
-                ['Ok'],
-                input_keys=['landing_tries'],
-                output_keys=['landing_tries'],
-            ),
-            transitions={'Ok': 'Ok', 'preempted': 'preempted'},
-        )
-        # model.swarm:41
         # model.swarm:43
         # No more tries.
         StateMachine.add(
-            'Down_aborted',
-            Decision(
-                _landing_down_on_aborted,
-                ['Down', 'Bad'],
-                input_keys=['landing_tries'],
-                output_keys=['landing_tries'],
+            'Down',
+            ServiceState(
+                'beep',
+                Beep,
+                request=BeepRequest(times=1),
+                on=[
+                    On('succeeded', effect=_landing_down_succeeded_effect),
+                    On(
+                        'aborted',
+                        'aborted_Down',
+                        guard=lambda userdata, event: userdata.landing_tries < 3,
+                        effect=_landing_down_aborted_effect,
+                    ),
+                    On('aborted', 'aborted_Bad'),
+                ],
             ),
-            transitions={'Down': 'Down', 'Bad': 'Bad', 'preempted': 'preempted'},
+            transitions={
+                'succeeded': 'Ok',
+                'aborted_Down': 'Down',
+                'aborted_Bad': 'Bad',
+                'preempted': 'preempted',
+            },
         )
+        # model.swarm:44
+        StateMachine.add('Ok', Final(), transitions={'preempted': 'preempted'})
+        # model.swarm:45
+        StateMachine.add('Bad', Final(), transitions={'preempted': 'preempted'})
     return machine
+
+
+def _main_a_go_seen_effect(userdata, event):
+    # model.swarm:64
+    # There is more.
+    userdata.where = event.where
+    userdata.tries = 0
+    events.SEEN.send(Found(id='a'))
 
 
 def _main_a_go_goal(userdata, goal):
@@ -236,64 +204,25 @@ def _main_a_go_goal(userdata, goal):
     return GotoGoal(target=userdata.where, speed=userdata.speed)
 
 
-def _main_a_go_result(userdata, status, result):
+def _main_a_go_result(userdata, result):
     # model.swarm:58
-    if status == GoalStatus.SUCCEEDED:
-        userdata.ok = result.reached
+    userdata.ok = result.reached
 
 
-def _main_a_go_choose_seen(userdata, event):
-    # model.swarm:64
-    if event.state == 3 and event.id != 'x':
-        return 'Seen'
-    return None
+def _main_a_pick_go_effect(userdata, event):
+    # model.swarm:69
+    userdata.tries = userdata.tries + 1
 
 
-def _main_a_go_choose_timeout(userdata):
-    # model.swarm:62
-    if not userdata.ok:
-        return 'timeout'
-    return None
-
-
-def _main_a_go_on_seen(userdata):
-    # model.swarm:64
-    event = userdata.seen_event
-    userdata.where = event.where
-    userdata.tries = 0
-    events.SEEN.send(Found(id='a'))
-    return 'Go'
-
-
-def _main_a_pick(userdata):
-    # model.swarm:68
-    if userdata.ok:
-        return 'Go'
-    if userdata.tries < 3:
-        userdata.tries = userdata.tries + 1
-        return 'Go'
-    return 'End'
-
-
-def _main_b_ok_choose_low(userdata, event):
-    # model.swarm:78
-    if event.percentage < 0.2:
-        return 'Low'
-    return None
-
-
-def _landing_down_on_succeeded(userdata):
+def _landing_down_succeeded_effect(userdata, event):
     # model.swarm:40
+    # Every try counts.
     userdata.landing_tries = userdata.landing_tries + 1
-    return 'Ok'
 
 
-def _landing_down_on_aborted(userdata):
+def _landing_down_aborted_effect(userdata, event):
     # model.swarm:41
-    if userdata.landing_tries < 3:
-        userdata.landing_tries = userdata.landing_tries + 1
-        return 'Down'
-    return 'Bad'
+    userdata.landing_tries = userdata.landing_tries + 1
 
 
 def _landing_entry(userdata):

@@ -2,23 +2,25 @@
 """State machine Blinking."""
 
 import smach
-import smach_ros
 from blinker_msgs.msg import BlinkAction
 
 from blinker_behavior import events
-from blinker_behavior.containers import Concurrence, StateMachine
-from blinker_behavior.states import Monitor
+from blinker_behavior.actions import ActionState
+from blinker_behavior.containers import Machine, StateMachine
+from blinker_behavior.states import On
 
 
 def build():
     """Build state machine Blinking."""
     userdata = smach.UserData()
-    machine = StateMachine(['Off', 'preempted'], userdata)
+    machine = Machine(['Off'], userdata)
     with machine:
         # blinker.swarm:14
         StateMachine.add(
             'Blink',
-            _blink(userdata),
+            ActionState(
+                'cmd/blink', BlinkAction, on=[On('succeeded'), On('aborted'), On(events.STOP)]
+            ),
             transitions={
                 'succeeded': 'Blink',
                 'aborted': 'Off',
@@ -27,22 +29,3 @@ def build():
             },
         )
     return machine
-
-
-def _blink(userdata):
-    """Build state Blink, with what begins and ends it."""
-    concurrence = Concurrence(
-        ['succeeded', 'aborted', 'Stop', 'preempted'],
-        {
-            'succeeded': {'Blink': 'succeeded'},
-            'aborted': {'Blink': 'aborted'},
-            'Stop': {'Stop': 'Stop'},
-        },
-        userdata,
-    )
-    with concurrence:
-        # blinker.swarm:14
-        Concurrence.add('Blink', smach_ros.SimpleActionState('cmd/blink', BlinkAction))
-        # blinker.swarm:18
-        Concurrence.add('Stop', Monitor(events.STOP, 'Blink', {'Stop': ''}))
-    return concurrence

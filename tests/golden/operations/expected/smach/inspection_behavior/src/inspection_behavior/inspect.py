@@ -4,94 +4,101 @@
 import inspection.srv
 import lidar.srv
 import smach
-import smach_ros
 from inspection.srv import ThermalCameraCalibrate
 
-from inspection_behavior.containers import StateMachine
-from inspection_behavior.states import Decision, step
+from inspection_behavior.containers import Machine, StateMachine
+from inspection_behavior.services import ServiceState
+from inspection_behavior.states import Final, On
 
 
 def build():
     """Build state machine Inspect."""
     userdata = initial_userdata()
-    machine = StateMachine(['Done', 'preempted'], userdata)
+    machine = Machine(['Done'], userdata)
     with machine:
         # model.swarm:44
         StateMachine.add(
-            'Prepare', _prepare(userdata), transitions={'Done': 'Look', 'preempted': 'preempted'}
+            'Prepare', _prepare(), transitions={'done': 'Look', 'preempted': 'preempted'}
         )
         # model.swarm:47
         StateMachine.add(
             'Look',
-            smach_ros.ServiceState(
+            ServiceState(
                 'inspection_camera/snap',
                 inspection.srv.CameraSnap,
                 request=inspection.srv.CameraSnapRequest(zoom=1),
+                on=[On('succeeded'), On('aborted')],
             ),
             transitions={'succeeded': 'LookWarm', 'aborted': 'LookWarm', 'preempted': 'preempted'},
         )
         # model.swarm:51
         StateMachine.add(
             'LookWarm',
-            smach_ros.ServiceState(
+            ServiceState(
                 'thermal_camera/snap',
                 inspection.srv.CameraSnap,
                 request=inspection.srv.CameraSnapRequest(zoom=1),
+                on=[On('succeeded'), On('aborted')],
             ),
             transitions={'succeeded': 'Measure', 'aborted': 'Measure', 'preempted': 'preempted'},
         )
         # model.swarm:55
         StateMachine.add(
             'Measure',
-            smach_ros.ServiceState(
+            ServiceState(
                 'lidar_camera/snap',
                 lidar.srv.CameraSnap,
-                response_cb=step(_measure_response),
-                output_keys=['distance'],
+                store=_measure_response,
+                on=[
+                    On(
+                        'succeeded',
+                        'succeeded_LookAhead',
+                        guard=lambda userdata, event: userdata.distance < 2.0,
+                    ),
+                    On('succeeded', 'succeeded_Done'),
+                    On('aborted'),
+                ],
             ),
             transitions={
-                'succeeded': 'Measure_succeeded',
+                'succeeded_LookAhead': 'LookAhead',
+                'succeeded_Done': 'Done',
                 'aborted': 'Done',
                 'preempted': 'preempted',
             },
-        )
-        # model.swarm:57
-        # model.swarm:58
-        StateMachine.add(
-            'Measure_succeeded',
-            Decision(_measure_on_succeeded, ['LookAhead', 'Done'], input_keys=['distance']),
-            transitions={'LookAhead': 'LookAhead', 'Done': 'Done', 'preempted': 'preempted'},
         )
         # model.swarm:60
         StateMachine.add(
             'LookAhead',
-            smach_ros.ServiceState(
+            ServiceState(
                 'front/snap',
                 inspection.srv.CameraSnap,
                 request=inspection.srv.CameraSnapRequest(zoom=2),
-                response_cb=step(_look_ahead_response),
-                output_keys=['stored'],
+                store=_look_ahead_response,
+                on=[
+                    On(
+                        'succeeded',
+                        'succeeded_LookBack',
+                        guard=lambda userdata, event: userdata.stored,
+                    ),
+                    On('succeeded', 'succeeded_Done'),
+                    On('aborted'),
+                ],
             ),
             transitions={
-                'succeeded': 'LookAhead_succeeded',
+                'succeeded_LookBack': 'LookBack',
+                'succeeded_Done': 'Done',
                 'aborted': 'Done',
                 'preempted': 'preempted',
             },
         )
-        # model.swarm:62
-        # model.swarm:63
-        StateMachine.add(
-            'LookAhead_succeeded',
-            Decision(_look_ahead_on_succeeded, ['LookBack', 'Done'], input_keys=['stored']),
-            transitions={'LookBack': 'LookBack', 'Done': 'Done', 'preempted': 'preempted'},
-        )
         # model.swarm:65
         StateMachine.add(
             'LookBack',
-            smach_ros.ServiceState(
+            ServiceState(
                 'rear/snap',
                 inspection.srv.CameraSnap,
                 request=inspection.srv.CameraSnapRequest(zoom=2),
+                on=[On('succeeded'), On('aborted')],
             ),
             transitions={'succeeded': 'Done', 'aborted': 'Done', 'preempted': 'preempted'},
         )
@@ -108,16 +115,20 @@ def initial_userdata():
     return userdata
 
 
-def _prepare(userdata):
+def _prepare():
     """Build state Prepare."""
-    machine = StateMachine(['Done', 'preempted'], userdata)
+    machine = StateMachine(on=[On('done.state.Prepare', 'done')])
     with machine:
         # model.swarm:31
         StateMachine.add(
             'Measure',
-            smach_ros.ServiceState('rear/calibrate', ThermalCameraCalibrate),
+            ServiceState(
+                'rear/calibrate', ThermalCameraCalibrate, on=[On('succeeded'), On('aborted')]
+            ),
             transitions={'succeeded': 'Done', 'aborted': 'Done', 'preempted': 'preempted'},
         )
+        # model.swarm:35
+        StateMachine.add('Done', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
@@ -126,20 +137,6 @@ def _measure_response(userdata, response):
     userdata.distance = response.distance
 
 
-def _measure_on_succeeded(userdata):
-    # model.swarm:57
-    if userdata.distance < 2.0:
-        return 'LookAhead'
-    return 'Done'
-
-
 def _look_ahead_response(userdata, response):
     # model.swarm:61
     userdata.stored = response.stored
-
-
-def _look_ahead_on_succeeded(userdata):
-    # model.swarm:62
-    if userdata.stored:
-        return 'LookBack'
-    return 'Done'

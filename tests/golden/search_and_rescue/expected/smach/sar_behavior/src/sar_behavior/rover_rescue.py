@@ -2,38 +2,31 @@
 """A rover offers itself for found targets and drives to the one it was given."""
 
 import smach
-import smach_ros
-from actionlib_msgs.msg import GoalStatus
-from cpswarm_msgs.msg import (
-    MoveToAction,
-    MoveToGoal,
-    TargetPositionEvent,
-    TaskAllocationAction,
-    TaskAllocationGoal,
-)
+from cpswarm_msgs.msg import MoveToAction, MoveToGoal, TaskAllocationAction, TaskAllocationGoal
 from geometry_msgs.msg import PoseStamped
 
 from sar_behavior import events
-from sar_behavior.containers import Concurrence, StateMachine
-from sar_behavior.states import Decision, Monitor, step
+from sar_behavior.actions import ActionState
+from sar_behavior.containers import Concurrence, Machine, StateMachine
+from sar_behavior.states import Final, On, State
 
 
 def build():
     """Build state machine RoverRescue."""
     userdata = initial_userdata()
-    machine = StateMachine(['Parked', 'preempted'], userdata)
+    machine = Machine(['Parked'], userdata)
     with machine:
         # behaviours.swarm:78
         StateMachine.add(
             'Idle',
-            Monitor(events.MISSION_START, 'Idle', {'MissionStart': ''}),
+            State(on=[On(events.MISSION_START)]),
             transitions={'MissionStart': 'Mission', 'preempted': 'preempted'},
         )
         # behaviours.swarm:82
         StateMachine.add(
             'Mission',
-            _mission(userdata),
-            transitions={'Stuck': 'Idle', 'Aborted': 'Parked', 'preempted': 'preempted'},
+            _mission(),
+            transitions={'done_Idle': 'Idle', 'done_Parked': 'Parked', 'preempted': 'preempted'},
         )
     return machine
 
@@ -45,99 +38,82 @@ def initial_userdata():
     userdata.task_id = ''
     # behaviours.swarm:74
     userdata.task_pose = PoseStamped()
-    userdata.target_found_event = TargetPositionEvent()
     return userdata
 
 
-def _mission(userdata):
+def _mission():
     """Build the regions of state Mission."""
     concurrence = Concurrence(
-        ['Stuck', 'Aborted', 'preempted'],
-        {'Stuck': {'Rescue': 'Stuck'}, 'Aborted': {'Watch': 'Aborted'}},
-        userdata,
+        on=[
+            On('done.state.Mission.Rescue', 'done_Idle'),
+            On('done.state.Mission.Watch', 'done_Parked'),
+        ],
     )
     with concurrence:
         # behaviours.swarm:83
-        Concurrence.add('Rescue', _mission_rescue(userdata))
+        Concurrence.add('Rescue', _mission_rescue())
         # behaviours.swarm:101
-        Concurrence.add('Watch', _mission_watch(userdata))
+        Concurrence.add('Watch', _mission_watch())
     return concurrence
 
 
-def _mission_rescue(userdata):
+def _mission_rescue():
     """Build region Mission.Rescue."""
-    machine = StateMachine(['Stuck', 'preempted'], userdata)
+    machine = StateMachine()
     with machine:
         # behaviours.swarm:85
         StateMachine.add(
             'Ready',
-            Monitor(
-                events.TARGET_FOUND,
-                'Mission.Rescue.Ready',
-                {'TargetFound': 'Mission.Rescue'},
-                message_key='target_found_event',
-            ),
-            transitions={'TargetFound': 'Ready_TargetFound', 'preempted': 'preempted'},
-        )
-        # behaviours.swarm:86
-        StateMachine.add(
-            'Ready_TargetFound',
-            Decision(
-                _mission_rescue_ready_on_target_found,
-                ['Bid'],
-                input_keys=['target_found_event'],
-                output_keys=['task_id', 'task_pose'],
-            ),
-            transitions={'Bid': 'Bid', 'preempted': 'preempted'},
+            State(on=[On(events.TARGET_FOUND, effect=_mission_rescue_ready_target_found_effect)]),
+            transitions={'TargetFound': 'Bid', 'preempted': 'preempted'},
         )
         # behaviours.swarm:88
         StateMachine.add(
             'Bid',
-            smach_ros.SimpleActionState(
+            ActionState(
                 'cmd/task_allocation_bid',
                 TaskAllocationAction,
-                goal_cb=step(_mission_rescue_bid_goal),
-                result_cb=step(_mission_rescue_bid_result),
-                input_keys=['task_id', 'task_pose'],
-                output_keys=['task_id', 'task_pose'],
+                goal_cb=_mission_rescue_bid_goal,
+                store=_mission_rescue_bid_result,
+                on=[On('succeeded'), On('aborted')],
             ),
             transitions={'succeeded': 'Drive', 'aborted': 'Ready', 'preempted': 'preempted'},
         )
         # behaviours.swarm:94
         StateMachine.add(
             'Drive',
-            smach_ros.SimpleActionState(
+            ActionState(
                 'cmd/moveto',
                 MoveToAction,
-                goal_cb=step(_mission_rescue_drive_goal),
-                input_keys=['task_pose'],
+                goal_cb=_mission_rescue_drive_goal,
+                on=[On('succeeded'), On('aborted')],
             ),
             transitions={'succeeded': 'Ready', 'aborted': 'Stuck', 'preempted': 'preempted'},
         )
+        # behaviours.swarm:99
+        StateMachine.add('Stuck', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
-def _mission_watch(userdata):
+def _mission_watch():
     """Build region Mission.Watch."""
-    machine = StateMachine(['Aborted', 'preempted'], userdata)
+    machine = StateMachine()
     with machine:
         # behaviours.swarm:103
         StateMachine.add(
             'Watching',
-            Monitor(
-                events.MISSION_ABORT, 'Mission.Watch.Watching', {'MissionAbort': 'Mission.Watch'}
-            ),
+            State(on=[On(events.MISSION_ABORT)]),
             transitions={'MissionAbort': 'Aborted', 'preempted': 'preempted'},
         )
+        # behaviours.swarm:106
+        StateMachine.add('Aborted', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
-def _mission_rescue_ready_on_target_found(userdata):
+def _mission_rescue_ready_target_found_effect(userdata, event):
     # behaviours.swarm:86
-    event = userdata.target_found_event
     userdata.task_id = event.id
     userdata.task_pose = event.pose
-    return 'Bid'
 
 
 def _mission_rescue_bid_goal(userdata, goal):
@@ -145,11 +121,10 @@ def _mission_rescue_bid_goal(userdata, goal):
     return TaskAllocationGoal(auctioneer='', task_id=userdata.task_id, task_pose=userdata.task_pose)
 
 
-def _mission_rescue_bid_result(userdata, status, result):
+def _mission_rescue_bid_result(userdata, result):
     # behaviours.swarm:89
-    if status == GoalStatus.SUCCEEDED:
-        userdata.task_id = result.task_id
-        userdata.task_pose = result.task_pose
+    userdata.task_id = result.task_id
+    userdata.task_pose = result.task_pose
 
 
 def _mission_rescue_drive_goal(userdata, goal):

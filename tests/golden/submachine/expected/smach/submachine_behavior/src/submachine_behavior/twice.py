@@ -2,41 +2,27 @@
 """State machine Twice."""
 
 import smach
-import smach_ros
 from std_srvs.srv import Empty
 
-from submachine_behavior.containers import Concurrence, StateMachine
-from submachine_behavior.states import Decision
+from submachine_behavior.containers import Machine, StateMachine
+from submachine_behavior.services import ServiceState
+from submachine_behavior.states import Final, On
 
 
 def build():
     """Build state machine Twice."""
     userdata = initial_userdata()
-    machine = StateMachine(['Silent', 'Done', 'preempted'], userdata)
+    machine = Machine(['Done', 'Silent'], userdata)
     with machine:
         # model.swarm:30
         StateMachine.add(
             'First',
-            _first(userdata),
+            _first(),
             transitions={'Ok': 'Second', 'Failed': 'Silent', 'preempted': 'preempted'},
         )
         # model.swarm:34
         StateMachine.add(
-            'Second',
-            _second(userdata),
-            transitions={'Ok': 'Second_Ok', 'Failed': 'Second_Failed', 'preempted': 'preempted'},
-        )
-        # model.swarm:35
-        StateMachine.add(
-            'Second_Ok',
-            Decision(_second_on_ok, ['Done'], input_keys=['tries'], output_keys=['tries']),
-            transitions={'Done': 'Done', 'preempted': 'preempted'},
-        )
-        # model.swarm:35
-        StateMachine.add(
-            'Second_Failed',
-            Decision(_second_on_failed, ['Done'], input_keys=['tries'], output_keys=['tries']),
-            transitions={'Done': 'Done', 'preempted': 'preempted'},
+            'Second', _second(), transitions={'done': 'Done', 'preempted': 'preempted'}
         )
     return machine
 
@@ -53,90 +39,83 @@ def initial_userdata():
     return userdata
 
 
-def _first(userdata):
-    """Build state First, with what begins and ends it."""
-    concurrence = Concurrence(
-        ['Ok', 'Failed', 'preempted'],
-        {'Ok': {'First': 'Ok'}, 'Failed': {'First': 'Failed'}},
-        userdata,
-        on_entry=_first_entry,
-    )
-    with concurrence:
-        # model.swarm:30
-        Concurrence.add('First', _first_states(userdata))
-    return concurrence
-
-
-def _first_states(userdata):
+def _first():
     """Build state First."""
-    machine = StateMachine(['Ok', 'Failed', 'preempted'], userdata)
-    with machine:
-        # model.swarm:15
-        StateMachine.add(
-            'Try',
-            smach_ros.ServiceState('beep', Empty),
-            transitions={'succeeded': 'Ok', 'aborted': 'Try_aborted', 'preempted': 'preempted'},
-        )
-        # model.swarm:18
-        # model.swarm:19
-        StateMachine.add(
-            'Try_aborted',
-            Decision(
-                _first_try_on_aborted,
-                ['Try', 'Failed'],
-                input_keys=['first_tries'],
-                output_keys=['first_tries'],
-            ),
-            transitions={'Try': 'Try', 'Failed': 'Failed', 'preempted': 'preempted'},
-        )
-    return machine
-
-
-def _second(userdata):
-    """Build state Second, with what begins and ends it."""
-    concurrence = Concurrence(
-        ['Ok', 'Failed', 'preempted'],
-        {'Ok': {'Second': 'Ok'}, 'Failed': {'Second': 'Failed'}},
-        userdata,
-        on_entry=_second_entry,
+    machine = StateMachine(
+        on=[On('final.First.Ok', 'Ok'), On('final.First.Failed', 'Failed')], on_entry=_first_entry
     )
-    with concurrence:
-        # model.swarm:34
-        Concurrence.add('Second', _second_states(userdata))
-    return concurrence
-
-
-def _second_states(userdata):
-    """Build state Second."""
-    machine = StateMachine(['Ok', 'Failed', 'preempted'], userdata)
     with machine:
         # model.swarm:15
         StateMachine.add(
             'Try',
-            smach_ros.ServiceState('beep', Empty),
-            transitions={'succeeded': 'Ok', 'aborted': 'Try_aborted', 'preempted': 'preempted'},
-        )
-        # model.swarm:18
-        # model.swarm:19
-        StateMachine.add(
-            'Try_aborted',
-            Decision(
-                _second_try_on_aborted,
-                ['Try', 'Failed'],
-                input_keys=['second_tries'],
-                output_keys=['second_tries'],
+            ServiceState(
+                'beep',
+                Empty,
+                on=[
+                    On('succeeded'),
+                    On(
+                        'aborted',
+                        'aborted_Try',
+                        guard=lambda userdata, event: userdata.first_tries < 3,
+                        effect=_first_try_aborted_effect,
+                    ),
+                    On('aborted', 'aborted_Failed'),
+                ],
             ),
-            transitions={'Try': 'Try', 'Failed': 'Failed', 'preempted': 'preempted'},
+            transitions={
+                'succeeded': 'Ok',
+                'aborted_Try': 'Try',
+                'aborted_Failed': 'Failed',
+                'preempted': 'preempted',
+            },
         )
+        # model.swarm:21
+        StateMachine.add('Ok', Final(), transitions={'preempted': 'preempted'})
+        # model.swarm:22
+        StateMachine.add('Failed', Final(), transitions={'preempted': 'preempted'})
     return machine
 
 
-def _first_try_on_aborted(userdata):
+def _second():
+    """Build state Second."""
+    machine = StateMachine(
+        on=[On('done.state.Second', 'done', effect=_second_done_effect)], on_entry=_second_entry
+    )
+    with machine:
+        # model.swarm:15
+        StateMachine.add(
+            'Try',
+            ServiceState(
+                'beep',
+                Empty,
+                on=[
+                    On('succeeded'),
+                    On(
+                        'aborted',
+                        'aborted_Try',
+                        guard=lambda userdata, event: userdata.second_tries < 3,
+                        effect=_second_try_aborted_effect,
+                    ),
+                    On('aborted', 'aborted_Failed'),
+                ],
+            ),
+            transitions={
+                'succeeded': 'Ok',
+                'aborted_Try': 'Try',
+                'aborted_Failed': 'Failed',
+                'preempted': 'preempted',
+            },
+        )
+        # model.swarm:21
+        StateMachine.add('Ok', Final(), transitions={'preempted': 'preempted'})
+        # model.swarm:22
+        StateMachine.add('Failed', Final(), transitions={'preempted': 'preempted'})
+    return machine
+
+
+def _first_try_aborted_effect(userdata, event):
     # model.swarm:18
-    if userdata.first_tries < 3:
-        userdata.first_tries = userdata.first_tries + 1
-        return 'Try'
-    return 'Failed'
+    userdata.first_tries = userdata.first_tries + 1
 
 
 def _first_entry(userdata):
@@ -144,26 +123,16 @@ def _first_entry(userdata):
     userdata.first_tries = 0
 
 
-def _second_try_on_aborted(userdata):
+def _second_done_effect(userdata, event):
+    # model.swarm:35
+    userdata.tries = userdata.tries + 1
+
+
+def _second_try_aborted_effect(userdata, event):
     # model.swarm:18
-    if userdata.second_tries < 3:
-        userdata.second_tries = userdata.second_tries + 1
-        return 'Try'
-    return 'Failed'
+    userdata.second_tries = userdata.second_tries + 1
 
 
 def _second_entry(userdata):
     # model.swarm:11
     userdata.second_tries = 0
-
-
-def _second_on_ok(userdata):
-    # model.swarm:35
-    userdata.tries = userdata.tries + 1
-    return 'Done'
-
-
-def _second_on_failed(userdata):
-    # model.swarm:35
-    userdata.tries = userdata.tries + 1
-    return 'Done'

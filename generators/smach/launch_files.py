@@ -1,0 +1,61 @@
+"""All files that start the nodes: launch files, parameters, worlds, the test."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from swarmdsl.exchange.xml import document
+from swarmdsl.generator import OutputFile
+
+from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
+from .parameters import own_params, robot_params
+from .robots import Fleet, Robot
+from .view import PackageView
+
+
+def launch_files(package: PackageView) -> Iterator[OutputFile]:
+    """The files of a package whose machines are behaviours of members."""
+    if not package.robots:
+        return
+    root, name = package.name, package.name
+    for robot in package.robots:
+        yield from _robot(robot, package)
+    for fleet in package.fleets:
+        text = fleet_launch(fleet, name)
+        yield OutputFile(f"{root}/launch/{fleet.name}.launch", text, origin=fleet.swarm.origin)
+        for team in fleet.teams:
+            for number in range(team.most):
+                one = f"{team.role.name}_{number}"
+                text = own_params(team.robot, fleet, one)
+                path = f"{root}/param/{fleet.name}/{one}.yaml"
+                yield OutputFile(path, text, keep=True, origin=team.role.origin)
+        world = world_file(fleet) if package.simulation else None
+        if world is not None:
+            path = f"{root}/launch/{fleet.name}_simulation.launch"
+            yield OutputFile(path, simulation_launch(fleet, world, name))
+            yield OutputFile(f"{root}/world/{world}", _world(fleet), keep=True)
+    yield OutputFile(f"{root}/test/machines.test", test_launch(package.robots, name))
+
+
+def _robot(robot: Robot, package: PackageView) -> Iterator[OutputFile]:
+    at = robot.member.origin
+    root = package.name
+    text = robot_launch(robot, package.name)
+    yield OutputFile(f"{root}/launch/{robot.name}.launch", text, origin=at)
+    text = robot_params(robot, package.header)
+    yield OutputFile(f"{root}/param/{robot.name}.yaml", text, origin=at)
+    if robot.bridge is not None:
+        path = f"{root}/param/{robot.name}.swarmros.cfg"
+        yield OutputFile(path, robot.bridge, origin=at)
+
+
+def _world(fleet: Fleet) -> str:
+    """A plain world to begin with (SDF 1.6), as Gazebo 11 reads it."""
+    root = etree.Element("sdf", version="1.6")
+    world = etree.SubElement(root, "world", name=fleet.name)
+    for model in ("sun", "ground_plane"):
+        include = etree.SubElement(world, "include")
+        etree.SubElement(include, "uri").text = f"model://{model}"
+    return document(root)

@@ -1,0 +1,55 @@
+"""What becomes of each construct of a model, for `swarmc targets smach`.
+
+What stands between backticks is found in the generated module.
+"""
+
+from __future__ import annotations
+
+from swarmdsl.generator import Mapped, Support
+
+_EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
+
+MAPPING = tuple(
+    Mapped(*each)
+    for each in (
+        ("state with an action", _EXACT, "state of SMACH, an `ActionState`"),
+        ("state with a service", _EXACT, "state of SMACH, a `ServiceState`"),
+        ("state without activity", _EXACT, "state of SMACH, a `State`"),
+        ("composite state, submachine", _EXACT, "container `StateMachine`"),
+        ("parallel state", _EXACT, "container `Concurrence`, with a `StateMachine` a region"),
+        ("final state", _EXACT, "state `Final`; of the machine itself, an outcome of `Machine`"),
+        ("transition on an outcome", _EXACT, "outcome, in `transitions=`"),
+        ("transition on an event", _EMULATED, "outcome; the chart hears the event, `On(events.`"),
+        ("transition on a completion", _EMULATED, "outcome; the chart raises `'done.state.`"),
+        ("transition on a certain final state", _EMULATED, "outcome; the chart raises `'final.`"),
+        (
+            "transition after a time",
+            _EMULATED,
+            "outcome; the chart has a timer for each in `after=`",
+        ),
+        ("transition without a trigger", _EMULATED, "outcome; the chart asks `AT_ONCE`"),
+        ("choice", _EMULATED, "a `State` that the chart leaves `AT_ONCE`"),
+        ("guard", _EMULATED, "function of userdata, asked by the chart: `guard=`"),
+        ("effect", _EMULATED, "function of userdata, done by the chart: `effect=`"),
+        ("transition with several triggers", _EMULATED, "an `On(` and an outcome for each"),
+        ("transition out of states", _EMULATED, "chain of outcomes of the containers: `'to_`"),
+        ("transition into a state", _EMULATED, "initial states set by the chart: `into=`"),
+        ("initial state inside a state", _EMULATED, "set by the chart: `initial=`"),
+        ("history", _EMULATED, "kept by the chart; a state `History` leads to what it was"),
+        ("deep history", _EMULATED, "the same, and initial states inside: `deep=True`"),
+        ("internal transition", _EMULATED, "outcome of the states inside: `internal=True`"),
+        ("transition without a target", _EMULATED, "no outcome: `None`"),
+        ("entry, exit", _EMULATED, "functions of userdata: `on_entry=`, `on_exit=`"),
+        ("constant goal or request", _EXACT, "`goal=`"),
+        ("goal or request of values", _EXACT, "callback `goal_cb=`"),
+        ("callback for a goal or request", _EXACT, "`goal_cb=callbacks.`"),
+        ("callback for a result or response", _EXACT, "`result_cb=callbacks.`"),
+        ("stored result or response", _EXACT, "function of userdata: `store=`"),
+        ("variable", _EXACT, "`userdata.`, one for the whole machine"),
+        ("param", _EXACT, "ROS parameter, checked at the start: `param(`, and userdata"),
+        ("param that is a message", _EMULATED, "dictionary, made a `message(`"),
+        ("sent event", _EXACT, "published: `.send(`"),
+        ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
+        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
+    )
+)

@@ -1,0 +1,52 @@
+"""Files of ROS parameters: of a type of robot, as the model has them, and of each robot."""
+
+from __future__ import annotations
+
+import json
+
+from swarmdsl.exchange.constants import Value
+from swarmdsl.exchange.nodes import Given
+from swarmdsl.python_source import comment_lines
+
+from .robots import Fleet, Robot
+
+
+def robot_params(robot: Robot, header: str) -> str:
+    """What the model gives the nodes of a type of robot."""
+    lines = [f"# {header}", f"# Params of every {robot.member.name}, by node."]
+    for node in robot.nodes:
+        lines += ["", f"{node.name}:" if node.params else f"# {node.name} has none."]
+        for given in node.params:
+            lines += [f"  # {line}".rstrip() for line in comment_lines(given.param.doc)]
+            lines.append(_line(given))
+        if node.params and not any(given.value is not None for given in node.params):
+            lines.append("  {}")
+    return "\n".join(lines) + "\n"
+
+
+def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
+    """The params of one robot of a swarm: the user's file, with what can stand in it."""
+    lines = [
+        f"# Params of {name} in swarm {fleet.swarm.name}; they go before those of its type.",
+        "# This file is yours: swarmc writes it once and never again.",
+    ]
+    for node in robot.nodes:
+        lines += ["#", f"# {node.name}:"]
+        lines += [f"#   {given.param.name}: {_text(given.value)}" for given in node.params]
+        lines.append("#   introspection: true")
+    return "\n".join(lines) + "\n"
+
+
+def _line(given: Given) -> str:
+    if given.value is None:
+        return f"  # {given.param.name}: needs a value of type {given.param.type}"
+    return f"  {given.param.name}: {_text(given.value)}"
+
+
+def _text(value: Value | None) -> str:
+    """The value in YAML 1.1, where a number with an exponent needs a point."""
+    text = json.dumps(value) if value is not None else "..."
+    number, exponent, power = text.partition("e")
+    if isinstance(value, float) and exponent and "." not in number:
+        return f"{number}.0e{power}"
+    return text

@@ -1,0 +1,34 @@
+"""What the README of a package says of a machine: which of ROS it uses."""
+
+from __future__ import annotations
+
+from swarmdsl.ir import Event, EventTrigger, Send, StateMachine, System
+
+from .package import used_items
+
+Rows = tuple[tuple[str, str], ...]
+
+
+def uses(system: System, machine: StateMachine) -> tuple[tuple[str, Rows], ...]:
+    """Params, servers and topics, a table each; what there is none of is left out."""
+    heard: dict[str, str] = {}
+    sent: dict[str, str] = {}
+    for item in used_items(machine):
+        event: Event = system.event(item.event)
+        if isinstance(item, EventTrigger):
+            heard.setdefault(event.incoming_topic, str(event.type))
+        elif isinstance(item, Send):
+            sent.setdefault(event.topic, str(event.type))
+    servers: dict[str, str] = {}
+    for state in machine.walk():
+        if state.activity is not None:
+            call = system.function(state.activity.function).communication
+            servers.setdefault(call.name, f"{call.type} ({call.paradigm})")
+    params = {f"~{param.name}": str(param.type) for param in machine.params}
+    tables = (
+        ("ROS parameters", params),
+        ("Servers that it calls", servers),
+        ("Topics that it hears", heard),
+        ("Topics that it sends on", sent),
+    )
+    return tuple((title, tuple(rows.items())) for title, rows in tables if rows)

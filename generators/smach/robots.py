@@ -1,0 +1,85 @@
+"""The members that are robots with nodes, and the swarms that they are in."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange import swarmros
+from swarmdsl.exchange.nodes import BehaviorNode, behavior_nodes
+from swarmdsl.generator import NoOptions
+from swarmdsl.ir import Environment, Member, Role, Swarm, System
+from swarmdsl.naming import snake_case
+
+# As many robots as one launch file starts.
+MOST_ROBOTS = 100
+
+
+@dataclass(frozen=True)
+class Robot:
+    """A type of robot with its nodes; `bridge` is the configuration of swarmros for it."""
+
+    name: str
+    member: Member
+    nodes: tuple[BehaviorNode, ...]
+    bridge: str | None
+
+
+@dataclass(frozen=True)
+class Team:
+    """Robots of one type in a swarm: `fewest` are started where nothing else is said."""
+
+    role: Role
+    robot: Robot
+    fewest: int
+    most: int
+
+
+@dataclass(frozen=True)
+class Fleet:
+    """A swarm as it is launched."""
+
+    name: str
+    swarm: Swarm
+    teams: tuple[Team, ...]
+    environment: Environment | None
+
+
+def robots(system: System, machines: Collection[str]) -> list[Robot]:
+    """The members that run one of these machines."""
+    bridges = _bridges(system)
+    found = []
+    for member in system.members:
+        nodes = tuple(n for n in behavior_nodes(member, system) if n.machine.name in machines)
+        name = snake_case(member.name)
+        if nodes:
+            found.append(Robot(name, member, nodes, bridges.get(name)))
+    return found
+
+
+def fleets(system: System, made: Collection[Robot]) -> list[Fleet]:
+    """The swarms with robots that have nodes."""
+    by_member = {robot.member.name: robot for robot in made}
+    environments = {environment.name: environment for environment in system.environments}
+    found = []
+    for swarm in system.swarms:
+        teams = tuple(_team(r, by_member[r.member]) for r in swarm.roles if r.member in by_member)
+        if teams:
+            environment = environments.get(swarm.environment or "")
+            found.append(Fleet(snake_case(swarm.name), swarm, teams, environment))
+    return found
+
+
+def _team(role: Role, robot: Robot) -> Team:
+    fewest = min(max(role.multiplicity.lower, 1), MOST_ROBOTS)
+    upper = role.multiplicity.upper
+    return Team(role, robot, fewest, fewest if upper is None else min(upper, MOST_ROBOTS))
+
+
+def _bridges(system: System) -> dict[str, str]:
+    """The configurations of swarmros; what cannot cross the bridge is said in a comment."""
+    report = Diagnostics()
+    files = list(swarmros.emit(system, NoOptions(), report))
+    notes = "".join(f"# {found.message}\n" for found in report)
+    return {file.path.removesuffix(".cfg"): notes + file.text for file in files}

@@ -1,0 +1,92 @@
+"""A node ends when it is told to, whatever it does: within three seconds, with goals cancelled."""
+
+import signal
+import time
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+MODEL = """
+package lab
+action Move { goal { x : float64 } }
+service Ask { }
+function move : abstraction { action "move" : Move }
+function ask  : abstraction { service "ask" : Ask }
+event Go   : std_msgs/Empty
+event Stop : std_msgs/Empty
+event Left : std_msgs/String
+statemachine Work {
+  initial Choose
+  state Choose {
+    exit / send Left(data = "Choose")
+    on Go -> Moving
+    on Stop -> Asking
+    after 1 h -> End
+  }
+  state Moving { do move(x = 1.0)  on succeeded, aborted -> End }
+  state Asking { do ask  on succeeded, aborted -> End }
+  final End
+}
+"""
+World = Callable[..., Any]
+SIGNALS = [signal.SIGINT, signal.SIGTERM]
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_in_a_state_that_waits(number: signal.Signals, world: World) -> None:
+    work = world(MODEL)
+    work.serve()
+    node = work.node("work")
+    node.wait_in("Choose")
+    time.sleep(0.5)  # for who hears of what it sends to have found it
+    assert node.signal(number) < 3
+    assert node.ended() == 0
+    assert work.sent("Left") == {"data": "Choose"}
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_in_an_action(number: signal.Signals, world: World) -> None:
+    work = world(MODEL)
+    work.serve()
+    node = work.node("work")
+    node.wait_in("Choose")
+    work.publish("Go")
+    work.wait_for("move")
+    assert node.signal(number) < 3
+    assert node.ended() == 0
+    work.cancelled("move")
+
+
+def test_in_an_action_whose_server_does_not_answer(world: World) -> None:
+    work = world(MODEL)
+    work.serve(deaf=["move"])
+    node = work.node("work")
+    node.wait_in("Choose")
+    work.publish("Go")
+    work.wait_for("move")
+    assert node.signal(signal.SIGTERM) < 3
+    work.cancelled("move")
+
+
+def test_in_a_service_that_does_not_answer(world: World) -> None:
+    work = world(MODEL)
+    work.serve()
+    node = work.node("work")
+    node.wait_in("Choose")
+    work.publish("Stop")
+    work.wait_for("ask")
+    assert node.signal(signal.SIGTERM) < 3
+    assert node.ended() == 0
+
+
+@pytest.mark.parametrize("function", ["move", "ask"])
+def test_while_a_server_is_missing(function: str, world: World) -> None:
+    work = world(MODEL)
+    work.serve(function)
+    node = work.node("work")
+    node.wait_in("Choose")
+    work.publish({"move": "Go", "ask": "Stop"}[function])
+    node.wait_in({"move": "Moving", "ask": "Asking"}[function])
+    assert node.signal(signal.SIGTERM) < 3
+    assert node.ended() == 0

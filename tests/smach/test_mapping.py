@@ -1,0 +1,143 @@
+"""The table that `swarmc targets smach` prints says what the generator does."""
+
+import re
+from collections.abc import Callable
+
+import pytest
+
+from swarmdsl.codes import CODES
+from swarmdsl.generator import OutputFile, Support
+from swarmdsl.plugins import load
+
+HEADER = """package lab
+message Note { level : int32 }
+action Move { goal { x : float64 } result { seen : int32 } }
+service Ask { }
+function move : abstraction { action "move" : Move }
+function ask  : abstraction { service "ask" : Ask }
+event Go   : Note
+event Stop : Note
+"""
+BOX = "state In { on Go -> Deep }  state Deep { on Go -> In }"
+MOVE = "do move(x = 1.0)"
+ENDS = "on succeeded, aborted -> End"
+MODELS = {
+    "state with an action": f"state A {{ {MOVE} {ENDS} }}",
+    "state with a service": f"state A {{ do ask {ENDS} }}",
+    "state without activity": "state A { on Go -> End }",
+    "composite state, submachine": f"state A {{ initial In {BOX} on Stop -> End }}",
+    "parallel state": """
+        parallel state A {
+          region R { initial B  state B { on Go -> Z }  final Z }
+          on done -> End
+        }""",
+    "final state": """
+        state A { initial B  state B { on Go -> Z }  final Z  on done -> End }""",
+    "transition on an outcome": f"state A {{ {MOVE} {ENDS} }}",
+    "transition on an event": "state A { on Go -> End }",
+    "transition on a completion": """
+        state A { initial B  state B { on Go -> Z }  final Z  on done -> End }""",
+    "transition on a certain final state": """
+        state A {
+          initial B  state B { on Go -> Z  on Stop -> Y }  final Z  final Y
+          on done.Z -> End  on done.Y -> A
+        }""",
+    "transition after a time": "state A { after 3 s -> End }",
+    "transition without a trigger": """
+        var n : int32
+        state A { on Go / n = event.level  [n > 1] -> End }""",
+    "choice": """
+        var n : int32
+        state A { on Go / n = event.level -> C }
+        choice C { [n > 1] -> End  else -> A }""",
+    "guard": "state A { on Go [event.level > 1] -> End }",
+    "effect": "state A { on Go / send Stop(level = event.level) -> End }",
+    "transition with several triggers": "state A { on Go, Stop -> End }",
+    "transition out of states": """
+        state A {
+          initial In
+          state In { on Go -> Deep }
+          state Deep { on Stop -> End }
+        }""",
+    "transition into a state": f"""
+        state A {{ on Go -> Box.Deep }}
+        state Box {{ initial In {BOX} on Stop -> End }}""",
+    "initial state inside a state": f"""
+        state A {{
+          initial Box.Deep
+          state Box {{ initial In {BOX} }}
+          on Stop -> End
+        }}""",
+    "history": f"""
+        state A {{ initial In {BOX} history H -> In  on Stop -> W }}
+        state W {{ on Go -> A.H  on Stop -> End }}""",
+    "deep history": f"""
+        state A {{ initial In {BOX} deep history H -> In  on Stop -> W }}
+        state W {{ on Go -> A.H  on Stop -> End }}""",
+    "internal transition": f"""
+        state A {{
+          initial In {BOX}
+          internal on Stop [event.level > 1] -> Deep
+          on Stop -> End
+        }}""",
+    "transition without a target": """
+        var n : int32
+        state A { on Go / n = event.level  on Stop [n > 1] -> End }""",
+    "entry, exit": "state A { entry / send Stop()  exit / send Stop()  on Go -> End }",
+    "constant goal or request": f"state A {{ do move(x = 1.5) {ENDS} }}",
+    "goal or request of values": f"""
+        param far : float64 = 1.0
+        state A {{ do move(x = far) {ENDS} }}""",
+    "callback for a goal or request": f"state A {{ do move(by make) {ENDS} }}",
+    "callback for a result or response": f"state A {{ {MOVE} gives by take {ENDS} }}",
+    "stored result or response": f"""
+        var seen : int32
+        state A {{
+          {MOVE} gives (seen => seen)
+          on succeeded [seen > 1] -> End
+          on succeeded, aborted   -> A
+        }}""",
+    "variable": """
+        var n : int32
+        state A { on Go [n > 1] -> End  on Stop / n = 2 }""",
+    "param": """
+        param n : int32 = 2
+        state A { on Go [n > 1] -> End  on Stop -> End }""",
+    "param that is a message": """
+        param first : Note
+        state A { on Go [first.level > 1] -> End  on Stop -> End }""",
+    "sent event": "state A { on Go / send Stop() -> End }",
+    "initial state of a machine that is final": "final A",
+    "name that Python cannot have": """
+        var lambda : int32
+        state A { on Go [lambda > 1] -> End  on Stop / lambda = 2 }""",
+}
+
+
+def test_every_construct_has_a_model() -> None:
+    assert [each.construct for each in load("smach").mapping] == list(MODELS)
+
+
+@pytest.mark.parametrize("number", range(len(MODELS)), ids=list(MODELS))
+def test_the_table_is_true(
+    number: int,
+    generate: Callable[..., dict[str, OutputFile]],
+    reported: Callable[..., list[tuple[str, str, str]]],
+) -> None:
+    mapped = load("smach").mapping[number]
+    body = MODELS[mapped.construct]
+    end = "" if body == "final A" else "final End"
+    model = f"{HEADER}statemachine Work {{ initial A {body} {end} }}"
+    if mapped.support is Support.REJECTED:
+        (code,) = re.findall(r"\((SW\d{4})\)", mapped.means)
+        assert [CODES[name].code for name, _, _ in reported(model)] == [code]
+        return
+    (text,) = [
+        file.text for path, file in generate(model).items() if path.endswith("behavior/work.py")
+    ]
+    # Without what is imported, and in one line.
+    built = " ".join(text[text.index("def build") :].split())
+    words = re.findall("`([^`]*)`", mapped.means)
+    assert words
+    for word in words:
+        assert word in built, word
