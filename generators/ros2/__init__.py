@@ -1,0 +1,15 @@
+"""ROS 2: an ament_python package whose nodes run the state machines on rclpy."""
+
+from swarmdsl.generator import Generator
+
+from .options import Options
+from .package import chosen_machines
+from .render import emit
+
+generator = Generator(
+    target="ros2",
+    summary="ROS 2 (humble and later): a package whose nodes run the state machines on rclpy",
+    emit=emit,
+    options_type=Options,
+    machines=chosen_machines,
+)

@@ -1,0 +1,138 @@
+"""Expressions, values and types of the model in Python with rclpy.
+
+Durations and times are whole nanoseconds; what a message has of them is read with `get`, as
+is what the model does not know of a message.
+"""
+
+from __future__ import annotations
+
+import keyword
+from dataclasses import replace as with_names
+
+from swarmdsl.dataclass import replace
+from swarmdsl.ir import (
+    Array,
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    Named,
+    Primitive,
+    Type,
+    Unary,
+)
+from swarmdsl.ir.types import DURATION, FLOATS, STRING
+from swarmdsl.translate import Dialect, python_literal, translate
+
+from .imports import Imports
+
+MACHINE = "machine"
+EVENT = "event"
+DATA = f"{MACHINE}.data"
+_HELD_OTHERWISE = ("byte", "duration", "time")
+
+
+def python_expression(expression: Expression, imports: Imports, data: str = DATA) -> str:
+    """The expression in a function of `machine` and `event`; `data` has variables and params."""
+    made = _for_python(expression)
+    for part in _parts(made):
+        if isinstance(part, Call) and part.function == "sqrt":
+            imports.module("math")
+        if isinstance(part, Call) and part.function == _GET:
+            imports.own("values", _GET)
+    name = f"{data}.{{}}".format
+    return translate(made, with_names(_DIALECT, variable=name, param=name))
+
+
+def stored(expression: Expression, imports: Imports, data: str = DATA) -> str:
+    """A value that is kept: a copy, as ROS has it, and durations in whole nanoseconds."""
+    text = python_expression(expression, imports, data)
+    if expression.type == DURATION:
+        return text if isinstance(expression, Literal) else f"round({text})"
+    if isinstance(expression.type, Primitive) or isinstance(expression, Literal):
+        return text
+    imports.name("copy", "deepcopy")
+    return f"deepcopy({text})"
+
+
+def attribute(base: str, field: str) -> str:
+    """A field of a message to go on from, also one that Python has a keyword for."""
+    return f"getattr({base}, {field!r})" if keyword.iskeyword(field) else f"{base}.{field}"
+
+
+def uses_event(expression: Expression) -> bool:
+    """Whether it needs the message of the triggering event."""
+    return any(isinstance(part, EventData) for part in _parts(expression))
+
+
+def default_value(type_: Type, imports: Imports) -> str:
+    """The value of a variable that the model gives none."""
+    match type_:
+        case Array(size=None) | Array(bounded=True):
+            return "[]"
+        case Array(element=element, size=size):
+            return f"[{default_value(element, imports)} for _ in range({size})]"
+        case Named():
+            return f"{imports.interface(type_, 'msg')}()"
+        case Primitive(name="bool"):
+            return "False"
+        case Primitive(name="string" | "wstring"):
+            return "''"
+        case Primitive(name=name):
+            return "0.0" if name in FLOATS else "0"
+    raise AssertionError(type_)
+
+
+def _for_python(expression: Expression) -> Expression:
+    """The same with fields as ROS has them."""
+    match expression:
+        case FieldAccess(base=base, field=field, type=type_):
+            inner = _for_python(base)
+            plain = isinstance(type_, Named | Array) or (
+                isinstance(type_, Primitive) and type_.name not in _HELD_OTHERWISE
+            )
+            if plain and not keyword.iskeyword(field):
+                return replace(expression, base=inner)
+            return Call(_GET, (inner, Literal(field, STRING)), type_)
+        case Unary(operand=operand):
+            return replace(expression, operand=_for_python(operand))
+        case Binary(left=left, right=right):
+            return replace(expression, left=_for_python(left), right=_for_python(right))
+        case Call(arguments=arguments):
+            return replace(expression, arguments=tuple(map(_for_python, arguments)))
+    return expression
+
+
+def _parts(expression: Expression) -> list[Expression]:
+    """The expression and all inside it."""
+    found: list[Expression] = [expression]
+    match expression:
+        case FieldAccess(base=base):
+            found += _parts(base)
+        case Unary(operand=operand):
+            found += _parts(operand)
+        case Binary(left=left, right=right):
+            found += _parts(left) + _parts(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                found += _parts(argument)
+    return found
+
+
+def _literal(literal: Literal) -> str:
+    if literal.type == DURATION and isinstance(literal.value, int):
+        return f"{literal.value:_}"
+    return python_literal(literal)
+
+
+_GET = "get"
+_DIALECT = Dialect(
+    literal=_literal,
+    variable=str,
+    param=str,
+    event=f"{EVENT}.data",
+    operators={},
+    functions={"sqrt": "math.sqrt"},
+)

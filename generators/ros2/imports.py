@@ -1,0 +1,67 @@
+"""The imports of one generated module."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterable
+
+from swarmdsl.ir import Named
+
+WIDTH = 99
+
+
+class Imports:
+    """Gathers what one module needs; interfaces are called by their modules."""
+
+    def __init__(self, package: str) -> None:
+        self._package = package
+        self._modules: set[str] = set()
+        self._names: dict[str, set[str]] = {}
+
+    def module(self, name: str) -> None:
+        """Need a module by its own name."""
+        self._modules.add(name)
+
+    def name(self, module: str, name: str) -> str:
+        """Need a name of a module; return it."""
+        self._names.setdefault(module, set()).add(name)
+        return name
+
+    def own(self, module: str, name: str) -> str:
+        """Need a name of another module of the package; return it."""
+        return self.name(f".{module}", name)
+
+    def interface(self, type_: Named, kind: str) -> str:
+        """Need an interface, a `msg`, `srv` or `action`; return how to write it."""
+        self.module(f"{type_.package}.{kind}")
+        return f"{type_.package}.{kind}.{type_.name}"
+
+    def lines(self) -> list[str]:
+        """The import statements, sorted as the linters of ROS want it, and blank lines between.
+
+        First those of Python's library, then those of ROS, then those of the package.
+        """
+        groups: dict[int, list[tuple[str, str]]] = {}
+        for module in self._modules:
+            groups.setdefault(_group(module), []).append((module.lower(), f"import {module}"))
+        for module, names in self._names.items():
+            line = _from(module, sorted(names, key=str.lower))
+            groups.setdefault(_group(module), []).append((module.lower(), line))
+        lines: list[str] = []
+        for key in sorted(groups):
+            lines += [""] if lines else []
+            lines += [line for _, line in sorted(groups[key])]
+        return lines
+
+
+def _group(module: str) -> int:
+    if module.startswith("."):
+        return 2
+    return 0 if module.partition(".")[0] in sys.stdlib_module_names else 1
+
+
+def _from(module: str, names: Iterable[str]) -> str:
+    line = f"from {module} import {', '.join(names)}"
+    if len(line) <= WIDTH:
+        return line
+    return "\n".join([f"from {module} import (", *(f"    {name}," for name in names), ")"])

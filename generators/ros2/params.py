@@ -1,0 +1,73 @@
+"""Params of machines as parameters of ROS, and the values that members give them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.constants import Value, constant, params_by_name
+from swarmdsl.ir import Array, Component, Member, Param, Part, Primitive, StateMachine
+from swarmdsl.python_source import Call
+
+from .names import TARGET
+
+
+def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, Call]]:
+    """How each param of a machine is declared."""
+    found = []
+    known = params_by_name(machine.params)
+    for param in machine.params:
+        element = param.type.element if isinstance(param.type, Array) else param.type
+        if not isinstance(element, Primitive) or element.name == "time":
+            _unsupported(f"a param of type `{param.type}`", param, report)
+            continue
+        arguments: list[object] = [param.name, _type(param, element)]
+        given = param.default if param.default is not None else param.declared
+        if given is not None:
+            value = constant(given, known)
+            if value is None:
+                _unsupported("a param whose value is not known in advance", param, report)
+            arguments.append(fitted(param, value))
+        doc = " ".join(param.doc.split())
+        keywords = (("doc", doc),) if doc else ()
+        found.append((param, Call("Parameter", tuple(arguments), keywords)))
+    return found
+
+
+def fitted(param: Param, value: Value | None) -> Value | None:
+    """The value as ROS takes it for the param: a number of a float has a point."""
+    floats = isinstance(param.type, Primitive) and param.type.name in (
+        *("float32", "float64"),
+        "duration",
+    )
+    return float(value) if floats and isinstance(value, (int, float)) else value
+
+
+def given(
+    machine: StateMachine, owner: Member | Component, part: Part | None
+) -> Mapping[str, Value]:
+    """What whoever runs a machine says of its params."""
+    names = {param.name: param for param in machine.params}
+    known = params_by_name(owner.params)
+    found: dict[str, Value] = {}
+    for param in owner.params:
+        value = constant(param.default, known) if param.default is not None else None
+        if value is not None:
+            found[param.name] = value
+    for name, expression in part.values if part is not None else ():
+        value = constant(expression, known)
+        if value is not None:
+            found[name] = value
+    return {
+        name: fitted(names[name], value)  # type: ignore[misc]
+        for name, value in found.items()
+        if name in names
+    }
+
+
+def _type(param: Param, element: Primitive) -> str:
+    return f"{element.name}[]" if isinstance(param.type, Array) else element.name
+
+
+def _unsupported(construct: str, param: Param, report: Diagnostics) -> None:
+    report.report("unsupported-construct", param.origin, target=TARGET, construct=construct)

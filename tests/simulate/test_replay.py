@@ -1,0 +1,211 @@
+"""Traces of robots held against the model: what is so is followed, what departs is told."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from swarmdsl.cli import run
+
+MODEL = """
+package test
+action Go { goal { speed : float64 } result { id : string  count : int32 } }
+function go : abstraction { action "cmd/go" : Go }
+message Report { id : string  level : int32 }
+event Start  : std_msgs/Empty
+swarm event Found : Report
+statemachine M {
+  param limit : int32 = 3
+  var count : int32 = 0
+  var id    : string
+  initial Idle
+  state Idle {
+    on Start -> Work
+    on Found [event.level > limit] -> End
+  }
+  state Work {
+    do go(speed = 1.0) gives (count => count, id => id)
+    on succeeded [count > limit] / send Found(id = id, level = count) -> Idle
+    on succeeded -> Work
+    on aborted   -> Idle
+    after 3 s    -> Idle
+  }
+  final End
+}
+"""
+
+
+def line(t: int, event: str | None, **done: Any) -> dict[str, Any]:
+    keys = ("configuration", "entered", "exited", "started", "cancelled", "sent")
+    blank: dict[str, Any] = {key: [] for key in keys}
+    return {"t": t, "member": None, "event": event, **blank, **done}
+
+
+START = line(0, None, configuration=["Idle"], entered=["Idle"])
+GO = line(500, "Start", configuration=["Work"], entered=["Work"], exited=["Idle"], started=["go"])
+AGAIN = line(
+    900,
+    "do.Work.succeeded",
+    configuration=["Work"],
+    entered=["Work"],
+    exited=["Work"],
+    started=["go"],
+    data={"count": 2, "id": "a", "unknown": 1},
+)
+SENT = line(
+    1200,
+    "do.Work.succeeded",
+    configuration=["Idle"],
+    entered=["Idle"],
+    exited=["Work"],
+    sent=["Found"],
+    data={"count": 4},
+)
+LATE = line(
+    3901,
+    "after.Work.1",
+    configuration=["Idle"],
+    entered=["Idle"],
+    exited=["Work"],
+    cancelled=["go"],
+)
+FOUND = line(
+    4000,
+    "Found",
+    configuration=["End"],
+    entered=["End"],
+    exited=["Idle"],
+    data={"level": 4},
+)
+
+Replay = Callable[..., tuple[int, str]]
+
+
+@pytest.fixture
+def replay(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Replay:
+    """Replay lines; the exit code, and what was said."""
+
+    def replay(*lines: Any, arguments: tuple[str, ...] = ()) -> tuple[int, str]:
+        model = tmp_path / "model.swarm"
+        model.write_text(MODEL, encoding="utf-8")
+        trace = tmp_path / "trace.jsonl"
+        texts = [each if isinstance(each, str) else json.dumps(each) for each in lines]
+        trace.write_text("\n".join([*texts, ""]), encoding="utf-8")
+        words = ["simulate", str(model), "--machine", "M", "--replay", str(trace), *arguments]
+        capsys.readouterr()
+        code = run([*words, *(() if "--format" in arguments else ("--format", "concise"))])
+        return code, capsys.readouterr().err
+
+    return replay
+
+
+def test_what_is_as_the_model_says(replay: Replay) -> None:
+    code, err = replay(START, GO, AGAIN, LATE, FOUND)
+
+    assert (code, err) == (0, "5 lines of 1 member as the model says\n")
+
+
+def test_what_an_activity_sends(replay: Replay) -> None:
+    code, err = replay(START, GO, SENT)
+
+    assert (code, err) == (0, "3 lines of 1 member as the model says\n")
+
+
+@pytest.mark.parametrize(
+    ("lines", "where", "what"),
+    [
+        ([START, {**GO, "configuration": ["Idle"]}], 2, "on `Start` at 500 ms"),
+        ([START, {**GO, "started": []}], 2, "on `Start` at 500 ms"),
+        ([START, {**GO, "event": "Stop"}], 2, "on `Stop` at 500 ms"),
+        ([{**START, "entered": []}], 1, "on its start at 0 ms"),
+        ([START, START], 2, "on its start"),
+        ([GO], 1, "on `Start`"),
+        ([START, AGAIN], 2, "on `do.Work.succeeded`"),
+        ([START, GO, {**AGAIN, "data": {"count": 9}}], 3, "on `do.Work.succeeded`"),
+        ([START, GO, {**LATE, "t": 3000}], 3, "on `after.Work.1` at 3 s"),
+        ([START, GO, {**LATE, "event": "after.Work.2"}], 3, "on `after.Work.2`"),
+        ([START, FOUND, {**FOUND, "t": 5000}], 3, "on `Found` at 5 s"),
+    ],
+)
+def test_what_departs_from_the_model(
+    replay: Replay, lines: list[Any], where: int, what: str
+) -> None:
+    code, err = replay(*lines)
+
+    assert code == 1
+    assert f"{where - 1} line" in err
+    assert f"trace.jsonl:{where}:1: error[SW1011] `M` leaves the model {what}" in err
+
+
+def test_it_is_said_what_is_different(replay: Replay) -> None:
+    code, err = replay(START, {**GO, "exited": []}, arguments=("--format", "text"))
+
+    assert code == 1
+    assert "`exited` is `Idle` in the model, nothing here" in err
+    assert "it was in this state" in err
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("{", "it is no object of JSON"),
+        ("[]", "it is no object of JSON"),
+        ('{"t": -1}', "`t` is a number of milliseconds"),
+        ('{"t": 1, "event": 2}', "`event` is the name of one"),
+        ('{"t": 1, "event": "a", "member": 3}', "`member` is the name of one"),
+        ('{"t": 1, "event": "a", "configuration": [1]}', "`configuration` is a list of names"),
+    ],
+)
+def test_what_is_no_trace(replay: Replay, text: str, reason: str) -> None:
+    code, err = replay(START, text)
+
+    assert code == 1
+    assert f"trace.jsonl:2:1: error[SW1010] this line is none of a trace: {reason}" in err
+
+
+def test_a_member_that_there_is_not(replay: Replay) -> None:
+    code, err = replay(START, {**START, "member": "uav[7]"})
+
+    assert code == 1
+    assert "no member called `uav[7]`" in err
+
+
+def test_options_that_do_not_go_together(replay: Replay) -> None:
+    code, err = replay(START, arguments=("--trace", "json"))
+
+    assert code == 2
+    assert "`--replay` and `--trace` are not given together" in err
+
+
+@pytest.mark.parametrize(
+    ("folder", "scenario"),
+    [
+        ("search_and_rescue", "mission.toml"),
+        ("minimal", None),
+        ("storage", None),
+        ("flocking", None),
+        ("emergency_exit", None),
+    ],
+)
+def test_a_simulation_is_as_the_model_says(
+    examples: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    folder: str,
+    scenario: str | None,
+) -> None:
+    given = ["--scenario", str(examples / folder / scenario)] if scenario else []
+    trace = tmp_path / "trace.jsonl"
+    assert run(["simulate", str(examples / folder), *given, "--trace-file", str(trace)]) == 0
+    capsys.readouterr()
+
+    code = run(["simulate", str(examples / folder), *given, "--replay", str(trace)])
+
+    err = capsys.readouterr().err
+    assert code == 0, err
+    lines = len(trace.read_text(encoding="utf-8").splitlines())
+    assert err.startswith(f"{lines} line")
