@@ -1,0 +1,251 @@
+"""From the view to files: which files a package has in each language."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+
+from jinja2 import Environment
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.interface_files import definition, file_name
+from swarmdsl.ir import System
+from swarmdsl.python_source import docstring
+from swarmdsl.source import Span
+from swarmdsl.templates import environment
+
+from .languages import language
+from .manifest import manifest
+from .nodes import TARGET, Node, nodes
+from .options import Options
+from .packages import InterfacePackage, generation, packages
+from .view import NodeView, node_view
+
+_KINDS = {"msg": "message", "srv": "service", "action": "action"}
+# Files of each variant by template: `{}` is the package, `!` at the front marks the user's.
+_FILES = {
+    "ros1_python": {
+        "CMakeLists.txt": "CMakeLists.txt",
+        "setup.py": "setup.py",
+        "base.py": "src/{}/base.py",
+        "implementation.py": "!src/{}/implementation.py",
+        "node": "scripts/{}_node",
+        "test.py": "!test/test_{}.py",
+    },
+    "ros1_cpp": {
+        "CMakeLists.txt": "CMakeLists.txt",
+        "base.h": "include/{}/{}_base.h",
+        "base.cpp": "src/{}_base.cpp",
+        "node.cpp": "src/{}_node.cpp",
+        "user.h": "!include/{}/{}.h",
+        "user.cpp": "!src/{}.cpp",
+        "test.cpp": "!test/{}_test.cpp",
+    },
+    "ros2_python": {
+        "setup.py": "setup.py",
+        "setup.cfg": "setup.cfg",
+        "resource": "resource/{}",
+        "__init__.py": "{}/__init__.py",
+        "base.py": "{}/base.py",
+        "implementation.py": "!{}/implementation.py",
+        "node.py": "{}/node.py",
+        "test.py": "!test/test_{}.py",
+    },
+    "ros2_cpp": {
+        "CMakeLists.txt": "CMakeLists.txt",
+        "base.hpp": "include/{}/{}_base.hpp",
+        "base.cpp": "src/{}_base.cpp",
+        "node.cpp": "src/{}_node.cpp",
+        "user.hpp": "!include/{}/{}.hpp",
+        "user.cpp": "!src/{}.cpp",
+        "test.cpp": "!test/{}_test.cpp",
+    },
+}
+_SHARED = {1: {"launch": "launch/{}.launch"}, 2: {"launch.py": "launch/{}.launch.py"}}
+_SETTINGS = {1: {"param.yaml": "param/{}.yaml"}, 2: {"config.yaml": "config/{}.yaml"}}
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
+    """The files of the packages of nodes, and of those of interfaces."""
+    found = nodes(system, options, report)
+    made = packages(system, found, options, report)
+    if report.has_errors or not found:
+        return []
+    files: list[OutputFile] = []
+    for node, inside in made.nodes:
+        files += _node_files(node, inside, system, options, report)
+    for package in made.interfaces:
+        files += _interface_files(package, options, report)
+    return files
+
+
+def _node_files(
+    node: Node,
+    inside: InterfacePackage | None,
+    system: System,
+    options: Options,
+    report: Diagnostics,
+) -> Iterator[OutputFile]:
+    view = node_view(node, system, language(options.language, generation(options)))
+    depends = _Depends(view, inside, options)
+    variant = f"ros{options.ros}_{options.language}"
+    relies = view.relies
+    stamp = f"swarmc:fits {sha256(chr(10).join(relies).encode()).hexdigest()[:8]}"
+    values = {
+        "node": view,
+        "stamp": stamp,
+        "guard": f"{node.package}_{node.package}".upper(),
+        "refused": f"{node.model} is not implemented",
+        "refused_literal": json.dumps(f"{node.model} is not implemented"),
+        "doc": docstring("\n".join(view.doc)),
+        "options": options,
+        "depends": depends.build,
+        "run_depends": depends.run,
+        "interface_files": _by_kind(inside),
+        "interface_depends": inside.depends if inside is not None else (),
+    }
+    yield OutputFile(f"{node.package}/package.xml", depends.manifest, origin=node.origin)
+    templates = {
+        **{f"{variant}/{name}": path for name, path in _FILES[variant].items()},
+        **{f"ros{options.ros}/{name}": path for name, path in _SHARED[options.ros].items()},
+    }
+    if view.settings:
+        for name, path in _SETTINGS[options.ros].items():
+            templates[f"ros{options.ros}/{name}"] = path
+    for template, path in templates.items():
+        keep = path.startswith("!")
+        yield OutputFile(
+            f"{node.package}/{path.removeprefix('!').replace('{}', node.package)}",
+            _fill(template, **values),
+            executable=path.startswith("scripts/"),
+            keep=keep,
+            origin=node.origin,
+        )
+    if inside is not None:
+        yield from _definitions(inside, options, report)
+
+
+@dataclass(frozen=True)
+class _Depends:
+    """The packages that a package of a node needs."""
+
+    view: NodeView
+    inside: InterfacePackage | None
+    options: Options
+
+    @property
+    def run(self) -> list[str]:
+        """Those of its users and of its nodes."""
+        python = self.options.language == "python"
+        if self.options.ros == 2:
+            found = {"rclpy" if python else "rclcpp", *self.view.depends}
+            found |= {"rcl_interfaces"} if self.view.settings else set()
+            return sorted(found | ({"rclcpp_action"} if self.view.action and not python else set()))
+        found = {"rospy" if python else "roscpp", *self.view.depends}
+        if self.view.action is not None:
+            found |= {"actionlib", "actionlib_msgs"}
+        if self.inside is not None:
+            found |= {"message_runtime", *self.inside.depends}
+        return sorted(found)
+
+    @property
+    def build(self) -> list[str]:
+        """Those that CMake has to find."""
+        found = set(self.run) - {"message_runtime"}
+        return sorted(found | ({"message_generation"} if self.inside is not None else set()))
+
+    @property
+    def manifest(self) -> str:
+        region = f"{self.view.model}.dependencies"
+        if self.options.ros == 2:
+            python = self.options.language == "python"
+            type_ = "ament_python" if python else "ament_cmake"
+            tags = [] if python else [("buildtool_depend", "ament_cmake")]
+            tags += (("depend", name) for name in self.run)
+            tags += (("exec_depend", name) for name in ("launch", "launch_ros"))
+            tags += [("test_depend", "python3-pytest" if python else "ament_cmake_gtest")]
+            exports = (("build_type", type_),)
+            return manifest(
+                self.view.package, self.view.summary, tags, self.options, exports, region
+            )
+        tags = [("buildtool_depend", "catkin")]
+        if self.options.language == "python":
+            tags.append(("buildtool_depend", "python3-setuptools"))
+        if self.inside is not None:
+            tags.append(("build_depend", "message_generation"))
+        tags += (
+            ("exec_depend" if name == "message_runtime" else "depend", name) for name in self.run
+        )
+        return manifest(self.view.package, self.view.summary, tags, self.options, region=region)
+
+
+def _interface_files(
+    package: InterfacePackage, options: Options, report: Diagnostics
+) -> Iterator[OutputFile]:
+    """A package of interfaces."""
+    at = package.interfaces[0].origin
+    text = _fill(
+        f"interfaces/ros{options.ros}",
+        package=package,
+        interface_files=_by_kind(package),
+        interface_depends=package.depends,
+        interface_paths=[file_name(interface) for interface in package.interfaces],
+    )
+    yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
+    tags = [
+        ("buildtool_depend", "catkin"),
+        ("build_depend", "message_generation"),
+        *(("depend", name) for name in package.depends),
+        ("exec_depend", "message_runtime"),
+    ]
+    if options.ros == 2:
+        tags = [
+            ("buildtool_depend", "ament_cmake"),
+            ("buildtool_depend", "rosidl_default_generators"),
+            *(("depend", name) for name in package.depends),
+            ("exec_depend", "rosidl_default_runtime"),
+            ("member_of_group", "rosidl_interface_packages"),
+        ]
+    exports = (("build_type", "ament_cmake"),) if options.ros == 2 else ()
+    text = manifest(package.name, f"Interfaces of {package.name}.", tags, options, exports)
+    yield OutputFile(f"{package.name}/package.xml", text, origin=at)
+    yield from _definitions(package, options, report)
+
+
+def _definitions(
+    package: InterfacePackage, options: Options, report: Diagnostics
+) -> Iterator[OutputFile]:
+    def complain(construct: str, at: Span | None) -> None:
+        report.report("unsupported-construct", at, target=TARGET, construct=construct)
+
+    for interface in package.interfaces:
+        text = definition(interface, generation(options), complain)
+        path = f"{package.name}/{file_name(interface)}"
+        yield OutputFile(path, text, origin=interface.origin)
+
+
+def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:
+    """The files of interfaces in a package, as catkin wants to hear of them."""
+    found: dict[str, list[str]] = {}
+    for interface in package.interfaces if package is not None else ():
+        folder, _, file = file_name(interface).partition("/")
+        found.setdefault(_KINDS[folder], []).append(file)
+    return list(found.items())
+
+
+def _fill(template: str, **values: object) -> str:
+    return _environment().get_template(f"{template}.j2").render(**values)
+
+
+@cache
+def _environment() -> Environment:
+    made = environment(Path(__file__).parent / "templates")
+    made.filters["repr"] = repr
+    made.filters["docstring"] = docstring
+    made.filters["xml_comment"] = lambda text: text.replace("--", "- -")
+    return made

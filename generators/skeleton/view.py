@@ -1,0 +1,281 @@
+"""From nodes to what the templates print: names, types and values as one language has them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.interface_files import parts
+from swarmdsl.ir import Action, Array, Field, Primitive, Service, System
+from swarmdsl.ir.types import DURATION, FLOATS
+from swarmdsl.python_source import comment_lines, comments, file_name
+from swarmdsl.source import Span
+
+from .languages import Language
+from .nodes import Node, Server, Setting, Topic
+
+
+@dataclass(frozen=True)
+class TopicView:
+    """A topic; `literal` is its name as the language writes it."""
+
+    name: str
+    topic: str
+    literal: str
+    type: str
+    comments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class ServerView:
+    """A server: its types, and what is in them, a field a line.
+
+    `local` is its name without the `~` of one in the namespace of the node. `taken` and
+    `given` are the goal and result of an action, or the request and response.
+    """
+
+    method: str
+    name: str
+    literal: str
+    local: str
+    type: str
+    taken_type: str
+    given_type: str
+    feedback_type: str
+    taken: tuple[str, ...]
+    given: tuple[str, ...]
+    feedback: tuple[str, ...]
+    refusal: tuple[str, ...]
+    comments: tuple[str, ...]
+
+    @property
+    def own(self) -> bool:
+        """Whether its name is one in the namespace of the node."""
+        return self.name.startswith("~")
+
+    @property
+    def answers(self) -> bool:
+        """Whether what refuses a request fills in a field of the response."""
+        return any(line.startswith("response.") for line in self.refusal)
+
+    @property
+    def fields(self) -> tuple[str, ...]:
+        """All that is in them, or the word that nothing is."""
+        return (*self.taken, *self.given, *self.feedback) or ("Nothing comes with it.",)
+
+
+@dataclass(frozen=True)
+class SettingView:
+    """A ROS parameter; `type` is that of the language, `default` empty where there is none."""
+
+    name: str
+    key: str
+    type: str
+    default: str
+    zero: str
+    yaml: str
+    said: str
+    about: str
+    about_literal: str
+    declared: str
+    example: str
+    comments: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class NodeView:
+    """The whole node."""
+
+    model: str
+    kind: str
+    package: str
+    cls: str
+    header: str
+    doc: tuple[str, ...]
+    summary: str
+    imports: tuple[str, ...]
+    depends: tuple[str, ...]
+    action: ServerView | None
+    services: tuple[ServerView, ...]
+    inputs: tuple[TopicView, ...]
+    outputs: tuple[TopicView, ...]
+    settings: tuple[SettingView, ...]
+
+    @property
+    def servers(self) -> tuple[ServerView, ...]:
+        """All that can be asked of it."""
+        return (*((self.action,) if self.action else ()), *self.services)
+
+    @property
+    def required(self) -> tuple[SettingView, ...]:
+        """The ROS parameters that must be given."""
+        return tuple(setting for setting in self.settings if not setting.default)
+
+    @property
+    def tested(self) -> tuple[str, ...]:
+        """The modules of the types that the hooks of the user's class get."""
+        taken = [service.taken_type for service in self.services]
+        taken += (topic.type for topic in self.inputs)
+        return tuple(
+            sorted(
+                {
+                    module
+                    for module in self.imports
+                    if any(each.startswith(f"{module}.") for each in taken)
+                }
+            )
+        )
+
+    @property
+    def standard(self) -> tuple[str, ...]:
+        """The headers of the standard library that the class needs."""
+        found = {"memory", "string"} if self.action else set()
+        found |= {"mutex", "vector"} if self.inputs else set()
+        found |= {"string", "vector"} if self.settings else set()
+        found |= {"vector"} if self.services else set()
+        return tuple(sorted(found))
+
+    @property
+    def standard2(self) -> tuple[str, ...]:
+        """The same for rclcpp, where a thread works on goals."""
+        found = (
+            {"condition_variable", "memory", "mutex", "string", "thread"} if self.action else set()
+        )
+        found |= {"mutex", "vector"} if self.inputs else set()
+        found |= {"cstdint", "string", "vector"} if self.settings else set()
+        found |= {"memory", "vector"} if self.services else set()
+        return tuple(sorted(found))
+
+    @property
+    def relies(self) -> tuple[str, ...]:
+        """What the user's code builds on, a fact a line."""
+        found = [f"class {self.cls}"]
+        for server in self.servers:
+            found.append(f"{server.method}: {server.type}")
+            for part, fields in (
+                ("takes", server.taken),
+                ("gives", server.given),
+                ("feedback", server.feedback),
+            ):
+                # What is said of a field is for people.
+                found += (f"{server.method} {part} {f.partition(' - ')[0]}" for f in fields)
+        found += (f"input {topic.name}: {topic.type}" for topic in self.inputs)
+        found += (f"output {topic.name}: {topic.type}" for topic in self.outputs)
+        found += (f"parameter {setting.name}: {setting.type}" for setting in self.settings)
+        return tuple(found)
+
+
+def node_view(node: Node, system: System, language: Language) -> NodeView:
+    """All that the templates of a node need."""
+    servers = [_server(server, node, system, language) for server in node.servers]
+    action = node.action
+    return NodeView(
+        model=node.model,
+        kind=node.kind,
+        package=node.package,
+        cls=node.class_name,
+        header=f"Generated by swarmc from {_file(node.origin, system)}; do not edit.",
+        doc=tuple(comment_lines(node.doc)) or (f"{node.kind.capitalize()} {node.model}.",),
+        summary=" ".join(node.doc.split()) or f"{node.kind.capitalize()} {node.model}.",
+        imports=tuple(sorted({language.imported(type_, kind) for type_, kind in node.types})),
+        depends=tuple(sorted({type_.package for type_, _ in node.types} - {node.package})),
+        action=servers[node.servers.index(action)] if action is not None else None,
+        services=tuple(
+            view
+            for view, server in zip(servers, node.servers, strict=True)
+            if server.paradigm == "service"
+        ),
+        inputs=tuple(_topic(topic, language) for topic in node.inputs),
+        outputs=tuple(_topic(topic, language) for topic in node.outputs),
+        settings=tuple(_setting(setting, language) for setting in node.settings),
+    )
+
+
+def _file(origin: Span | None, system: System) -> str:
+    return file_name(origin) if origin is not None else system.name
+
+
+def _topic(topic: Topic, language: Language) -> TopicView:
+    return TopicView(
+        topic.name,
+        topic.topic,
+        language.literal(topic.topic),
+        language.named(topic.type, "msg"),
+        comments(topic.origin, topic.doc),
+    )
+
+
+def _server(server: Server, node: Node, system: System, language: Language) -> ServerView:
+    kind = "action" if server.paradigm == "action" else "srv"
+    interface = system.interface(server.type)
+    fields = parts(interface) if isinstance(interface, (Action, Service)) else ((), (), ())
+    words = ("goal", "result", "feedback") if kind == "action" else ("request", "response", "")
+    taken, given, feedback = (
+        tuple(_field(field, word, language) for field in part)
+        for word, part in zip(words, (*fields, ())[:3], strict=True)
+    )
+    types = language.server_types(server.type, kind)
+    what = node.model if server.method == "execute" else f"{node.model}.{server.method}"
+    return ServerView(
+        method="execute" if server.method == "execute" else f"handle_{server.method}",
+        name=server.name,
+        literal=language.literal(
+            server.name.replace("~", "~/") if language.ros == 2 else server.name
+        ),
+        local=language.literal(server.name.removeprefix("~")),
+        type=types[0],
+        taken_type=types[1],
+        given_type=types[2],
+        feedback_type=types[3],
+        taken=taken,
+        given=given,
+        feedback=feedback,
+        refusal=language.refusal(f"{what} is not implemented", _plain(fields[1])),
+        comments=comments(server.origin, server.doc),
+    )
+
+
+def _plain(fields: Iterable[Field]) -> dict[str, str]:
+    return {field.name: str(field.type) for field in fields}
+
+
+def _field(field: Field, word: str, language: Language) -> str:
+    said = " ".join(field.doc.split())
+    text = f"{word}.{language.field(field.name)} : {field.type}"
+    return f"{text} - {said}" if said else text
+
+
+def _setting(setting: Setting, language: Language) -> SettingView:
+    type_ = setting.type
+    unit = " in seconds" if type_ == DURATION else ""
+    about = " ".join((setting.doc or setting.key).split())
+    value = _as_float(setting.default, type_)
+    return SettingView(
+        name=setting.name,
+        key=setting.key,
+        type=language.setting_type(type_),
+        default="" if value is None else language.value(value, type_),
+        zero=language.zero(type_),
+        yaml="" if value is None else _yaml(value),
+        said=f"{type_}{unit}",
+        about=about,
+        about_literal=language.literal(about),
+        declared=language.declared(type_),
+        example=language.example(type_),
+        comments=(*comments(setting.origin, setting.doc), *(("In seconds.",) if unit else ())),
+    )
+
+
+def _as_float(value: object, type_: Primitive | Array) -> object:
+    """A whole number of a model can be the default of a real one; ROS tells them apart."""
+    is_real = isinstance(type_, Primitive) and type_.name in (*FLOATS, "duration")
+    return float(value) if is_real and isinstance(value, int) else value
+
+
+def _yaml(value: object) -> str:
+    """A value as YAML 1.1 reads it back: a real number has a point."""
+    if isinstance(value, float):
+        text = repr(value)
+        return text.replace("e", ".0e") if "e" in text and "." not in text else text
+    return json.dumps(value, ensure_ascii=False)

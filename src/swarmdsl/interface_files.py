@@ -1,0 +1,146 @@
+"""Interfaces as .msg, .srv and .action files, as ROS 1 or ROS 2 reads them.
+
+ROS 1: https://wiki.ros.org/msg; ROS 2: https://docs.ros.org, "Interfaces".
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+from typing import Literal
+
+from swarmdsl.exchange.constants import constant
+from swarmdsl.ir import (
+    Action,
+    Array,
+    Constant,
+    Field,
+    Interface,
+    Message,
+    Named,
+    Primitive,
+    Service,
+    Type,
+)
+from swarmdsl.python_source import comment_lines
+from swarmdsl.source import Span
+
+Generation = Literal[1, 2]
+Complain = Callable[[str, Span | None], None]
+"""Told of a construct that ROS does not have, and where it stands."""
+
+FOLDERS = {Message: "msg", Service: "srv", Action: "action"}
+TIMES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
+
+_INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
+_FIELD = {1: re.compile(r"[A-Za-z][A-Za-z0-9_]*"), 2: re.compile(r"[a-z](_?[a-z0-9]+)*")}
+_CONSTANT = {1: _FIELD[1], 2: re.compile(r"[A-Z](_?[A-Z0-9]+)*")}
+
+
+def file_name(interface: Interface) -> str:
+    """The path of its file in its package."""
+    folder = FOLDERS[type(interface)]
+    return f"{folder}/{interface.type.name}.{folder}"
+
+
+def parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
+    """The fields of each part of an interface, in the order of its file."""
+    match interface:
+        case Message(fields=fields):
+            return (fields,)
+        case Service(request=request, response=response):
+            return (request, response)
+        case Action(goal=goal, result=result, feedback=feedback):
+            return (goal, result, feedback)
+
+
+def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str, Span | None]]:
+    """The names in it that ROS does not take: each with what it is, and its place."""
+    if not _INTERFACE.fullmatch(interface.type.name):
+        yield interface.type.name, "the name of an interface", interface.origin
+    for value in interface.constants if isinstance(interface, Message) else ():
+        if not _CONSTANT[ros].fullmatch(value.name):
+            yield value.name, "the name of a constant", value.origin
+    for field in (field for part in parts(interface) for field in part):
+        if not _FIELD[ros].fullmatch(field.name):
+            yield field.name, "the name of a field", field.origin
+
+
+def depends(interfaces: Iterable[Interface], ros: Generation) -> set[str]:
+    """The packages whose messages are in the fields, and those that every action needs."""
+    found: set[str] = set()
+    for interface in interfaces:
+        for field in (field for part in parts(interface) for field in part):
+            element = field.type.element if isinstance(field.type, Array) else field.type
+            if isinstance(element, Named):
+                found.add(element.package)
+            elif ros == 2 and isinstance(element, Primitive) and element.name in TIMES:
+                found.add("builtin_interfaces")
+        if isinstance(interface, Action):
+            found.add("actionlib_msgs" if ros == 1 else "action_msgs")
+    return found
+
+
+def definition(interface: Interface, ros: Generation, complain: Complain) -> str:
+    """The text of its file."""
+    lines = _comments(interface.doc)
+    if isinstance(interface, Message):
+        for value in interface.constants:
+            lines += [*_comments(value.doc), _constant(value, ros, complain)]
+    for index, part in enumerate(parts(interface)):
+        lines += ["---"] if index else []
+        for field in part:
+            lines += _comments(field.doc)
+            lines += _field(field, interface.type.package, ros, complain)
+    return "".join(f"{line}\n" for line in lines)
+
+
+def _comments(text: str) -> list[str]:
+    return [f"# {line}".rstrip() for line in comment_lines(text)]
+
+
+def _constant(declared: Constant, ros: Generation, complain: Complain) -> str:
+    value = constant(declared.value, {})
+    if not isinstance(declared.type, Primitive) or declared.type.name in TIMES:
+        complain(f"a constant of type `{declared.type}`", declared.origin)
+    elif value is None:
+        complain("a constant whose value is not known", declared.origin)
+    text = value if isinstance(value, str) else repr(value)
+    if isinstance(value, str) and ros == 2:
+        text = '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    elif isinstance(value, bool) and ros == 2:
+        text = str(value).lower()
+    if text != text.strip() or not text.isprintable():
+        # ROS takes what stands in the line, ROS 1 without the blanks around it.
+        complain("a constant with blanks around it or line breaks", declared.origin)
+    return f"{_type(declared.type, '', ros, declared.origin, complain)} {declared.name}={text}"
+
+
+def _field(field: Field, package: str, ros: Generation, complain: Complain) -> Iterator[str]:
+    """The line of a field; ROS 1 has no bounds, so that comments say them."""
+    element, size = field.type, ""
+    if isinstance(field.type, Array):
+        element = field.type.element
+        if isinstance(element, Array):
+            complain("an array of arrays in a message", field.origin)
+            return
+        size = "" if field.type.size is None else str(field.type.size)
+        if field.type.bounded and ros == 1:
+            yield f"# At most {size} elements."
+            size = ""
+        size = f"[{'<=' if field.type.bounded and ros == 2 else ''}{size}]"
+    if isinstance(element, Primitive) and element.bound is not None and ros == 1:
+        yield f"# At most {element.bound} characters."
+    yield f"{_type(element, package, ros, field.origin, complain)}{size} {field.name}"
+
+
+def _type(
+    type_: Type, package: str, ros: Generation, origin: Span | None, complain: Complain
+) -> str:
+    if isinstance(type_, Primitive):
+        if ros == 2:
+            return TIMES.get(type_.name, str(type_))
+        if type_.name == "wstring":
+            complain("a `wstring`", origin)
+        return type_.name
+    return type_.name if isinstance(type_, Named) and type_.package == package else str(type_)

@@ -1,0 +1,85 @@
+"""Asks the nodes of a graph of ROS 1 for what they offer; prints what came of it as JSON.
+
+Run by the Python that has ROS, with what to ask: `skeletons` that are not implemented, or nodes
+that are `filled` in with the code of this folder.
+"""
+
+import json
+import sys
+import threading
+
+import actionlib
+import demo.msg
+import demo.srv
+import rospy
+import std_msgs.msg
+from actionlib_msgs.msg import GoalStatus
+
+STATES = {value: name for name, value in vars(GoalStatus).items() if isinstance(value, int)}
+
+
+def goal(client, height, cancel=None):
+    """The state that a goal ends in, its result and text, and the feedback on the way."""
+    heard = []
+    client.send_goal(demo.msg.ClimbGoal(height=height), feedback_cb=lambda f: heard.append(f.now))
+    if cancel is not None:
+        rospy.sleep(0.3)
+        cancel()
+    assert client.wait_for_result(rospy.Duration(10)), height
+    state, text = STATES[client.get_state()], client.get_goal_status_text()
+    return [state, client.get_result().reached, text, heard]
+
+
+def ask(name, type_, **request):
+    """The answer of a service, None where it gives none."""
+    rospy.wait_for_service(name, 20)
+    try:
+        response = rospy.ServiceProxy(name, type_)(**request)
+    except rospy.ServiceException:
+        return None
+    return {field: getattr(response, field) for field in response.__slots__}
+
+
+def heard(topic, type_, publish):
+    """The first message on a topic after something was published again and again."""
+    came, found = threading.Event(), []
+    rospy.Subscriber(topic, type_, lambda message: (found.append(message), came.set()))
+    for _ in range(200):
+        publish()
+        if came.wait(0.05):
+            return found[0]
+    return None
+
+
+def main(what):
+    rospy.init_node("client")
+    client = actionlib.SimpleActionClient("cmd/climb", demo.msg.ClimbAction)
+    assert client.wait_for_server(rospy.Duration(20))
+    said = {
+        "beep": ask("cmd/beep", demo.srv.Beep, times=2),
+        "snap": ask("camera/snap", demo.srv.CameraSnap, zoom=1.0),
+    }
+    if what == "skeletons":
+        said["goal"] = goal(client, 1.0)
+    else:
+        exposure = rospy.Publisher("exposure", std_msgs.msg.Float64, queue_size=1)
+        seen = heard("target_found", demo.msg.Sample, lambda: exposure.publish(0.5))
+        state = rospy.Publisher("state", demo.msg.Sample, queue_size=1, latch=True)
+        state.publish(demo.msg.Sample(code=7))
+        position = heard("pos/goal_position", demo.msg.Sample, lambda: goal(client, 1.0))
+        said.update(
+            seen=list(seen.value),
+            zoomed=ask("camera/snap", demo.srv.CameraSnap, zoom=11.0),
+            position=position.code,
+            reached=goal(client, 1.0),
+            raised=goal(client, 2.0),
+            cancelled=goal(client, 3.0, client.cancel_goal),
+            nothing=goal(client, 4.0),
+        )
+        if "python" in sys.argv:
+            said["wrong"] = goal(client, 5.0)
+    sys.stdout.write(json.dumps(said) + "\n")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,85 @@
+"""Skeletons of one model in all their variants, and a graph of ROS 1 to run them in."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.options import parse_options
+from swarmdsl.plugins import load
+
+HERE = Path(__file__).parent
+MODEL = HERE / "model.swarm"
+
+
+def load_module(name: str, path: Path) -> ModuleType:
+    """A module that lies somewhere in the tests."""
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+graph_module = load_module("skeleton_graph", HERE.parent / "ros1" / "graph.py")
+
+Emit = Callable[..., tuple[dict[str, OutputFile], list[Any]]]
+
+
+@pytest.fixture(scope="session")
+def emit(tmp_path_factory: pytest.TempPathFactory) -> Emit:
+    """What the generator makes of a model, the text of one or the file of one, and reports."""
+
+    def emit(model: str | Path = MODEL, **options: str) -> tuple[dict[str, OutputFile], list[Any]]:
+        if isinstance(model, str):
+            path = tmp_path_factory.mktemp("model") / "model.swarm"
+            path.write_text(model, encoding="utf-8")
+            model = path
+        result = compiler.check([model])
+        assert result.system is not None, [found.message for found in result.report]
+        generator = load("skeleton")
+        report = Diagnostics()
+        parsed = parse_options(generator, options, report)
+        files = list(generator.emit(result.system, parsed, report))
+        return {file.path: file for file in files}, list(report)
+
+    return emit
+
+
+@pytest.fixture(scope="session")
+def write(emit: Emit) -> Callable[..., dict[str, OutputFile]]:
+    """Write what the generator makes below a folder; no complaints."""
+
+    def write(folder: Path, **options: str) -> dict[str, OutputFile]:
+        files, complaints = emit(**options)
+        assert complaints == []
+        for file in files.values():
+            path = folder / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+            path.chmod(0o755 if file.executable else 0o644)
+        return files
+
+    return write
+
+
+@pytest.fixture(scope="session")
+def graph() -> Iterator[Any]:
+    """A master on a port of its own."""
+    why = graph_module.missing()
+    if why is not None:
+        pytest.skip(why)
+    made = graph_module.Graph()
+    yield made
+    made.stop()

@@ -1,0 +1,193 @@
+"""Skeletons for ROS 2: those in Python on the real rclpy, those in C++ against stubs.
+
+rclcpp is in no package registry. What C++ skeletons use of it stands in `stubs`, with its
+signatures and with the states of a goal, so that a compiler reads the code and goals run.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from .conftest import load_module
+
+HERE = Path(__file__).parent
+NODES = ("climb", "beep", "camera")
+ROS2 = HERE.parent / "ros2"
+
+Write = Callable[..., Any]
+
+
+@pytest.fixture(scope="module")
+def cpp(write: Write, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    if shutil.which("g++") is None:
+        pytest.skip("no g++")
+    folder = tmp_path_factory.mktemp("rclcpp")
+    write(folder, ros="2", language="cpp")
+    return folder
+
+
+def compiled(sources: list[Path], package: Path, *more: object) -> str:
+    command = ["g++", "-std=c++17", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]
+    command += [f"-I{package / 'include'}", f"-I{HERE / 'stubs'}", *map(str, (*more, *sources))]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    return run.stderr
+
+
+@pytest.mark.parametrize("name", NODES)
+def test_cpp_compiles_against_stubs(cpp: Path, name: str) -> None:
+    sources = sorted((cpp / name / "src").glob("*.cpp"))
+
+    assert len(sources) == 3
+    assert compiled(sources, cpp / name, "-fsyntax-only") == ""
+
+
+@pytest.mark.parametrize("optimisation", ["-O0", "-O2"])
+def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) -> None:
+    sources = [
+        cpp / "climb" / "src" / "climb_base.cpp",
+        *sorted((HERE / "code" / "ros2").glob("*.cpp")),
+    ]
+    program = tmp_path / "drive"
+    assert compiled(sources, cpp / "climb", optimisation, "-o", program) == ""
+    run = subprocess.run([program], capture_output=True, text=True, timeout=60, check=True)
+
+    assert run.stdout.splitlines() == [
+        "parameter 'frame' is not initialized",
+        "reached succeeded 1.1",
+        "raised aborted 0",
+        "nothing aborted 0",
+        "cancelled canceled 0",
+        "replaced aborted 0",
+        "newer succeeded 1.1",
+        "early canceled 0",
+        "stopped aborted 0",
+    ]
+
+
+@pytest.fixture(scope="module")
+def ros2(write: Write, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+    """The Python of an environment with ROS 2, and the variables with the interfaces built."""
+    given = os.environ.get("SWARMDSL_ROS2")
+    if given is None:
+        pytest.skip("no ROS 2: `make test-ros2` makes an environment with it")
+    environment = load_module("skeleton_environment", ROS2 / "environment.py")
+    folder = tmp_path_factory.mktemp("interfaces")
+    (folder / "venv").symlink_to(Path(given) / "venv")
+    write(folder / "made", ros="2")
+    (folder / "ws" / "src").mkdir(parents=True)
+    shutil.copytree(folder / "made" / "demo", folder / "ws" / "src" / "demo")
+    environment.build(folder, "demo")
+    harness = load_module("skeleton_harness", ROS2 / "harness.py")
+    domain = 20 + os.getpid() % 80
+    ros = harness.Ros(folder, [], domain, folder)
+    return ros.python, {**ros.environment, "ROS_LOG_DIR": str(folder / "log")}
+
+
+@pytest.fixture
+def start(ros2: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Any]:
+    """Start the nodes below a folder in a namespace of their own, and ask them from a client."""
+    python, variables = ros2
+    running: list[subprocess.Popen[bytes]] = []
+    log = tmp_path / "log.txt"
+
+    def start(folder: Path) -> Callable[[str], Any]:
+        path = os.pathsep.join([*(str(folder / name) for name in NODES), variables["PYTHONPATH"]])
+        environment = {**variables, "PYTHONPATH": path}
+        for name in NODES:
+            command = [python, "-m", f"{name}.node", "--ros-args", "-p", "frame:=map"]
+            with log.open("ab") as file:
+                running.append(subprocess.Popen(command, env=environment, stderr=file, stdout=file))
+
+        def ask(what: str) -> Any:
+            run = subprocess.run(
+                [python, HERE / "client_ros2.py", what],
+                env=environment, capture_output=True, text=True, timeout=200, check=False,
+            )  # fmt: skip
+            assert run.returncode == 0, run.stderr + log.read_text()
+            return json.loads(run.stdout.splitlines()[-1])
+
+        return ask
+
+    yield start
+    ends = []
+    for process in running:
+        process.send_signal(signal.SIGTERM)
+    for process in running:
+        try:
+            ends.append(process.wait(5))
+        except subprocess.TimeoutExpired:
+            process.kill()
+            ends.append(process.wait())
+    assert set(ends) <= {0}, log.read_text()
+
+
+def test_python_skeletons_end_each_goal(write: Write, start: Any, tmp_path: Path) -> None:
+    write(tmp_path / "src", ros="2")
+
+    assert start(tmp_path / "src")("skeletons") == {
+        "beep": {"success": False, "message": "beep is not implemented"},
+        "snap": {"stored": False},
+        "goal": ["ABORTED", 0.0, []],
+    }
+
+
+def test_python_nodes_do_what_is_filled_in(write: Write, start: Any, tmp_path: Path) -> None:
+    write(tmp_path / "src", ros="2")
+    for name in ("climb", "camera"):
+        code = HERE / "code" / "ros2" / f"{name}.py"
+        shutil.copy(code, tmp_path / "src" / name / name / "implementation.py")
+
+    assert start(tmp_path / "src")("filled") == {
+        "beep": {"success": False, "message": "beep is not implemented"},
+        "snap": {"stored": True},
+        "zoomed": {"stored": False},
+        "stumbled": {"stored": False},
+        "seen": [0.5],
+        "position": 7,
+        "reached": ["SUCCEEDED", 1.1, [0.5]],
+        "replaced": ["ABORTED", 0.0],
+        "raised": ["ABORTED", 0.0, []],
+        "cancelled": ["CANCELED", 0.0, []],
+        "nothing": ["ABORTED", 0.0, []],
+        "wrong": ["ABORTED", 0.0, []],
+    }
+
+
+def test_python_tests_of_users_pass(
+    ros2: tuple[Path, dict[str, str]], write: Write, tmp_path: Path
+) -> None:
+    python, variables = ros2
+    write(tmp_path, ros="2")
+    for name in NODES:
+        path = os.pathsep.join([str(tmp_path / name), variables["PYTHONPATH"]])
+        command = [python, "-m", "pytest", "-q", "-p", "no:cacheprovider", tmp_path / name / "test"]
+        run = subprocess.run(
+            command, cwd=tmp_path, env={**variables, "PYTHONPATH": path},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert run.returncode == 0, run.stdout
+
+
+def test_a_node_without_a_needed_param_says_so(
+    ros2: tuple[Path, dict[str, str]], write: Write, tmp_path: Path
+) -> None:
+    python, variables = ros2
+    write(tmp_path, ros="2")
+    path = os.pathsep.join([str(tmp_path / "climb"), variables["PYTHONPATH"]])
+    run = subprocess.run(
+        [python, "-m", "climb.node"], env={**variables, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+
+    assert run.returncode == 1
+    assert "frame" in run.stderr
+    assert "Traceback" not in run.stderr
