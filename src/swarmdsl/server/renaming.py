@@ -1,0 +1,97 @@
+"""New names for what a model declares, wherever it is named.
+
+A new name is tried before it is given: one that makes a mistake of anything is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+
+from swarmdsl.diagnostics import Severity
+from swarmdsl.load import File
+from swarmdsl.scopes import KINDS, kind_of
+from swarmdsl.server.occurrences import Occurrence, occurrence_at, occurrences_of
+from swarmdsl.source import Span
+from swarmdsl.syntax import Field, Node, Parameter
+from swarmdsl.syntax_advice import keywords
+from swarmdsl.workspace import Workspace
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+# Whatever is called so at another place is found by its type only.
+_NOT_FOLLOWED = (Field, Parameter)
+
+
+class RefusedError(Exception):
+    """A name that cannot be given, or that something has to keep; says why."""
+
+
+def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
+    """The name at an offset; raises RefusedError where none is, or one that has to stay."""
+    found = occurrence_at(workspace, file, offset)
+    if found is None or type(found.node) not in KINDS:
+        raise RefusedError("there is no name of something that the model declares")
+    if isinstance(found.node, _NOT_FOLLOWED):
+        raise RefusedError(f"{kind_of(found.node)} cannot be renamed")
+    home = _home(workspace, found.node)
+    if home is None or home.library:
+        raise RefusedError(f"`{found.span.text}` is declared in a library")
+    return found
+
+
+def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Span]:
+    """Where the name at an offset stands, to be replaced by `name`; raises RefusedError."""
+    found = renamable(workspace, file, offset)
+    if not _NAME.fullmatch(name):
+        raise RefusedError(f"`{name}` is no name: it has letters, digits and `_`")
+    if name in keywords():
+        raise RefusedError(f"`{name}` is a word of the language")
+    spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
+    if any(span.text != found.span.text for span in spans):
+        raise RefusedError(f"`{found.span.text}` has another name where it is used")
+    if name != found.span.text and not _can_be_given(workspace, found, spans, name):
+        raise RefusedError(f"`{name}` would be taken for something else, or something for it")
+    return spans
+
+
+def _home(workspace: Workspace, node: Node) -> File | None:
+    path = node.span.absolute.source.path
+    return workspace.file(path) if path is not None else None
+
+
+def _can_be_given(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> bool:
+    """Whether a model has no more errors with this name, and it means the same everywhere."""
+    before = _errors(workspace)
+    texts = _texts(spans)
+    workspace.update({path: _replaced(text, spans, path, name) for path, text in texts.items()})
+    try:
+        if _errors(workspace) - before:
+            return False
+        path = found.span.source.path
+        file = workspace.file(path) if path is not None else None
+        earlier = sum(span.source.path == path and span.start < found.span.start for span in spans)
+        start = found.span.start + earlier * (len(name) - len(found.span.text))
+        again = occurrence_at(workspace, file, start) if file is not None else None
+        if again is None:
+            return False
+        return len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
+    finally:
+        workspace.update(texts)
+
+
+def _errors(workspace: Workspace) -> Counter[str]:
+    report = workspace.report
+    return Counter(each.code for each in report if each.severity is Severity.ERROR)
+
+
+def _texts(spans: list[Span]) -> Mapping[Path, str]:
+    return {span.source.path: span.source.text for span in spans if span.source.path is not None}
+
+
+def _replaced(text: str, spans: list[Span], path: Path, name: str) -> str:
+    for span in sorted(spans, key=lambda span: span.start, reverse=True):
+        if span.source.path == path:
+            text = text[: span.start] + name + text[span.end :]
+    return text

@@ -1,0 +1,37 @@
+"""The model that editors have open in these tests."""
+
+MODEL = """\
+/// Robots that go round. 🤖
+package patrol
+
+/// Begin.
+event Start : std_msgs/Empty on "start"
+event Stop : std_msgs/Empty on "stop"
+
+enum Mode {
+  SLOW
+  FAST
+}
+
+/// Drive around.
+function go_round : abstraction { action "go" : patrol_msgs/GoRound }
+
+/* 🤖🤖 */ statemachine Patrol {
+  param limit : int32 = 3
+  var rounds : int32 = 0
+  var mode : Mode = Mode.SLOW
+  initial Idle
+
+  state Idle {
+    on Start [mode == Mode.FAST] / rounds = rounds + 1 -> Round
+  }
+  state Round {
+    do go_round
+    on succeeded [rounds < limit] -> Round
+    on succeeded -> Home
+    on aborted -> Home
+    on Stop -> Home
+  }
+  final Home
+}
+"""

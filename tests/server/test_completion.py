@@ -1,0 +1,140 @@
+"""What can be written where: places at which a person types, most of them in unfinished text."""
+
+import pytest
+
+from swarmdsl.server.completion import completions
+from swarmdsl.server.models import Models
+
+HEAD = """\
+package here
+
+enum Mode {
+  SLOW
+  FAST
+}
+const MOST : int32 = 5
+event Low : std_msgs/Empty on "low"
+event High : std_msgs/Empty on "high"
+function go : abstraction { action "go" : some_msgs/Go }
+sensor Camera {
+  out image : sensor_msgs/Image on "image"
+  param rate : float64 = 1.0
+}
+controller Tracker {
+  in picture : sensor_msgs/Image
+}
+statemachine Other {
+  param speed : float64
+  initial Only
+  state Only { do go on succeeded -> End }
+  final End
+}
+"""
+STATES = """\
+statemachine Machine {
+  param limit : int32 = 3
+  var count : int32 = 0
+  initial First
+  state First {
+    initial Inner
+    state Inner { on Low -> Done }
+    final Done
+    HERE
+  }
+  parallel state Both {
+    region Left { initial L state L { on Low -> Ready } final Ready }
+    region Right { initial R state R { on High -> Set } final Set }
+    on done -> Last
+  }
+  final Last
+}
+"""
+VERTICES = {"First", "Both", "Last", "Inner", "Done"}
+ITEMS = {"do", "on", "after", "state", "entry", "exit", "final", "choice", "history", "initial"}
+DECLARATIONS = {"event", "statemachine", "member", "swarm", "enum", "function", "sensor"}
+
+
+def state(line):
+    return HEAD + STATES.replace("HERE", line)
+
+
+PLACES = {
+    "nothing": ("|", {"package", "import", *DECLARATIONS}, {"on"}),
+    "half a declaration": ("sta|", {"statemachine"}, {"on"}),
+    "below the package": ("package p\n|", {"import", *DECLARATIONS}, set()),
+    "behind declarations": (HEAD + "|", DECLARATIONS, {"package", "import", "on"}),
+    "between declarations": (HEAD.replace("event High", "|\nevent High"), DECLARATIONS, {"on"}),
+    "type of an event": (HEAD + "event E : |", {"Mode", "int32"}, {"Low", "on"}),
+    "half a type": (HEAD + "event E : Mo|", {"Mode"}, {"Low"}),
+    "behind a type": (HEAD + "event E : Mode |", {"on"}, {"Mode"}),
+    "category": (HEAD + "function f : |", {"abstraction", "swarm"}, {"Low"}),
+    "in a function": (HEAD + "function f : abstraction { | }", {"action", "param"}, {"on"}),
+    "in a component": (HEAD + "sensor S {\n  |\n}", {"in", "out", "param", "operation"}, {"on"}),
+    "base": (HEAD + "sensor S extends | {\n}", {"Camera", "Tracker"}, {"Low"}),
+    "in a member": (HEAD + "member M {\n  |\n}", {"behavior", "connect", "param"}, {"on"}),
+    "behavior": (HEAD + "member M { behavior | }", {"Other"}, {"Camera", "Low"}),
+    "behavior, nothing closed": (HEAD + "member M { behavior |", {"Other"}, {"Camera"}),
+    "component of a part": (HEAD + "member M { cam : | }", {"Camera", "Tracker"}, {"Other"}),
+    "source of a connector": (
+        HEAD + "member M { cam : Camera t : Tracker\n  connect | }", {"cam", "t"}, {"Camera"},
+    ),
+    "port of a part": (
+        HEAD + "member M { cam : Camera t : Tracker\n  connect cam.| }", {"image"}, {"cam", "rate"},
+    ),
+    "target of a connector": (
+        HEAD + "member M { cam : Camera t : Tracker\n  connect cam.image -> t.| }",
+        {"picture"}, {"image"},
+    ),
+    "role": (HEAD + "member M { behavior Other }\nswarm S { r : | }", {"M"}, {"Other"}),
+    "in a swarm": (HEAD + "swarm S {\n  |\n}", {"environment", "fitness"}, {"on"}),
+    "in a state machine": (
+        HEAD + "statemachine M {\n  |\n}", {"param", "var", "initial", "state", "final"}, {"on"},
+    ),
+    "initial": (HEAD + STATES.replace("initial First", "initial |"), {"First", "Both"}, {"Inner"}),
+    "in a state": (state("|"), ITEMS, {"param", "Low"}),
+    "half a keyword": (state("o|"), {"on"}, {"Low"}),
+    "trigger": (state("on |"), {"Low", "High", "done", "succeeded"}, {"on", "go", "First"}),
+    "half a trigger": (state("on Lo|"), {"Low"}, {"First"}),
+    "behind a trigger": (state("on Low |"), set(), {"Low", "First"}),
+    "second trigger": (state("on Low, |"), {"High", "done"}, {"First"}),
+    "target": (state("on Low -> |"), VERTICES, {"Low", "on", "L"}),
+    "half a target": (state("on Low -> La|"), VERTICES, {"Low", "on"}),
+    "target of a path": (state("on Low -> First.|"), {"Inner", "Done"}, {"First", "Low"}),
+    "guard": (state("on Low [| ] -> Last"), {"count", "MOST", "Mode", "not"}, {"Low", "go"}),
+    "open guard": (state("on Low [|"), {"count", "limit", "MOST", "Mode", "not"}, {"Low", "go"}),
+    "value of an enum": (state("on Low [Mode.|"), {"SLOW", "FAST"}, {"count", "Low"}),
+    "behind an operand": (state("on Low [count |"), {"and", "or"}, {"count"}),
+    "second operand": (state("on Low [count < |"), {"limit", "MOST"}, {"Low"}),
+    "effect": (state("on Low / |"), {"send", "count"}, {"Low", "First"}),
+    "assigned value": (state("on Low / count = | -> Last"), {"count", "limit"}, {"Low"}),
+    "sent event": (state("on Low / send |"), {"Low", "High"}, {"count", "First"}),
+    "function": (state("do |"), {"go"}, {"Low", "Other"}),
+    "final state": (state("on done.|"), {"Done"}, {"Last", "Low"}),
+    "machine that is reused": (state("state Sub = |"), {"Other"}, {"First", "Low"}),
+    "target in a broken file": (
+        HEAD.replace("abstraction {", "abstraction [") + STATES.replace("HERE", "on Low -> |"),
+        {"First", "Last"}, {"Low"},
+    ),
+    "target below another mistake": (
+        state("on on on\n    on Low -> |"), {"First", "Last"}, {"Low", "on"},
+    ),
+    "comment": (state("// on |"), set(), {"on", "Low", "First"}),
+    "text": (HEAD + 'event E : Mode on "|', set(), {"on", "Mode"}),
+    "documentation": (HEAD + "/// sta|", set(), {"statemachine"}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_what_can_be_written(place, tmp_path):
+    text, wanted, unwanted = PLACES[place]
+    offset = text.index("|")
+    path = tmp_path / "model.swarm"
+    models = Models([tmp_path])
+    models.edit(path, text.replace("|", "", 1))
+    workspace, file = models.file(path)
+    found = [each.word for each in completions(workspace, file, offset)]
+    assert len(found) == len(set(found))
+    assert wanted - set(found) == set()
+    assert unwanted & set(found) == set()
+    if not wanted:
+        assert found == []

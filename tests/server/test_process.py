@@ -1,0 +1,96 @@
+"""The server as a process: how it starts and how it ends."""
+
+import json
+import socket
+import subprocess
+import sys
+import time
+
+import pytest
+
+SERVER = [sys.executable, "-m", "swarmdsl", "lsp"]
+
+
+def message(**content):
+    text = json.dumps({"jsonrpc": "2.0", **content}).encode()
+    return b"Content-Length: %d\r\n\r\n%s" % (len(text), text)
+
+
+INITIALIZE = message(id=1, method="initialize", params={"capabilities": {}})
+
+
+def answer(stream):
+    header = stream.readline()
+    while stream.readline().strip():
+        pass
+    return json.loads(stream.read(int(header.split(b":")[1])))
+
+
+def capabilities(stream):
+    return answer(stream)["result"]["capabilities"]
+
+
+def test_an_editor_that_dies_takes_the_server_with_it():
+    process = subprocess.Popen(
+        SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    )
+    process.stdin.write(INITIALIZE)
+    process.stdin.flush()
+    assert capabilities(process.stdout)["hoverProvider"]
+    _, errors = process.communicate(timeout=20)
+    assert (process.returncode, errors) == (0, b"")
+
+
+def test_an_editor_is_asked_to_tell_of_changes_on_disk():
+    process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    watching = {"workspace": {"didChangeWatchedFiles": {"dynamicRegistration": True}}}
+    process.stdin.write(message(id=1, method="initialize", params={"capabilities": watching}))
+    process.stdin.write(message(method="initialized", params={}))
+    process.stdin.flush()
+    capabilities(process.stdout)
+    asked = answer(process.stdout)
+    process.communicate(timeout=20)
+    assert asked["method"] == "client/registerCapability"
+    [registration] = asked["params"]["registrations"]
+    watchers = registration["registerOptions"]["watchers"]
+    assert {"globPattern": "**/*.swarm"} in watchers
+
+
+def test_a_server_on_a_port_of_the_loopback_interface():
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    process = subprocess.Popen([*SERVER, "--tcp", str(port)], stderr=subprocess.PIPE)
+    try:
+        deadline = time.monotonic() + 20
+        while True:
+            try:
+                connection = socket.create_connection(("127.0.0.1", port))
+                break
+            except OSError:
+                assert time.monotonic() < deadline
+                time.sleep(0.1)
+        with connection, connection.makefile("rwb") as stream:
+            stream.write(INITIALIZE)
+            stream.flush()
+            assert capabilities(stream)["completionProvider"]
+        process.wait(20)
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@pytest.mark.parametrize("arguments", ["--tcp 0", "--tcp x", "--stdio --tcp 5007"])
+def test_a_wrong_command_line(arguments):
+    ran = subprocess.run([*SERVER, *arguments.split()], capture_output=True, text=True)
+    assert ran.returncode == 2
+    assert "Usage:" in ran.stderr
+
+
+def test_a_port_that_is_taken():
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = str(taken.getsockname()[1])
+        ran = subprocess.run([*SERVER, "--tcp", port], capture_output=True, text=True, timeout=20)
+    assert (ran.returncode, "already in use" in ran.stderr) == (1, True)
