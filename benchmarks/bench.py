@@ -16,6 +16,8 @@ from tempfile import TemporaryDirectory
 
 import cold
 import engine
+import generation
+import importing
 import large
 import parsing
 import peers
@@ -26,8 +28,10 @@ PAGE = Path(__file__).resolve().parents[1] / "docs" / "performance.md"
 GROUPS: dict[str, Callable[[Path], Section]] = {
     "parse": parsing.section,
     "cold": cold.section,
+    "generation": generation.section,
     "workspace": large.section,
     "engine": engine.section,
+    "import": importing.section,
 }
 
 

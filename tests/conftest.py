@@ -9,6 +9,8 @@ from swarmdsl import compiler
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[1]
+# What targets make has tests of its own, which are for ROS.
+collect_ignore = ["golden", "skeleton/golden"]
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

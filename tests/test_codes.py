@@ -29,7 +29,7 @@ PAGES = {code: Page(page_path(code)) for code in NAMES}
 NO_MODEL = {
     *("unreadable-file", "not-text", "nothing-to-compile", "control-character"),
     *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
-    *("cannot-write", "target-left-out", "generator-failed"),
+    *("cannot-write", "target-left-out", "generator-failed", "outdated-code"),
     *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
     *("not-a-warning",),
 }

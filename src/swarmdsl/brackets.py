@@ -32,7 +32,7 @@ class Repair(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class BracketFault:
     """A bracket without its other half.
 
     `at` is its offset, that of the last word before it for a block without `{`; `before` is
@@ -46,7 +46,7 @@ class Fault:
     before: int | None = None
 
 
-def find_faults(code: str) -> list[Fault]:
+def find_faults(code: str) -> list[BracketFault]:
     """The faulty brackets of a text in which comments and texts are blank, in order."""
     if _balanced(code):
         return []
@@ -79,7 +79,7 @@ def _balanced(code: str) -> bool:
     return not opened
 
 
-def report_fault(fault: Fault, source: Source, report: Diagnostics) -> None:
+def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> None:
     """Say what is wrong with a bracket."""
     at, text = fault.at, source.text
     place = Span(source, at, at + 1)
@@ -120,7 +120,7 @@ class _Match:
     """One walk over the brackets."""
 
     def __init__(self, code: str, *, trust_indentation: bool) -> None:
-        self.faults: list[Fault] = []
+        self.faults: list[BracketFault] = []
         self._code = code
         self._trusts = trust_indentation
         self._open: list[int] = []
@@ -191,7 +191,7 @@ class _Match:
     def _wrong(self, at: int) -> int:
         opener = self._open.pop()
         repair = Repair(at, at + 1, CLOSER[self._code[opener]])
-        self.faults.append(Fault("wrong", at, repair, opener))
+        self.faults.append(BracketFault("wrong", at, repair, opener))
         return at + 1
 
     def _last_block(self) -> int:
@@ -206,7 +206,7 @@ class _Match:
         # A brace gets a line of its own, or a parser would find it where something is missing.
         closer = "\n}" if self._code[at] == "{" else CLOSER[self._code[at]]
         repair = Repair(end, end, closer)
-        self.faults.append(Fault("unclosed", at, repair, before=before))
+        self.faults.append(BracketFault("unclosed", at, repair, before=before))
 
     def _extra(self, at: int) -> int:
         """A closer, and those that follow it at once, are too many, or a block has no opener."""
@@ -217,10 +217,10 @@ class _Match:
         found = _CLOSERS.match(self._code, at) if not self._open else None
         end = found.end() if found else at + 1
         blank = re.sub(r"\S", " ", self._code[at:end])
-        self.faults.append(Fault("extra", at, Repair(at, end, blank)))
+        self.faults.append(BracketFault("extra", at, Repair(at, end, blank)))
         return end
 
-    def _header(self, at: int) -> Fault | None:
+    def _header(self, at: int) -> BracketFault | None:
         """The line before an indented block without `{` that the closer at `at` closes."""
         column = self._column(at)
         lines = list(re.finditer(r"^[ \t]*(\S.*?)[ \t]*$", self._code[:at], re.MULTILINE))
@@ -232,7 +232,7 @@ class _Match:
                 word = re.search(r"[\w./]+$|\S$", line[1])
                 assert word is not None
                 start = line.start(1) + word.start()
-                return Fault("unopened", start, Repair(line.end(1), line.end(1), " {"))
+                return BracketFault("unopened", start, Repair(line.end(1), line.end(1), " {"))
         return None
 
     def _indentation(self, at: int) -> int:

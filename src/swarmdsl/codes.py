@@ -195,6 +195,9 @@ CODES: dict[str, Code] = {
         "SW0915", "warning", "the CPSwarm code generator cannot read the value of {item}"
     ),
     "no-place": Code("SW0916", "warning", "target `{target}` has no place for {what}"),
+    "outdated-code": Code(
+        "SW0917", "warning", "`{path}` is written for another state of the model"
+    ),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),
@@ -205,6 +208,8 @@ CODES: dict[str, Code] = {
     "failed-expression": Code("SW1007", "warning", "a value in `{machine}` failed: {reason}"),
     "missing-key": Code("SW1008", "error", "this needs `{name}`"),
     "too-many-members": Code("SW1009", "error", "{count} members are too many to simulate"),
+    "bad-trace-line": Code("SW1010", "error", "this line is none of a trace: {reason}"),
+    "trace-departs": Code("SW1011", "error", "{who} leaves the model on {event} at {time}"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),
@@ -224,9 +229,17 @@ CODES: dict[str, Code] = {
         "SW1206", "warning", "nothing handles {outcomes} of `{state}`: the machine ends then"
     ),
     "not-json": Code("SW1207", "error", "this is not JSON: {reason}"),
-    "not-adf": Code("SW1208", "error", "this is no ADF file: {reason}"),
+    "not-adf": Code("SW1208", "error", "this is no ADF or AMF file: {reason}"),
     "nothing-to-import": Code(
         "SW1209", "error", "`{path}` has nothing that a model could be made of"
     ),
     "no-model": Code("SW1210", "error", "no model can be made of `{path}`: {reason}"),
+    "not-yaml": Code("SW1211", "error", "this is not YAML: {reason}"),
+    "kept": Code("SW1212", "warning", "{what} stays as it is: {reason}"),
+    "sent-later": Code(
+        "SW1216",
+        "warning",
+        "`{event}` is sent here: it comes after the events that wait already",
+    ),
+    "too-large": Code("SW1217", "error", "`{path}` has more than {most} MB"),
 }

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from typing import NamedTuple
 
-from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
@@ -15,8 +15,7 @@ _ESCAPE = re.compile(r"\\[^\n]")
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
 
-@dataclass(frozen=True, slots=True)
-class DocComment:
+class DocComment(NamedTuple):
     """Lines of `///` that stand together; `next` is the offset of what follows them."""
 
     span: Span
@@ -78,10 +77,26 @@ class Comments:
 
 def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]:
     """The documentation in a file without syntax errors."""
-    has_escapes = "\\" in source.text
-    if "///" not in source.text and not has_escapes:
-        return ()
+    text = source.text
     comments = Comments(source, report)
+    if "\\" in text or "/*" in text:
+        _look_at_all(source, comments)
+        return comments.documentation()
+    at = text.find("///")
+    while at >= 0:
+        if not starts_line(text, at):  # it may be in a text
+            comments = Comments(source, report)
+            _look_at_all(source, comments)
+            break
+        end = text.find("\n", at)
+        end = end if end >= 0 else len(text)
+        comments.comment(at, end)
+        at = text.find("///", end)
+    return comments.documentation()
+
+
+def _look_at_all(source: Source, comments: Comments) -> None:
+    has_escapes = "\\" in source.text
     for token in _TOKEN.finditer(source.text):
         written = token[0]
         if written[0] == '"':
@@ -89,7 +104,6 @@ def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]
                 comments.quoted(*token.span())
         elif written.startswith("///"):
             comments.comment(*token.span())
-    return comments.documentation()
 
 
 def starts_line(text: str, offset: int) -> bool:

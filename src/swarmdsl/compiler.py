@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.dataclass import dataclass, replace
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, placed
 from swarmdsl.link import link
 from swarmdsl.load import Project, load
 from swarmdsl.project.settings import Settings
@@ -66,14 +66,22 @@ def build(
     force: bool = False,
 ) -> Result:
     """Check the model and write what the requested targets make of it below `out`."""
+    return generate(check(paths, settings), requests, out, force=force)
+
+
+def generate(
+    checked: Result, requests: Sequence[Request], out: Path, *, force: bool = False
+) -> Result:
+    """Write what the requested targets make of a checked model below `out`, if it is valid."""
     from swarmdsl.emit import emit
     from swarmdsl.output import write
 
-    checked = check(paths, settings)
     if checked.system is None:
         return checked
-    report = checked.report
-    files = emit(checked.system, requests, report)
+    report, found = checked.report, Diagnostics()
+    files = emit(checked.system, requests, found)
+    # In a workspace, places are in pieces of files.
+    report.include(placed(one, lambda span: span.absolute) for one in found)
     if report.has_errors:
         return checked
     return replace(checked, written=write(files, out, report, force=force))

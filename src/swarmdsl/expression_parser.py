@@ -26,10 +26,9 @@ from swarmdsl.syntax import (
     ExpressionTree,
     FieldUse,
     NameUse,
-    Node,
     Value,
     Word,
-    children,
+    depth,
 )
 
 # The tokens that can begin an operator, as a whole or in part.
@@ -37,8 +36,11 @@ _OPERATORS = frozenset({*BINDING, "=", "!"})
 # Without `/`, which begins the effects of a transition.
 _DELAY_OPERATORS = frozenset({"+", "-", "*"})
 _PARTS_OF_COMPARISONS = frozenset("=!<>")
+_PREFIXES = frozenset({"not", "-"})
 _SIMPLE_NUMBER = 9  # characters: no such number is too large
 
+# To call the classes takes longer.
+new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
 
@@ -79,27 +81,30 @@ class ExpressionParser:
 
     def expression(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
         """Parse a whole expression."""
-        return self._finished(ahead.start(), self._binary(ahead, _OPERATORS))
+        return self._finished(self._binary(ahead, _OPERATORS))
 
     def delay(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
         """Parse a delay, which has no division."""
-        return self._finished(ahead.start(), self._binary(ahead, _DELAY_OPERATORS))
+        return self._finished(self._binary(ahead, _DELAY_OPERATORS))
 
     def operand(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
         """Parse what can stand on one side of an operator."""
-        return self._finished(ahead.start(), self._binary(ahead, frozenset()))
+        return self._finished(self._binary(ahead, frozenset()))
 
-    def _finished(self, start: int, found: _Found | None) -> tuple[Expression, Match, Match] | None:
+    def _finished(self, found: _Found | None) -> tuple[Expression, Match, Match] | None:
         if found is None:
             self._fault = self._large = None
             return None
-        tree, _, _, behind, ahead = found
-        end, span = behind.end(1), tree.span
+        tree, start, end, behind, ahead = found
+        span = tree.span
         if span[1] != start or span[2] != end:  # else it is the same, which is kept once
             span = new_span(Span, (self._source, start, end))
-        made = Expression(span)
-        if self._size >= NESTING_LIMIT:
-            self._check_depth(tree, made.span)
+        made = new_node(Expression)
+        made.span = span
+        if self._size:
+            if self._size >= NESTING_LIMIT:
+                self._check_depth(tree, span)
+            self._size = 0
         if self._fault is None and self._large is not None:
             self._fault = Fault(
                 self._large, "syntax-error", {"message": "this number is too large"}
@@ -107,25 +112,28 @@ class ExpressionParser:
         if self._fault is None:
             made.tree = tree
         else:
+            made.tree = None
             self.faults.append(self._fault)
             self._fault = self._large = None
-        self._size = 0
         return made, behind, ahead
 
     def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
-        if self._fault is None and _depth(tree) > NESTING_LIMIT:
+        if self._fault is None and depth(tree) > NESTING_LIMIT:
             help_ = "each operator is a level: store a part of the value in a variable first"
             fields = {"limit": NESTING_LIMIT, "help": help_}
             self._fault = Fault(span, "nested-too-deeply", fields)
 
     def _binary(self, ahead: Match, operators: frozenset[str]) -> _Found | None:
         """Operands with operators between them, or one operand."""
-        found = self._operand(ahead)
-        if found is None:
+        prefixes: Sequence[Operator] = ()
+        if ahead[1] in _PREFIXES:
+            prefixes, ahead = self._prefixes(ahead)
+        first = last = self._primary(ahead)
+        if last is None or first is None:
             return None
-        prefixes, first = found
+        if last[4][1] not in operators and not prefixes:
+            return first
         operations: list[Operation[_Found]] = []
-        last = first
         while last[4][1] in operators:
             operation = self._operation(last[4])
             if operation is None:
@@ -152,25 +160,23 @@ class ExpressionParser:
         elif token == "-" and self._is_arrow(ahead):
             return None
         before = self._fault, self._large
-        found = self._operand(self._token(self._text, match.end()))
+        prefixes: Sequence[Operator] = ()
+        ahead = self._token(self._text, match.end())
+        if ahead[1] in _PREFIXES:
+            prefixes, ahead = self._prefixes(ahead)
+        found = self._primary(ahead)
         if found is None:
             self._fault, self._large = before
             return None
-        return (BINDING[token], self._word(match), False), *found
+        return (BINDING[token], self._word(match), False), prefixes, found
 
-    def _operand(self, ahead: Match) -> tuple[Sequence[Operator], _Found] | None:
-        """Prefixes and what they stand before."""
-        token = ahead[1]
-        if token != "not" and token != "-":
-            found = self._primary(ahead)
-            return ((), found) if found is not None else None
+    def _prefixes(self, ahead: Match) -> tuple[Sequence[Operator], Match]:
+        """Each `not` and each sign, and the match of what follows them."""
         prefixes: list[Operator] = []
-        while token == "not" or (token == "-" and not self._is_arrow(ahead)):
+        while (token := ahead[1]) in _PREFIXES and not (token == "-" and self._is_arrow(ahead)):
             prefixes.append((NOT if token == "not" else SIGN, self._word(ahead), True))
             ahead = self._token(self._text, ahead.end())
-            token = ahead[1]
-        found = self._primary(ahead)
-        return (prefixes, found) if found is not None else None
+        return prefixes, ahead
 
     def _primary(self, ahead: Match) -> _Found | None:
         """A value, a name, a call, or an expression in parentheses."""
@@ -184,8 +190,11 @@ class ExpressionParser:
             if following[1] == ".":
                 return self._path(ahead, following)
             start, end = ahead.span(1)
-            span = new_span(Span, (self._source, start, end))
-            return NameUse(span, token), start, end, ahead, following
+            name = new_node(NameUse)
+            name.span = new_span(Span, (self._source, start, end))
+            name.name = token
+            name.target = None
+            return name, start, end, ahead, following
         start = ahead.start()
         if token == "":
             quantity = self._language.quantity(self._text, start)
@@ -240,7 +249,7 @@ class ExpressionParser:
     def _path(self, behind: Match, ahead: Match) -> _Found:
         """A name, and fields of what it means."""
         start, end = behind.span(1)
-        tree: ExpressionTree = NameUse(new_span(Span, (self._source, start, end)), behind[1])
+        tree: ExpressionTree = NameUse(self._span(start, end), behind[1])
         while ahead[1] == ".":
             field = self._token(self._text, ahead.end())
             if not field[1] or field[1] in MARKS:
@@ -253,8 +262,11 @@ class ExpressionParser:
 
     def _value(self, match: Match, value: bool | float | str, unit: str = "") -> _Found:
         start, end = match.span(1)
-        span = new_span(Span, (self._source, start, end))
-        return Value(span, value, unit), start, end, match, self._token(self._text, match.end())
+        made = new_node(Value)
+        made.span = new_span(Span, (self._source, start, end))
+        made.value = value
+        made.unit = unit
+        return made, start, end, match, self._token(self._text, match.end())
 
     def _quantity(self, match: Match) -> _Found:
         digits, unit = match[2], match[3] or ""
@@ -298,12 +310,3 @@ def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
     parser.expression(language.token(span.source.text, span.start))
     for fault in parser.faults:
         report.report(fault.name, fault.span, **fault.fields)
-
-
-def _depth(tree: ExpressionTree) -> int:
-    """How many operations and fields stand in each other, at most."""
-    depth, level = 0, list[Node]([tree])
-    while level:
-        depth += 1
-        level = [inner for outer in level for inner in children(outer)]
-    return depth

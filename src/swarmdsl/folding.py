@@ -44,6 +44,7 @@ OPERATIONS: Mapping[str, Callable[..., Folded]] = {
 }
 """What operators and built-in functions do with values, but for `and`, `or` and `not`."""
 
+_ALWAYS_DEFINED = frozenset(("and", "or", "not", "==", "!=", "<", "<=", ">", ">="))
 # What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.
 _WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
 
@@ -103,12 +104,14 @@ class Folding:
         It is the operation itself that is looked at: of operands without a value nothing is
         said. `duration` says that the result is one.
         """
+        word = str(tree.function if isinstance(tree, Call) else tree.operator)
+        if word in _ALWAYS_DEFINED:
+            return None
         operands = tree.arguments if isinstance(tree, Call) else tree.operands
         values = [self.value(operand) for operand in operands]
-        word = str(tree.function if isinstance(tree, Call) else tree.operator)
         if word in ("/", "%") and _is_zero(values[-1]):
             return "the divisor is 0"
-        if None in values or word in ("and", "or", "not"):
+        if None in values:
             return None
         try:
             negation = (word, len(values)) == ("-", 1)
@@ -123,10 +126,14 @@ class Folding:
 
     def _fold(self, tree: ExpressionTree) -> Folded | None:
         """Like `value`; raises what came of an operation that has no result."""
-        if isinstance(tree, NameUse):
-            return self.constant(tree.target) if isinstance(tree.target, Constant) else None
-        if isinstance(tree, Value) and not tree.unit:
-            return tree.value
+        match tree:
+            case NameUse():
+                return self.constant(tree.target) if isinstance(tree.target, Constant) else None
+            case Value(unit=""):
+                return tree.value
+            case FieldUse(base=base):
+                enum = base.target if isinstance(base, NameUse) else None
+                return self.numbers(enum).get(tree.name) if isinstance(enum, EnumType) else None
         if tree not in self._known:
             try:
                 self._known[tree] = self._worked_out(tree)
@@ -137,24 +144,21 @@ class Folding:
             raise found
         return found
 
-    def _worked_out(self, tree: ExpressionTree) -> Folded | None:
+    def _worked_out(self, tree: Value | OperatorUse | Call) -> Folded | None:
         match tree:
-            case OperatorUse(operator="and" | "or" as word, operands=operands):
-                return self._logic(word == "or", operands)
-            case OperatorUse(operator="not", operands=(operand,)):
+            case OperatorUse(operator=word, operands=(operand,)):
                 known = self._fold(operand)
-                return None if known is None else not known
-            case OperatorUse(operands=(operand,)):
-                return _negative(self._fold(operand))
+                if word == "not":
+                    return None if known is None else not known
+                return _negative(known)
             case OperatorUse(operator=word, operands=operands):
-                return self._applied(str(word), operands)
-            case Call(function=function, arguments=arguments) if function in OPERATIONS:
-                return self._applied(str(function), arguments)
-            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
-                return self.numbers(enum).get(str(name))
+                if word in ("and", "or"):
+                    return self._logic(word == "or", operands)
+                return self._applied(word, operands)
+            case Call(function=function, arguments=arguments):
+                return self._applied(function, arguments) if function in OPERATIONS else None
             case Value(unit=unit):
                 return nanoseconds(tree.span.text, unit)
-        return None
 
     def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
         values = [self._fold(operand) for operand in operands]

@@ -53,6 +53,23 @@ class Feature(Enum):
 ALL_FEATURES = frozenset(Feature)
 
 
+class Support(Enum):
+    """How a target has a construct: it has the like, it is made of others, or it is reported."""
+
+    EXACT = "exact"
+    EMULATED = "emulated"
+    REJECTED = "rejected"
+
+
+@dataclass(frozen=True, slots=True)
+class Mapped:
+    """What becomes of a construct in a target, or why it is rejected and with which code."""
+
+    construct: str
+    support: Support
+    means: str
+
+
 @dataclass(frozen=True, slots=True)
 class OutputFile:
     """A file to be written below the target's output folder.
@@ -102,7 +119,8 @@ class Generator:
     `options_type`, a frozen dataclass of str, bool and int fields made with `option`.
     What it finds wrong with the model goes to `report`. Before it is called the core has
     reported every construct outside `supports` in the machines that `machines(system)`
-    names, those it writes, and does not call it when there is one.
+    names, those it writes, and does not call it when there is one. `mapping` says what becomes
+    of each construct, for `swarmc targets`.
     """
 
     target: str
@@ -112,6 +130,7 @@ class Generator:
     supports: frozenset[Feature] = ALL_FEATURES
     api_version: int = API_VERSION
     machines: Callable[[System], Iterable[StateMachine]] = all_machines
+    mapping: tuple[Mapped, ...] = ()
 
 
 __all__ = [
@@ -119,7 +138,9 @@ __all__ = [
     "API_VERSION",
     "Feature",
     "Generator",
+    "Mapped",
     "NoOptions",
     "OutputFile",
+    "Support",
     "option",
 ]

@@ -37,7 +37,7 @@ _HABITS = (
         "write `do` on a line of its own: it starts when the state is entered",
     ),
     (r"(?:^ *|\bon +)@timeout\b", "", "a delay is written `after 5 s -> Target`"),
-    (r"\bon timeout +@\d", "", "a delay is written `after 5 s -> Target`"),
+    (r"\bon timeout *@[\d(]", "", "a delay is written `after 5 s -> Target`"),
     (r"/ *@\{", "", "effects stand without braces, with `,` between them"),
     (r"/ *\w[^\[\]>]*@; *\w", "", "effects stand with `,` between them"),
     (

@@ -18,6 +18,8 @@ from swarmdsl.syntax import (
 
 Item = Port | Param | Operation | Part | Connector | BehaviorUse | CommunicationSettings
 Kind = TypeVar("Kind", bound=Item)
+# Of these an own one takes the place of an inherited one.
+_REPLACED = (Param, BehaviorUse, CommunicationSettings)
 
 
 # More than anyone writes: who extends something extends all that this extends, in turn.
@@ -29,6 +31,8 @@ def lineage(owner: Component | Member) -> list[Component | Member]:
 
     What is further away than any model needs is left out, and reported.
     """
+    if owner.base is None:
+        return [owner]
     found: dict[Component | Member, None] = {}
     current: Component | Member | None = owner
     while current is not None and current not in found and len(found) <= MOST_BASES:
@@ -43,18 +47,12 @@ def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
     An own param takes the place of an inherited one of its name; an own behaviour and
     own communication settings that of the inherited ones.
     """
-    found: dict[object, Kind] = {}
-    for each in reversed(lineage(owner)):
-        for item in each.items:
-            if isinstance(item, kind):
-                found[_place(item)] = item
-    return list(found.values())
+    bases = reversed(lineage(owner))
+    items: list[Kind] = [item for each in bases for item in each.items if isinstance(item, kind)]
+    if kind not in _REPLACED:
+        return items
+    return list({_place(item): item for item in items}.values())
 
 
-def _place(item: Item) -> object:
-    match item:
-        case Param(name=name):
-            return str(name)
-        case BehaviorUse() | CommunicationSettings():
-            return type(item)
-    return item
+def _place(item: Item) -> str:
+    return str(item.name) if isinstance(item, Param) else ""

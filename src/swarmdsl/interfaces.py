@@ -22,7 +22,7 @@ from swarmdsl.syntax import (
     ServiceType,
     StructType,
     TypeRef,
-    walk,
+    nodes_of,
 )
 
 # What the messages end with that ROS makes of an action or service.
@@ -61,8 +61,8 @@ class Interfaces:
     def standard(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
         """The interface of that name that ROS comes with, whatever the project declares."""
         found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
-        for ref in walk(found) if found is not None else ():
-            if isinstance(ref, TypeRef) and ref.type is None:
+        for ref in nodes_of(found, TypeRef) if found is not None else ():
+            if ref.type is None:
                 ref.type = written_type(ref)
         return found
 

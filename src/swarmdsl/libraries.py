@@ -5,7 +5,7 @@ A package `a.b` is the file `a/b.swarm` or the .swarm files in the folder `a/b` 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
@@ -26,12 +26,15 @@ class Libraries:
     """The folders where packages are looked for; the first that has one is taken.
 
     That is the folder of the importing file, those given, the one that comes with swarmdsl,
-    and the libraries of installed Python packages.
+    and the libraries of installed Python packages. `look` hears of each place that is looked at.
     """
 
-    def __init__(self, folders: Sequence[Path], report: Diagnostics) -> None:
+    def __init__(
+        self, folders: Sequence[Path], report: Diagnostics, look: Callable[[Path], None]
+    ) -> None:
         self._folders = folders
         self._report = report
+        self._look = look
 
     def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
         """The files of a package; reported when no library has it."""
@@ -56,8 +59,11 @@ class Libraries:
         parts = package.split(".")
         for library in self._search_path(nearby):
             place = library.joinpath(*parts)
-            if place.with_suffix(SUFFIX).is_file():
-                return [place.with_suffix(SUFFIX)]
+            file = place.with_suffix(SUFFIX)
+            self._look(file)
+            self._look(place)
+            if file.is_file():
+                return [file]
             if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
                 return files
         return []

@@ -28,6 +28,7 @@ from swarmdsl.syntax import (
     EnumType,
     Environment,
     Event,
+    Expression,
     Fitness,
     FitnessInput,
     Function,
@@ -121,7 +122,8 @@ class Linker:
                 values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
             case Optimization():
                 _link_optimization(owner, scope, report)
-        ValueLinker(scope, self._enums, report).link(owner, values)
+        if nodes_of(owner, Expression):
+            ValueLinker(scope, self._enums, report).link(owner, values)
 
 
 def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:

@@ -8,7 +8,7 @@ come last: no transition can lead there, which is reported later.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
@@ -36,7 +36,7 @@ from swarmdsl.syntax import (
 V = TypeVar("V", bound=Vertex | Region)
 
 # States by name; several of one name are in different regions.
-Level = Mapping[str, list[Vertex]]
+Level = Mapping[str, Sequence[Vertex]]
 
 
 def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
@@ -44,11 +44,10 @@ def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -
     _link_container(machine, (), (), scope, report)
 
 
-def vertices(container: Container) -> Iterator[Vertex]:
+def vertices(container: Container) -> list[Vertex]:
     """The states directly inside a container."""
-    for item in container.items:
-        if isinstance(item, (State, Parallel, Choice, History, FinalState)):
-            yield item
+    kinds = (State, FinalState, Choice, Parallel, History)
+    return [item for item in container.items if isinstance(item, kinds)]
 
 
 def regions(state: Vertex | Container) -> list[Region]:
@@ -96,9 +95,6 @@ def _link_container(
     inside = _by_name(container)
     for item in container.items:
         match item:
-            case Initial() if inside or not isinstance(container, State):
-                # An initial state in a state without states is reported as such.
-                _link_inside(item, container, inside, (*outer, *beside), scope, report)
             case Transition():
                 assert isinstance(container, (State, Parallel))
                 if item.target is not None:
@@ -106,6 +102,9 @@ def _link_container(
                 for trigger in item.triggers:
                     if isinstance(trigger, DoneTrigger):
                         _link_done(trigger, container, scope, report)
+            case Initial() if inside or not isinstance(container, State):
+                # An initial state in a state without states is reported as such.
+                _link_inside(item, container, inside, (*outer, *beside), scope, report)
             case Choice():
                 for branch in item.branches:
                     _link_vertex(branch.target, (inside, *outer, *beside), scope, report)
@@ -125,7 +124,7 @@ def _by_name(state: Vertex | Container) -> Level:
     names: dict[str, list[Vertex]] = {}
     for container in containers:
         # The second of two in one container is reported there.
-        first = {str(inside.name): inside for inside in reversed(list(vertices(container)))}
+        first = {str(inside.name): inside for inside in reversed(vertices(container))}
         for name, inside in first.items():
             names.setdefault(name, []).append(inside)
     return names
@@ -163,24 +162,29 @@ def _link_vertex(
     outer: Vertex | None = None
     start = ref.span.start
     for name in ref.name.split("."):
-        at = Span(ref.span.source, start, start + len(name))
-        found = next((level[name] for level in levels if name in level), None)
-        if found is None:
-            if name not in scope.lost:
+        if outer is not None:
+            levels = (_by_name(outer),)
+        found = next((level[name] for level in levels if name in level), ())
+        if len(found) != 1:
+            at = Span(ref.span.source, start, start + len(name))
+            if found:
+                _report_ambiguous(name, at, found, report)
+            elif name not in scope.lost:
                 _report_missing_state(name, at, outer, levels, report)
             return
-        if len(found) > 1:
-            report.report(
-                "ambiguous-name",
-                at,
-                name=name,
-                related=tuple(Label(state.name.span, "declared here") for state in found),
-                help="give the states in the regions different names",
-            )
-            return
-        outer, levels = found[0], (_by_name(found[0]),)
+        outer = found[0]
         start += len(name) + 1
     ref.target = outer
+
+
+def _report_ambiguous(name: str, at: Span, found: Sequence[Vertex], report: Diagnostics) -> None:
+    report.report(
+        "ambiguous-name",
+        at,
+        name=name,
+        related=tuple(Label(state.name.span, "declared here") for state in found),
+        help="give the states in the regions different names",
+    )
 
 
 def _report_missing_state(

@@ -29,6 +29,7 @@ _TYPES: tuple[type[Interface], ...] = (
     ServiceType,
     ActionType,
 )
+_PRIMITIVES = {name: Primitive(name) for name in PRIMITIVES}
 # What other languages call some types.
 _OTHER_NAMES = {
     "int": "int32",
@@ -59,8 +60,8 @@ def written_type(ref: TypeRef) -> Type | None:
 
 
 def _written_element(ref: TypeRef) -> Type | None:
-    if ref.name in PRIMITIVES:
-        return Primitive(ref.name, int(_bound(ref)) if ref.bound else None)
+    if ref.name in _PRIMITIVES:
+        return Primitive(ref.name, int(_bound(ref))) if ref.bound else _PRIMITIVES[ref.name]
     package, slash, name = ref.name.partition("/")
     return Named(package, name) if slash else None
 
@@ -93,6 +94,8 @@ class TypeLinker:
 
     def link(self, ref: TypeRef, file: File, report: Diagnostics) -> None:
         """Resolve a type named in a file, and with it those that its aliases name."""
+        if ref.type is not None:
+            return
         self._report = report
         waiting: list[TypeRef] = []
         aliases: dict[AliasType, None] = {}

@@ -55,14 +55,12 @@ class ValueLinker:
     def _linked(self, tree: ExpressionTree, owner: TopLevel, values: Values) -> ExpressionTree:
         """The same, with one name for a path of words that together name a declaration."""
         match tree:
-            case Call(arguments=arguments):
-                tree.arguments = tuple(
-                    self._linked(argument, owner, values) for argument in arguments
-                )
-            case OperatorUse(operands=operands):
-                tree.operands = tuple(self._linked(operand, owner, values) for operand in operands)
             case NameUse() | FieldUse():
                 return self._path(tree, owner, values)
+            case OperatorUse(operands=operands):
+                tree.operands = tuple([self._linked(each, owner, values) for each in operands])
+            case Call(arguments=arguments):
+                tree.arguments = tuple([self._linked(each, owner, values) for each in arguments])
         return tree
 
     def _path(self, tree: NameUse | FieldUse, owner: TopLevel, values: Values) -> ExpressionTree:

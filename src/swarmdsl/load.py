@@ -13,7 +13,7 @@ from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.reading import read_source, without_control_characters
-from swarmdsl.ros.interface_file import KINDS, parse_interface
+from swarmdsl.ros.interface_file import INTERFACE_KINDS, parse_interface
 from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import did_you_mean
@@ -79,10 +79,13 @@ class Project:
 class Reader:
     """Brings files into memory; None for one that cannot be read, which is reported at `at`."""
 
+    def look(self, path: Path) -> None:
+        """Hear of a file or folder that was looked for: what it holds decides what is imported."""
+
     def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
         """Read and parse a .swarm file."""
         source = read_source(path, at, report)
-        return _parsed(source, report) if source is not None else None
+        return parsed_model(source, report) if source is not None else None
 
     def interface(
         self, interface: InterfacePath, at: Span | None, report: Diagnostics
@@ -105,7 +108,7 @@ def load(
 
     `libraries` are folders where packages are looked for, before the installed ones.
     """
-    return _Loader(report, Libraries(libraries, report), reader).load(paths)
+    return _Loader(report, Libraries(libraries, report, reader.look), reader).load(paths)
 
 
 @dataclass
@@ -173,7 +176,7 @@ class _Loader:
     def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
         folder = Path(file.source.name).parent
         match statement:
-            case ImportFile(path=wanted) if Path(wanted).suffix[1:] in KINDS:
+            case ImportFile(path=wanted) if Path(wanted).suffix[1:] in INTERFACE_KINDS:
                 self._report.report(
                     "not-a-file",
                     wanted.span,
@@ -185,7 +188,8 @@ class _Loader:
             case ImportFile(path=wanted):
                 yield _Step(_relative(folder, wanted), file, statement)
             case ImportRos(path=wanted):
-                found = find_interfaces(_relative(folder, wanted), wanted.span, self._report)
+                place = _relative(folder, wanted)
+                found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
             case ImportLibrary():
@@ -260,7 +264,7 @@ def parsed_interface(interface: InterfacePath, source: Source, report: Diagnosti
     return parsed
 
 
-def _parsed(source: Source, report: Diagnostics) -> File:
+def parsed_model(source: Source, report: Diagnostics) -> File:
     """Parse a .swarm file."""
     before = len(report)
     source = without_control_characters(source, report)

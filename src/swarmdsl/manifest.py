@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 
+from swarmdsl import regions
 from swarmdsl.output_path import stays_inside
 
 NAME = ".swarmdsl.json"
@@ -16,8 +17,8 @@ Hashes = dict[str, str]
 
 
 def content_hash(content: bytes) -> str:
-    """What identifies the content of a file."""
-    return sha256(content).hexdigest()
+    """What identifies the content of a file, without what stands in regions of the user."""
+    return sha256(regions.generated(content)).hexdigest()
 
 
 def read(out: Path) -> Hashes:

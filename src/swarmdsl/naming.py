@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+from functools import lru_cache
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
 
@@ -13,6 +14,7 @@ def incoming_topic(topic: str, swarm: bool) -> str:
     return f"bridge/events/{topic}" if swarm else topic
 
 
+@lru_cache(maxsize=1000)
 def snake_case(name: str) -> str:
     """`UavSearch` and `uav-search` become `uav_search`."""
     return "_".join(word.lower() for word in _WORD.findall(name))

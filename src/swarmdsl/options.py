@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import Field, dataclass, fields
+from dataclasses import Field, fields
 from typing import Any, get_type_hints
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.foreign import failure
 from swarmdsl.generator import Generator

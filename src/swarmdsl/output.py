@@ -12,9 +12,10 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 
-from swarmdsl import manifest
+from swarmdsl import manifest, regions
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.fitting_code import outdated
 from swarmdsl.generator import OutputFile
 from swarmdsl.output_path import clash_key
 from swarmdsl.staging import Staging
@@ -74,7 +75,8 @@ def write(
 class _Plan:
     """What is to be done; all paths are below `out`.
 
-    `before` is the manifest as it was, `hashes` as it will be.
+    `before` is the manifest as it was, `hashes` as it will be; `inside` says of folders
+    whether they are in `out`, whatever links lead there.
     """
 
     out: Path
@@ -88,11 +90,12 @@ class _Plan:
     kept: list[str] = field(default_factory=list)
     stale: list[str] = field(default_factory=list)
     left: list[str] = field(default_factory=list)
+    inside: dict[Path, bool] = field(default_factory=dict)
 
     def add(self, target: str, file: OutputFile) -> None:
         """Decide what happens to a file; what stands in the way is reported."""
         place = self.out / target / file.path
-        if not _leads_inside(place, self.out):
+        if not self._leads_inside(place):
             notes = ("a symbolic link on the way leads out of the folder",)
             self.report.report("outside-output", target=target, path=str(place), notes=notes)
             return
@@ -115,9 +118,14 @@ class _Plan:
     def _decide(self, path: str, file: OutputFile, new: bytes, old: bytes | None) -> None:
         if file.keep and old is not None:
             self.kept.append(path)
+            self._check_fits(path, file, new, old)
             return
         if not file.keep:
             self.hashes[path] = manifest.content_hash(new)
+            with_regions = self._with_regions(path, new, old)
+            if with_regions is None:
+                return
+            new = with_regions
         has_mode = not file.executable or os.access(self.out / path, os.X_OK)
         if old == new and has_mode:
             self.unchanged.append(path)
@@ -128,16 +136,46 @@ class _Plan:
         if file.executable:
             self.executable.add(path)
 
+    def _check_fits(self, path: str, file: OutputFile, new: bytes, old: bytes) -> None:
+        """Report code of the user that was written for what the model said before."""
+        marks = outdated(old, new)
+        if marks is not None:
+            hint = f"adapt it, and then write `swarmc:fits {marks[1]}` for `{marks[0]}` in it"
+            place = str(self.out / path)
+            self.report.report("outdated-code", file.origin, path=place, help=hint)
+
+    def _with_regions(self, path: str, new: bytes, old: bytes | None) -> bytes | None:
+        """The new content with what the user has written in the regions of the old one.
+
+        None where that is not possible, which is reported.
+        """
+        if old is None:
+            return new
+        try:
+            of_user = regions.kept(old)
+        except regions.RegionError as error:
+            if self.force or self.before.get(path) == manifest.content_hash(old):
+                return new
+            self._report_overwrite(path, str(error), "put its marks back, or")
+            return None
+        filled, lost = regions.filled(new, of_user)
+        if lost and not self.force:
+            reason = f"region `{lost[0]}` has lines of yours, and is not part of it any more"
+            self._report_overwrite(path, reason, "move them away, or")
+            return None
+        return filled
+
     def _check_generated(self, path: str, content: bytes) -> None:
         """Report a file that is not as swarmc wrote it."""
         generated = self.before.get(path)
         if generated != manifest.content_hash(content):
-            self.report.report(
-                "would-overwrite",
-                path=str(self.out / path),
-                reason="it is not from swarmc" if generated is None else "it has been edited",
-                help="move it away, or overwrite it with `--force`",
-            )
+            reason = "it is not from swarmc" if generated is None else "it has been edited"
+            self._report_overwrite(path, reason, "move it away, or")
+
+    def _report_overwrite(self, path: str, reason: str, way: str) -> None:
+        place = str(self.out / path)
+        help_ = f"{way} overwrite it with `--force`"
+        self.report.report("would-overwrite", path=place, reason=reason, help=help_)
 
     def add_stale(self, targets: Collection[str]) -> None:
         """Decide about what was generated before for these targets and is not any more."""
@@ -151,14 +189,23 @@ class _Plan:
     def _add_stale(self, path: str, old: str, successor: str | None) -> None:
         place = self.out / path
         with suppress(OSError):
-            if place.is_symlink() or not _leads_inside(place, self.out):
+            if place.is_symlink() or not self._leads_inside(place):
                 return
             if successor is not None and place.samefile(self.out / successor):
                 return  # one file under two names, where case does not count
             content = _content(place)
             if content is not None:
-                edited = manifest.content_hash(content) != old
+                edited = manifest.content_hash(content) != old or _has_lines_of_user(content)
                 (self.left if edited else self.stale).append(path)
+
+    def _leads_inside(self, place: Path) -> bool:
+        """Whether no symbolic link on the way leads out of the output folder."""
+        if os.path.islink(place):  # noqa: PTH114 - no error for a name that the disk does not take
+            return _leads_inside(place, self.out)
+        folder = place.parent
+        if folder not in self.inside:
+            self.inside[folder] = _leads_inside(folder, self.out)
+        return self.inside[folder]
 
 
 def _carry_out(plan: _Plan) -> None:
@@ -203,7 +250,6 @@ def _remove(place: Path, out: Path) -> None:
 
 
 def _leads_inside(place: Path, out: Path) -> bool:
-    """Whether no symbolic link on the way leads out of the output folder."""
     # Not Path.resolve: it raises an error for links that lead in a circle.
     real = Path(os.path.realpath(place))
     return real.is_relative_to(os.path.realpath(out))
@@ -221,6 +267,12 @@ def _content(place: Path) -> bytes | None:
         # Reading a pipe or a device could wait forever.
         raise OSError(0, "it is not an ordinary file", str(place))
     return place.read_bytes()
+
+
+def _has_lines_of_user(content: bytes) -> bool:
+    with suppress(regions.RegionError):
+        return bool(regions.kept(content))
+    return False
 
 
 def _report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:

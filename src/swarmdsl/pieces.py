@@ -155,6 +155,8 @@ def _add(piece: Model, model: Model, report: Diagnostics) -> None:
 def _lose_references(parsed: Parsed) -> None:
     """Take names that nothing has for those of what has none."""
     names = {str(getattr(node, "name", "")) for node in walk(parsed.model)}
-    for _, ref in references(parsed.model):
-        if ref.kind in parsed.unnamed:
-            parsed.lost_names.update({ref.name} - names)
+    model = parsed.model
+    for owner in (*model.declarations, *model.optimizations):
+        for _, ref in references(owner):
+            if ref.kind in parsed.unnamed:
+                parsed.lost_names.update({ref.name} - names)

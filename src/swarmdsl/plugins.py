@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import MISSING, dataclass, fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, get_type_hints
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.foreign import failure
 from swarmdsl.generator import API_VERSION, Generator
 
@@ -18,6 +19,8 @@ BUILT_IN = {
     "scxml": "swarmdsl.exchange.scxml:generator",
     "adf": "swarmdsl.exchange.adf:generator",
     "smach": "swarmdsl.generators.smach:generator",
+    "ros2": "swarmdsl.generators.ros2:generator",
+    "skeleton": "swarmdsl.generators.skeleton:generator",
     "amf": "swarmdsl.exchange.amf:generator",
     "swarmros": "swarmdsl.exchange.swarmros:generator",
     "parameters": "swarmdsl.exchange.parameters:generator",
@@ -26,7 +29,9 @@ BUILT_IN = {
     "frevo": "swarmdsl.exchange.frevo:generator",
 }
 # What other tools take besides; built only where somebody asks for it.
-ON_REQUEST = frozenset({"amf", "swarmros", "parameters", "fitness", "composition", "frevo"})
+ON_REQUEST = frozenset(
+    {"skeleton", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
+)
 GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)

@@ -15,14 +15,31 @@ from swarmdsl.suggest import did_you_mean
 # No format can carry them: all but tab and line end (XML 1.0, 2.2).
 _CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
+_MODEL = "a .swarm file"
 
-def read_source(path: Path, at: Span | None, report: Diagnostics) -> Source | None:
-    """Read the text of a file; None when it cannot be read, which is reported at `at`."""
-    content = read_bytes(path, at, report)
+
+def read_source(
+    path: Path,
+    at: Span | None,
+    report: Diagnostics,
+    expected: str = _MODEL,
+    most: int | None = None,
+) -> Source | None:
+    """Read the text of a file; None when it cannot be read, which is reported at `at`.
+
+    Of one with more than `most` bytes, no more are read.
+    """
+    content = read_bytes(path, at, report, expected, most)
     return decoded(path, content, at, report) if content is not None else None
 
 
-def read_bytes(path: Path, at: Span | None, report: Diagnostics) -> bytes | None:
+def read_bytes(
+    path: Path,
+    at: Span | None,
+    report: Diagnostics,
+    expected: str = _MODEL,
+    most: int | None = None,
+) -> bytes | None:
     """Read a file; None when it cannot be read, which is reported at `at`."""
     if os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
         report.report(
@@ -30,13 +47,23 @@ def read_bytes(path: Path, at: Span | None, report: Diagnostics) -> bytes | None
             at,
             path=path,
             actual="a folder",
-            expected="a .swarm file",
+            expected=expected,
             help="name a file in it"
-            + (", or write `import ros` if it has interfaces of ROS" if at is not None else ""),
+            + (
+                ", or write `import ros` if it has interfaces of ROS"
+                if expected == _MODEL and at is not None
+                else ""
+            ),
         )
         return None
     try:
-        return path.read_bytes()
+        if most is None:
+            return path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(most + 1)
+        if len(content) <= most:
+            return content
+        report.report("too-large", at, path=path, most=most // 2**20)
     except FileNotFoundError:
         report.report("file-not-found", at, path=path, help=_similar_file(path))
     except (OSError, ValueError) as error:

@@ -22,7 +22,7 @@ from swarmdsl.parsed import Parsed
 from swarmdsl.repairs import mend
 from swarmdsl.scan import Scan
 from swarmdsl.source import Source, Span
-from swarmdsl.statements import statement_at
+from swarmdsl.statements import Statement, statement_at
 from swarmdsl.syntax import Model, Vertex, Word, walk
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
@@ -30,6 +30,8 @@ Parser = Callable[[Source], Model | Failure]
 """Parses a whole source; of the failures, that furthest on."""
 
 _ERRORS_PER_DECLARATION = 50
+# Where one of these could stand, nothing is missing before it.
+_COMPLETE = frozenset({"`}`", "EOF"})
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
@@ -80,7 +82,7 @@ class _Recovery:
                 return parsed
             silent = Diagnostics()
             at = report_syntax_error(result, source, draft, silent)
-            statement = statement_at(draft.text, _in_statement(draft.text, at))
+            statement = _blamed(draft.text, at, result.expected)
             span = draft.origins[statement.start], draft.origins[statement.header]
             mended = None
             if span[0] not in failed:
@@ -118,14 +120,20 @@ class _Recovery:
         self._parsed.lost_names.update(_IDENTIFIER.findall(text))
 
 
-def _in_statement(text: str, at: int) -> int:
-    """An offset in the statement that a complaint at `at` is about.
+def _blamed(text: str, at: int, expected: frozenset[str]) -> Statement:
+    """The statement that a complaint at `at` is about.
 
-    A closing brace is of the block around it: what is wrong is what it ends.
+    A closing brace is of the block around it, and what begins a statement is not to blame for
+    one before it on the line that is not complete.
     """
     before = text[:at].rstrip()
-    ended = text[at : at + 1] == "}" and before and before[-1] not in "{}"
-    return len(before) - 1 if ended else at
+    if text[at : at + 1] == "}" and before and before[-1] not in "{}":
+        return statement_at(text, len(before) - 1)
+    statement = statement_at(text, at)
+    same_line = before and "\n" not in text[len(before) : at]
+    if same_line and statement.start == at and not expected & _COMPLETE:
+        return statement_at(text, len(before) - 1)
+    return statement
 
 
 def _unnamed(model: Model) -> Iterator[str]:

@@ -83,7 +83,8 @@ def mend(
     failure = attempt(header)
     if failure is None or failure.at < 0:
         return None
-    if "`{`" in failure.expected and (indented := _indented(draft, statement.start + failure.at)):
+    stop = statement.start + min(failure.at, len(header.text))
+    if "`{`" in failure.expected and (indented := _indented(draft, stop)):
         return Mended(indented, whole=True, help="a block stands in `{` and `}`")
     mended = _edited(header, failure, attempt) or _cut(header, failure, attempt)
     if mended is None:
@@ -99,17 +100,17 @@ def mend(
 
 
 def _indented(draft: Draft, at: int) -> Draft | None:
-    """The text with braces around the block that a colon at `at` begins, as in Python."""
+    """The text with braces around the block behind `at`, where a colon may stand, as in Python."""
     text = draft.text
     line = text.rfind("\n", 0, at) + 1
     margin = len(text[line:at]) - len(text[line:at].lstrip())
     further = rf"\n[ \t]{{{margin + 1},}}\S[^\n]*"
-    block = rf":[ \t]*(?://[^\n]*)?(?P<block>(?:{further}|\n[ \t]*(?=\n))+)"
+    block = rf"(?P<colon>:?)[ \t]*(?://[^\n]*)?(?P<block>(?:{further}|\n[ \t]*(?=\n))+)"
     found = re.compile(block).match(text, at)
     if found is None or not found["block"].strip():
         return None
     end = found.start("block") + len(found["block"].rstrip())
-    return draft.repaired(Repair(end, end, "\n}")).repaired(Repair(at, at + 1, " {"))
+    return draft.repaired(Repair(end, end, "\n}")).repaired(Repair(at, found.end("colon"), " {"))
 
 
 def _edited(header: Draft, failure: Failure, attempt: _Attempt) -> Mended | None:

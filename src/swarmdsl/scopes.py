@@ -110,17 +110,20 @@ def _kind_of_any(kinds: tuple[type[Node], ...]) -> str:
 class FileScope:
     """The declarations that one file sees."""
 
-    def __init__(self, file: File, project: Project) -> None:
-        self._project = project
+    def __init__(self, file: File, scopes: Scopes) -> None:
+        self._project = scopes.project
+        self._package = file.package
         self.file = file
-        self.own = _by_name(file)
+        self.own = scopes.declared(file)
+        # What each import brings in, with the package that it is of.
         self._imported = [
-            (other, _by_name(other, imported_name(statement))) for statement, other in file.imports
+            (other.package, _only(imported_name(statement), scopes.declared(other)))
+            for statement, other in file.imports
         ]
-        self.packages = {file.package, *(other.package for other, _ in self._imported)}
+        self.packages = {self._package, *(package for package, _ in self._imported)}
         # Whatever is missing may stand in text that could not be parsed or read.
         self.lost = file.parsed.lost_names.union(
-            *(other.parsed.lost_names for other, _ in self._imported)
+            *(other.parsed.lost_names for _, other in file.imports)
         )
         found = {statement for statement, _ in file.imports}
         self.complete = all(statement in found for statement in file.model.imports)
@@ -128,15 +131,15 @@ class FileScope:
     def find(self, name: str) -> list[tuple[str, Declaration]]:
         """All declarations `name` could mean, the nearest only, each with its package."""
         if name in self.own:
-            return [(self.file.package, self.own[name])]
-        found = [(other.package, names[name]) for other, names in self._imported if name in names]
+            return [(self._package, self.own[name])]
+        found = [(package, names[name]) for package, names in self._imported if name in names]
         if found or "." not in name:
             return found
         package, _, last = name.rpartition(".")
         return [
             (package, names[last])
-            for other, names in [(self.file, self.own), *self._imported]
-            if other.package == package and last in names
+            for of, names in [(self._package, self.own), *self._imported]
+            if of == package and last in names
         ]
 
     def names(self, kind: type[Declaration]) -> list[str]:
@@ -164,8 +167,10 @@ class FileScope:
         `built_in` are names that need no declaration: one of them may be meant. `instead` says
         what to do where something of another kind has the name.
         """
-        kinds = wanted if isinstance(wanted, tuple) else (wanted,)
         found = self.find(name)
+        if len(found) == 1 and isinstance(found[0][1], wanted):
+            return found[0][1]
+        kinds = wanted if isinstance(wanted, tuple) else (wanted,)
         # Of one package's declarations with this name only the first counts: the others
         # are reported where they stand.
         fitting: dict[str, D] = {}
@@ -257,11 +262,21 @@ class Scopes(dict[File, FileScope]):
 
     def __init__(self, project: Project) -> None:
         super().__init__()
-        self._project = project
+        self.project = project
+        self._declared: dict[File, Mapping[str, Declaration]] = {}
 
     def __missing__(self, file: File) -> FileScope:
-        self[file] = scope = FileScope(file, self._project)
+        self[file] = scope = FileScope(file, self)
         return scope
+
+    def declared(self, file: File) -> Mapping[str, Declaration]:
+        """What a file declares, by name; of two with one name the first counts."""
+        if file not in self._declared:
+            names: dict[str, Declaration] = {}
+            for declaration in file.model.declarations:
+                names.setdefault(str(declaration.name), declaration)
+            self._declared[file] = names
+        return self._declared[file]
 
 
 def report_unresolved(
@@ -285,9 +300,8 @@ def report_unresolved(
     )
 
 
-def _by_name(file: File, only: str | None = None) -> dict[str, Declaration]:
-    names: dict[str, Declaration] = {}
-    for declaration in file.model.declarations:
-        if only in (None, str(declaration.name)):
-            names.setdefault(str(declaration.name), declaration)
-    return names
+def _only(name: str | None, names: Mapping[str, Declaration]) -> Mapping[str, Declaration]:
+    """All of the names, or the one that is given."""
+    if name is None:
+        return names
+    return {name: names[name]} if name in names else {}

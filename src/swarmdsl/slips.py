@@ -42,8 +42,8 @@ _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
     (r'"([A-Za-z_]\w*)"', frozenset({"IDENT"}), r"\1"),
     (r"(?<![\w.])(\d+)_(\d+)(?![\w.])", frozenset(), r"\1\2"),
     (r"(?<= on )[ \t]*([/~]?\w+(?:/\w+)*)(?![\w/\"])", frozenset({"QUOTED"}), r'"\1"'),
-    (r"\(([^()\n]*)\)(?=[ \t]*(?:/|->))", frozenset({"`[`"}), r"[\1]"),
-    (r"\((\d+(?:[ \t]*\.\.[ \t]*[\d*]+)?|\*)\)", frozenset({"`[`"}), r"[\1]"),
+    (r"\((?![ \t]*\d+[ \t]*\))([^()\n]*)\)(?=[ \t]*(?:/|->))", frozenset({"`[`"}), r"[\1]"),
+    (r"\((\d+(?:[ \t]*\.\.[ \t]*[\d*]+)?|\*)\)(?![ \t]*->)", frozenset({"`[`"}), r"[\1]"),
 )
 # Words of other languages, and how that is said in this one.
 _FOREIGN = {

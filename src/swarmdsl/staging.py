@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
-import secrets
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from itertools import takewhile
 from pathlib import Path
 from types import TracebackType
 
@@ -28,8 +30,12 @@ class Staging:
         with _blamed_on(path):
             self._make_folder(path.parent)
             with suppress(FileNotFoundError):
-                path.lstat()  # a name that the disk does not take must fail before any move
-            beside = path.with_name(f".swarmc-{secrets.token_hex(8)}.tmp")
+                # A name that the disk does not take must fail before any move, and so must a
+                # device or pipe: a file in its place would be the end of it for all programs.
+                there = path.stat().st_mode
+                if not (stat.S_ISREG(there) or stat.S_ISDIR(there)):
+                    raise OSError(errno.EINVAL, "it is no regular file")
+            beside = path.with_name(f".swarmc-{os.urandom(8).hex()}.tmp")
             # Noted first: it must go also when writing it is interrupted.
             self._staged[path] = beside
             # O_EXCL: never through a link that somebody put there.
@@ -49,7 +55,7 @@ class Staging:
             yield path
 
     def _make_folder(self, folder: Path) -> None:
-        missing = [above for above in (folder, *folder.parents) if not above.exists()]
+        missing = list(takewhile(lambda above: not above.exists(), (folder, *folder.parents)))
         for above in reversed(missing):
             above.mkdir(exist_ok=True)
             self._folders.append(above)

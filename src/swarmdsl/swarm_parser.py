@@ -11,11 +11,12 @@ from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
 
 GRAMMAR = 2103831784
+new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
 
 BLANK = '[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*'
-TOKEN = re.compile('([A-Za-z_][A-Za-z0-9_]*\\b|[!-/:-@\\[-^`{-~]|)' + BLANK).match
+TOKEN = re.compile('([A-Za-z_][A-Za-z0-9_]*\\b|[!-/:-@\\[-^`{-~]|)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)').match
 REGEX0 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
 REGEX1 = re.compile('("(?:[^"\\\\\\n]|\\\\[^\\n])*")' + BLANK, re.MULTILINE).match
 REGEX2 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?)' + BLANK, re.MULTILINE).match
@@ -1268,7 +1269,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
                     optimizations_.append(value)
             else: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
-        return Model(new_span(Span, (source, start, behind.end(1))), package_, imports_, declarations_, optimizations_)
+        made = new_node(Model)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.package = package_
+        made.imports = imports_
+        made.declarations = declarations_
+        made.optimizations = optimizations_
+        return made
 
     def r_Package():
         nonlocal ahead, token, behind
@@ -1288,8 +1295,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, text1)
         value.span = new_span(Span, (source, at, behind.end(1)))
         name_ = value
-        made = Package(new_span(Span, (source, start, behind.end(1))), name_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Package)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Optimization():
@@ -1308,7 +1317,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        swarm_ = Ref(text1, 'Swarm', new_span(Span, (source, at, at + len(text1))))
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Swarm'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        swarm_ = value
         if not (token == '{'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         while True:
@@ -1320,8 +1334,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Optimization(new_span(Span, (source, start, behind.end(1))), swarm_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Optimization)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.swarm = swarm_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_ImportRos():
@@ -1340,8 +1358,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, unquoted(match1[1]))
         value.span = new_span(Span, (source, at, behind.end(1)))
         path_ = value
-        made = ImportRos(new_span(Span, (source, start, behind.end(1))), path_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ImportRos)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.path = path_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ImportFile():
@@ -1358,8 +1378,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, unquoted(match1[1]))
         value.span = new_span(Span, (source, at, behind.end(1)))
         path_ = value
-        made = ImportFile(new_span(Span, (source, start, behind.end(1))), path_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ImportFile)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.path = path_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ImportLibrary():
@@ -1377,8 +1399,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
         name_ = text1
-        made = ImportLibrary(new_span(Span, (source, start, behind.end(1))), name_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ImportLibrary)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_StructType():
@@ -1403,8 +1427,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             fields_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = StructType(new_span(Span, (source, start, behind.end(1))), name_, fields_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(StructType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.fields = fields_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_EnumType():
@@ -1439,8 +1467,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             values_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = EnumType(new_span(Span, (source, start, behind.end(1))), name_, underlying_, values_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(EnumType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.underlying = underlying_
+        made.values = values_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
+        made.type = None
         return made
 
     def r_AliasType():
@@ -1461,8 +1495,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = AliasType(new_span(Span, (source, start, behind.end(1))), name_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(AliasType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Constant():
@@ -1490,8 +1528,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        made = Constant(new_span(Span, (source, start, behind.end(1))), name_, type_, value_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Constant)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.value = value_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_MessageType():
@@ -1550,8 +1593,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if not chosen7: ahead = ahead3; token = ahead[1]; behind = behind4; del constants_[before5:]; del fields_[before6:]; break
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = MessageType(new_span(Span, (source, start, behind.end(1))), name_, constants_, fields_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(MessageType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.constants = constants_
+        made.fields = fields_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_ServiceType():
@@ -1608,8 +1656,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 break
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = ServiceType(new_span(Span, (source, start, behind.end(1))), name_, request_, response_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ServiceType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.request = request_
+        made.response = response_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_ActionType():
@@ -1682,8 +1735,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 break
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = ActionType(new_span(Span, (source, start, behind.end(1))), name_, goal_, result_, feedback_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ActionType)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.goal = goal_
+        made.result = result_
+        made.feedback = feedback_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Event():
@@ -1723,8 +1782,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 value.span = new_span(Span, (source, at, behind.end(1)))
                 topic_ = value
                 break
-        made = Event(new_span(Span, (source, start, behind.end(1))), swarm_, name_, type_, topic_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Event)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.swarm = swarm_
+        made.name = name_
+        made.type = type_
+        made.topic = topic_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Function():
@@ -1757,8 +1822,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Function(new_span(Span, (source, start, behind.end(1))), name_, category_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Function)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.category = category_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Component():
@@ -1791,7 +1861,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if match5[1]:
                         text4 += match5[1]; behind = match5
                         ahead = TOKEN(text, match5.end()); token = ahead[1]
-                base_ = Ref(text4, 'Component', new_span(Span, (source, at, at + len(text4))))
+                value = new_node(Ref)
+                value.name = text4
+                value.kind = 'Component'
+                value.span = new_span(Span, (source, at, at + len(text4)))
+                value.target = None
+                base_ = value
                 break
         if not (token == '{'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
@@ -1804,8 +1879,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Component(new_span(Span, (source, start, behind.end(1))), kind_, name_, base_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Component)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.kind = kind_
+        made.name = name_
+        made.base = base_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Member():
@@ -1836,7 +1917,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if match5[1]:
                         text4 += match5[1]; behind = match5
                         ahead = TOKEN(text, match5.end()); token = ahead[1]
-                base_ = Ref(text4, 'Member', new_span(Span, (source, at, at + len(text4))))
+                value = new_node(Ref)
+                value.name = text4
+                value.kind = 'Member'
+                value.span = new_span(Span, (source, at, at + len(text4)))
+                value.target = None
+                base_ = value
                 break
         if not (token == '{'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
@@ -1849,8 +1935,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Member(new_span(Span, (source, start, behind.end(1))), name_, base_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Member)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.base = base_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_StateMachine():
@@ -1881,8 +1972,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = StateMachine(new_span(Span, (source, start, behind.end(1))), endless_, name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(StateMachine)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.endless = endless_
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Swarm():
@@ -1909,8 +2005,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Swarm(new_span(Span, (source, start, behind.end(1))), name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Swarm)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Environment():
@@ -1937,8 +2037,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Environment(new_span(Span, (source, start, behind.end(1))), name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Environment)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Fitness():
@@ -1965,8 +2069,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             items_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Fitness(new_span(Span, (source, start, behind.end(1))), name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Fitness)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.by_class = None
         return made
 
     def r_Field():
@@ -1985,8 +2093,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = Field(new_span(Span, (source, start, behind.end(1))), name_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Field)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_TypeRef():
@@ -2022,7 +2133,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 ahead = TOKEN(text, match8.end()); token = ahead[1]
                 array_ = match8[1]
                 break
-        return TypeRef(new_span(Span, (source, start, behind.end(1))), name_, bound_, array_)
+        made = new_node(TypeRef)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.bound = bound_
+        made.array = array_
+        made.type = None
+        return made
 
     def r_EnumValue():
         nonlocal ahead, token, behind
@@ -2046,8 +2163,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 ahead = TOKEN(text, match4.end()); token = ahead[1]
                 value_ = match4[1]
                 break
-        made = EnumValue(new_span(Span, (source, start, behind.end(1))), name_, value_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(EnumValue)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.value = value_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Setting():
@@ -2062,8 +2182,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        made = Setting(new_span(Span, (source, start, behind.end(1))), name_, value_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Setting)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.value = value_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_CountRange():
@@ -2079,7 +2202,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         at = ahead.start()
         if not (token not in SET2): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        role_ = Ref(behind[1], 'Role', new_span(Span, (source, at, at + len(behind[1]))))
+        value = new_node(Ref)
+        value.name = behind[1]
+        value.kind = 'Role'
+        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.target = None
+        role_ = value
         if not (token == 'in'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         found = expression(ahead)
@@ -2094,8 +2222,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         upper_ = value
-        made = CountRange(new_span(Span, (source, start, behind.end(1))), role_, lower_, upper_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(CountRange)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.role = role_
+        made.lower = lower_
+        made.upper = upper_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ParamRange():
@@ -2109,13 +2241,23 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         at = ahead.start()
         if not (token not in SET2): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        role_ = Ref(behind[1], 'Role', new_span(Span, (source, at, at + len(behind[1]))))
+        value = new_node(Ref)
+        value.name = behind[1]
+        value.kind = 'Role'
+        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.target = None
+        role_ = value
         if not (token == '.'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         at = ahead.start()
         if not (token not in SET2): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        param_ = Ref(behind[1], 'Param', new_span(Span, (source, at, at + len(behind[1]))))
+        value = new_node(Ref)
+        value.name = behind[1]
+        value.kind = 'Param'
+        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.target = None
+        param_ = value
         if not (token == 'in'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         found = expression(ahead)
@@ -2140,8 +2282,14 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 value, behind, ahead = found; token = ahead[1]
                 step_ = value
                 break
-        made = ParamRange(new_span(Span, (source, start, behind.end(1))), role_, param_, lower_, upper_, step_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(ParamRange)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.role = role_
+        made.param = param_
+        made.lower = lower_
+        made.upper = upper_
+        made.step = step_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Communication():
@@ -2166,8 +2314,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = Communication(new_span(Span, (source, start, behind.end(1))), paradigm_, name_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Communication)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.paradigm = paradigm_
+        made.name = name_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_FunctionPort():
@@ -2192,8 +2344,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = FunctionPort(new_span(Span, (source, start, behind.end(1))), direction_, topic_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(FunctionPort)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.direction = direction_
+        made.topic = topic_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Param():
@@ -2225,8 +2381,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 value, behind, ahead = found; token = ahead[1]
                 default_ = value
                 break
-        made = Param(new_span(Span, (source, start, behind.end(1))), name_, type_, default_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Param)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.default = default_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Port():
@@ -2264,8 +2424,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 value.span = new_span(Span, (source, at, behind.end(1)))
                 topic_ = value
                 break
-        made = Port(new_span(Span, (source, start, behind.end(1))), direction_, name_, type_, topic_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Port)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.direction = direction_
+        made.name = name_
+        made.type = type_
+        made.topic = topic_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Operation():
@@ -2298,8 +2463,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 break
         if not (token == ')'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Operation(new_span(Span, (source, start, behind.end(1))), name_, parameters_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Operation)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.parameters = parameters_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_BehaviorUse():
@@ -2317,9 +2485,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        machine_ = Ref(text1, 'StateMachine', new_span(Span, (source, at, at + len(text1))))
-        made = BehaviorUse(new_span(Span, (source, start, behind.end(1))), machine_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'StateMachine'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        machine_ = value
+        made = new_node(BehaviorUse)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.machine = machine_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_CommunicationSettings():
@@ -2344,8 +2519,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             values_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = CommunicationSettings(new_span(Span, (source, start, behind.end(1))), technology_, values_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(CommunicationSettings)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.technology = technology_
+        made.values = values_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Connector():
@@ -2365,8 +2543,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_PortRef()
         if value is None: return None
         target_ = value
-        made = Connector(new_span(Span, (source, start, behind.end(1))), source_, target_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Connector)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.source = source_
+        made.target = target_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Part():
@@ -2392,7 +2573,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        component_ = Ref(text1, 'Component', new_span(Span, (source, at, at + len(text1))))
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Component'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        component_ = value
         if token == '{':
             ahead3, behind4 = ahead, behind
             before5 = len(values_)
@@ -2406,8 +2592,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del values_[before5:]; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
-        made = Part(new_span(Span, (source, start, behind.end(1))), name_, component_, values_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Part)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.component = component_
+        made.values = values_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Variable():
@@ -2439,8 +2629,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 value, behind, ahead = found; token = ahead[1]
                 initial_ = value
                 break
-        made = Variable(new_span(Span, (source, start, behind.end(1))), name_, type_, initial_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Variable)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.initial = initial_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Initial():
@@ -2458,9 +2652,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        target_ = Ref(text1, 'Vertex', new_span(Span, (source, at, at + len(text1))))
-        made = Initial(new_span(Span, (source, start, behind.end(1))), target_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Vertex'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        target_ = value
+        made = new_node(Initial)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.target = target_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_EnvironmentUse():
@@ -2478,9 +2679,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        environment_ = Ref(text1, 'Environment', new_span(Span, (source, at, at + len(text1))))
-        made = EnvironmentUse(new_span(Span, (source, start, behind.end(1))), environment_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Environment'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        environment_ = value
+        made = new_node(EnvironmentUse)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.environment = environment_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_FitnessUse():
@@ -2498,9 +2706,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        fitness_ = Ref(text1, 'Fitness', new_span(Span, (source, at, at + len(text1))))
-        made = FitnessUse(new_span(Span, (source, start, behind.end(1))), fitness_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Fitness'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        fitness_ = value
+        made = new_node(FitnessUse)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.fitness = fitness_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Role():
@@ -2526,7 +2741,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        member_ = Ref(text1, 'Member', new_span(Span, (source, at, at + len(text1))))
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Member'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        member_ = value
         if token == '[':
             ahead3, behind4 = ahead, behind
             before5 = multiplicity_
@@ -2538,8 +2758,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if not (token == ']'): ahead = ahead3; token = ahead[1]; behind = behind4; multiplicity_ = before5; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
-        made = Role(new_span(Span, (source, start, behind.end(1))), name_, member_, multiplicity_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Role)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.member = member_
+        made.multiplicity = multiplicity_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_World():
@@ -2556,8 +2780,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, unquoted(match1[1]))
         value.span = new_span(Span, (source, at, behind.end(1)))
         file_ = value
-        made = World(new_span(Span, (source, start, behind.end(1))), file_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(World)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.file = file_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Size():
@@ -2591,8 +2817,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 ahead = TOKEN(text, match6.end()); token = ahead[1]
                 height_ = match6[1]
                 break
-        made = Size(new_span(Span, (source, start, behind.end(1))), width_, depth_, height_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Size)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.width = width_
+        made.depth = depth_
+        made.height = height_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_FitnessInput():
@@ -2613,8 +2843,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = FitnessInput(new_span(Span, (source, start, behind.end(1))), name_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(FitnessInput)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Objective():
@@ -2629,8 +2862,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        made = Objective(new_span(Span, (source, start, behind.end(1))), goal_, value_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Objective)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.goal = goal_
+        made.value = value_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Parameter():
@@ -2671,8 +2907,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        made = Parameter(new_span(Span, (source, start, behind.end(1))), direction_, name_, type_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Parameter)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.direction = direction_
+        made.name = name_
+        made.type = type_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_PartValue():
@@ -2692,8 +2932,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        made = PartValue(new_span(Span, (source, start, behind.end(1))), name_, value_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(PartValue)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.value = value_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_PortRef():
@@ -2707,15 +2950,29 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             while True:
                 at = ahead.start()
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                part_ = Ref(behind[1], 'Part', new_span(Span, (source, at, at + len(behind[1]))))
+                value = new_node(Ref)
+                value.name = behind[1]
+                value.kind = 'Part'
+                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.target = None
+                part_ = value
                 if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; part_ = before3; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
         at = ahead.start()
         if not (token not in SET2): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        port_ = Ref(behind[1], 'Port', new_span(Span, (source, at, at + len(behind[1]))))
-        return PortRef(new_span(Span, (source, start, behind.end(1))), part_, port_)
+        value = new_node(Ref)
+        value.name = behind[1]
+        value.kind = 'Port'
+        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.target = None
+        port_ = value
+        made = new_node(PortRef)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.part = part_
+        made.port = port_
+        return made
 
     def r_State():
         nonlocal ahead, token, behind, depth
@@ -2749,7 +3006,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if match6[1]:
                         text5 += match6[1]; behind = match6
                         ahead = TOKEN(text, match6.end()); token = ahead[1]
-                machine_ = Ref(text5, 'StateMachine', new_span(Span, (source, at, at + len(text5))))
+                value = new_node(Ref)
+                value.name = text5
+                value.kind = 'StateMachine'
+                value.span = new_span(Span, (source, at, at + len(text5)))
+                value.target = None
+                machine_ = value
                 if token == '(':
                     ahead7, behind8 = ahead, behind
                     before9 = len(bindings_)
@@ -2788,8 +3050,13 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
         depth -= 1
-        made = State(new_span(Span, (source, start, behind.end(1))), name_, machine_, bindings_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(State)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.machine = machine_
+        made.bindings = bindings_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Parallel():
@@ -2821,8 +3088,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if not (token == '}'): depth -= 1; return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         depth -= 1
-        made = Parallel(new_span(Span, (source, start, behind.end(1))), name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Parallel)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Choice():
@@ -2847,8 +3117,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             branches_.append(value)
         if not (token == '}'): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        made = Choice(new_span(Span, (source, start, behind.end(1))), name_, branches_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Choice)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.branches = branches_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_History():
@@ -2881,9 +3154,18 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match3[1]:
                 text2 += match3[1]; behind = match3
                 ahead = TOKEN(text, match3.end()); token = ahead[1]
-        target_ = Ref(text2, 'Vertex', new_span(Span, (source, at, at + len(text2))))
-        made = History(new_span(Span, (source, start, behind.end(1))), deep_, name_, target_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text2
+        value.kind = 'Vertex'
+        value.span = new_span(Span, (source, at, at + len(text2)))
+        value.target = None
+        target_ = value
+        made = new_node(History)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.deep = deep_
+        made.name = name_
+        made.target = target_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_FinalState():
@@ -2898,8 +3180,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = new_word(Word, behind[1])
         value.span = new_span(Span, (source, at, behind.end(1)))
         name_ = value
-        made = FinalState(new_span(Span, (source, start, behind.end(1))), name_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(FinalState)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Multiplicity():
@@ -2926,7 +3210,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 ahead = TOKEN(text, match6.end()); token = ahead[1]
                 upper_ = match6[1]
                 break
-        return Multiplicity(new_span(Span, (source, start, behind.end(1))), lower_, upper_)
+        made = new_node(Multiplicity)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.lower = lower_
+        made.upper = upper_
+        return made
 
     def r_Argument():
         nonlocal ahead, token, behind
@@ -2945,7 +3233,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        return Argument(new_span(Span, (source, start, behind.end(1))), name_, value_)
+        made = new_node(Argument)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.value = value_
+        return made
 
     def r_Branch():
         nonlocal ahead, token, behind
@@ -2998,9 +3290,19 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match8[1]:
                 text7 += match8[1]; behind = match8
                 ahead = TOKEN(text, match8.end()); token = ahead[1]
-        target_ = Ref(text7, 'Vertex', new_span(Span, (source, at, at + len(text7))))
-        made = Branch(new_span(Span, (source, start, behind.end(1))), guard_, otherwise_, effects_, target_)
-        if start in docs: made.doc = docs.pop(start)
+        value = new_node(Ref)
+        value.name = text7
+        value.kind = 'Vertex'
+        value.span = new_span(Span, (source, at, at + len(text7)))
+        value.target = None
+        target_ = value
+        made = new_node(Branch)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.guard = guard_
+        made.otherwise = otherwise_
+        made.effects = effects_
+        made.target = target_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Activity():
@@ -3022,7 +3324,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        function_ = Ref(text1, 'Function', new_span(Span, (source, at, at + len(text1))))
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Function'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        function_ = value
         if token == '(':
             ahead3, behind4 = ahead, behind
             before5 = goal_callback_
@@ -3095,8 +3402,15 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 else: ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
                 break
-        made = Activity(new_span(Span, (source, start, behind.end(1))), function_, goal_callback_, arguments_, result_callback_, results_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Activity)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.function = function_
+        made.goal_callback = goal_callback_
+        made.arguments = arguments_
+        made.result_callback = result_callback_
+        made.results = results_
+        made.doc = docs.pop(start) if start in docs else ''
+        made.owner = None
         return made
 
     def r_Entry():
@@ -3120,8 +3434,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             value = rule()
             if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
             effects_.append(value)
-        made = Entry(new_span(Span, (source, start, behind.end(1))), effects_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Entry)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.effects = effects_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Exit():
@@ -3145,8 +3461,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             value = rule()
             if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
             effects_.append(value)
-        made = Exit(new_span(Span, (source, start, behind.end(1))), effects_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Exit)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.effects = effects_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Transition():
@@ -3241,7 +3559,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                             if match17[1]:
                                 text16 += match17[1]; behind = match17
                                 ahead = TOKEN(text, match17.end()); token = ahead[1]
-                        target_ = Ref(text16, 'Vertex', new_span(Span, (source, at, at + len(text16))))
+                        value = new_node(Ref)
+                        value.name = text16
+                        value.kind = 'Vertex'
+                        value.span = new_span(Span, (source, at, at + len(text16)))
+                        value.target = None
+                        target_ = value
                         break
             elif token == '-':
                 match18 = REGEX9(text, ahead.start())
@@ -3257,7 +3580,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if match20[1]:
                         text19 += match20[1]; behind = match20
                         ahead = TOKEN(text, match20.end()); token = ahead[1]
-                target_ = Ref(text19, 'Vertex', new_span(Span, (source, at, at + len(text19))))
+                value = new_node(Ref)
+                value.name = text19
+                value.kind = 'Vertex'
+                value.span = new_span(Span, (source, at, at + len(text19)))
+                value.target = None
+                target_ = value
             else: return None
         elif token == '[':
             behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
@@ -3299,10 +3627,21 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if match28[1]:
                     text27 += match28[1]; behind = match28
                     ahead = TOKEN(text, match28.end()); token = ahead[1]
-            target_ = Ref(text27, 'Vertex', new_span(Span, (source, at, at + len(text27))))
+            value = new_node(Ref)
+            value.name = text27
+            value.kind = 'Vertex'
+            value.span = new_span(Span, (source, at, at + len(text27)))
+            value.target = None
+            target_ = value
         else: return None
-        made = Transition(new_span(Span, (source, start, behind.end(1))), internal_, triggers_, guard_, effects_, target_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Transition)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.internal = internal_
+        made.triggers = triggers_
+        made.guard = guard_
+        made.effects = effects_
+        made.target = target_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Region():
@@ -3332,8 +3671,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if not (token == '}'): depth -= 1; return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         depth -= 1
-        made = Region(new_span(Span, (source, start, behind.end(1))), name_, items_)
-        if start in docs: made.doc = docs.pop(start)
+        made = new_node(Region)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.name = name_
+        made.items = items_
+        made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ResultMapping():
@@ -3355,7 +3697,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         target_ = value
-        return ResultMapping(new_span(Span, (source, start, behind.end(1))), field_, target_)
+        made = new_node(ResultMapping)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.field = field_
+        made.target = target_
+        return made
 
     def r_TimeTrigger():
         nonlocal ahead, token, behind
@@ -3367,7 +3713,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         delay_ = value
-        return TimeTrigger(new_span(Span, (source, start, behind.end(1))), delay_)
+        made = new_node(TimeTrigger)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.delay = delay_
+        return made
 
     def r_MonitorTrigger():
         nonlocal ahead, token, behind
@@ -3389,7 +3738,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
-        return MonitorTrigger(new_span(Span, (source, start, behind.end(1))), topic_, type_)
+        made = new_node(MonitorTrigger)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.topic = topic_
+        made.type = type_
+        return made
 
     def r_Send():
         nonlocal ahead, token, behind
@@ -3407,7 +3760,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        event_ = Ref(text1, 'Event', new_span(Span, (source, at, at + len(text1))))
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Event'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        event_ = value
         if token == '(':
             ahead3, behind4 = ahead, behind
             before5 = len(arguments_)
@@ -3429,7 +3787,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 if not (token == ')'): ahead = ahead3; token = ahead[1]; behind = behind4; del arguments_[before5:]; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
-        return Send(new_span(Span, (source, start, behind.end(1))), event_, arguments_)
+        made = new_node(Send)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.event = event_
+        made.arguments = arguments_
+        return made
 
     def r_Assignment():
         nonlocal ahead, token, behind
@@ -3446,7 +3808,11 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if found is None: return None
         value, behind, ahead = found; token = ahead[1]
         value_ = value
-        return Assignment(new_span(Span, (source, start, behind.end(1))), target_, value_)
+        made = new_node(Assignment)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.target = target_
+        made.value = value_
+        return made
 
     def r_OutcomeTrigger():
         nonlocal ahead, token, behind
@@ -3455,7 +3821,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if not (token in SET14): return None
         behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
         outcome_ = behind[1]
-        return OutcomeTrigger(new_span(Span, (source, start, behind.end(1))), outcome_)
+        made = new_node(OutcomeTrigger)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.outcome = outcome_
+        return made
 
     def r_DoneTrigger():
         nonlocal ahead, token, behind
@@ -3468,7 +3837,12 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             while True:
                 at = ahead.start()
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                region_ = Ref(behind[1], 'Region', new_span(Span, (source, at, at + len(behind[1]))))
+                value = new_node(Ref)
+                value.name = behind[1]
+                value.kind = 'Region'
+                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.target = None
+                region_ = value
                 if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; region_ = before3; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
                 break
@@ -3482,9 +3856,18 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 at = ahead.start()
                 if not (token not in SET2): ahead = ahead4; token = ahead[1]; behind = behind5; final_ = before6; break
                 behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                final_ = Ref(behind[1], 'FinalState', new_span(Span, (source, at, at + len(behind[1]))))
+                value = new_node(Ref)
+                value.name = behind[1]
+                value.kind = 'FinalState'
+                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.target = None
+                final_ = value
                 break
-        return DoneTrigger(new_span(Span, (source, start, behind.end(1))), region_, final_)
+        made = new_node(DoneTrigger)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.region = region_
+        made.final = final_
+        return made
 
     def r_EventTrigger():
         nonlocal ahead, token, behind
@@ -3499,8 +3882,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if match2[1]:
                 text1 += match2[1]; behind = match2
                 ahead = TOKEN(text, match2.end()); token = ahead[1]
-        event_ = Ref(text1, 'Event', new_span(Span, (source, at, at + len(text1))))
-        return EventTrigger(new_span(Span, (source, start, behind.end(1))), event_)
+        value = new_node(Ref)
+        value.name = text1
+        value.kind = 'Event'
+        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.target = None
+        event_ = value
+        made = new_node(EventTrigger)
+        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.event = event_
+        return made
 
     def try_ImportRos_ImportFile_ImportLibrary():
         nonlocal ahead, token, behind

@@ -64,6 +64,11 @@ def _page(generator: Generator) -> Iterator[str]:
     missing = _cannot_express(generator)
     yield "\ncannot express" if missing else "\ncan express every construct of state machines"
     yield from (f"  {construct}" for construct in missing)
+    if generator.mapping:
+        yield "\nwhat becomes of the constructs of a model"
+    wide = max((len(each.construct) for each in generator.mapping), default=0)
+    for each in generator.mapping:
+        yield f"  {each.construct:<{wide}}  {each.support.value:<8}  {each.means}"
 
 
 def _shown(value: object) -> str:
@@ -94,4 +99,8 @@ def _as_json(generator: Generator) -> dict[str, Any]:
             for option in options_of(generator).values()
         ],
         "cannot_express": _cannot_express(generator),
+        "mapping": [
+            {"construct": one.construct, "support": one.support.value, "means": one.means}
+            for one in generator.mapping
+        ],
     }

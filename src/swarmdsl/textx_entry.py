@@ -1,4 +1,4 @@
-"""Registers the language with textX, and the targets that a plain build has."""
+"""Registers the language and the bundled targets with textX."""
 
 from __future__ import annotations
 
@@ -109,3 +109,11 @@ swarm = LanguageDesc(
 scxml = _generator("scxml", "SCXML documents of the state machines")
 adf = _generator("adf", "Abstraction description file of the functions")
 smach = _generator("smach", "ROS 1 packages that run the state machines with SMACH")
+ros2 = _generator("ros2", "ROS 2 packages that run the state machines on rclpy")
+skeleton = _generator("skeleton", "Packages of functions and components, to fill in")
+amf = _generator("amf", "Algorithm Modelling File of the swarm library")
+swarmros = _generator("swarmros", "Configuration of the bridge between members")
+parameters = _generator("parameters", "What an optimiser may vary")
+fitness = _generator("fitness", "Python scripts that compute the fitness of a run")
+composition = _generator("composition", "Members of a swarm as XML, and launch files")
+frevo = _generator("frevo", "Problem and configuration of a search with FREVO")

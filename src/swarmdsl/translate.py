@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import (
     Binary,
     Call,

@@ -1,7 +1,8 @@
-"""Which declarations belong to a system: the project's own and what they use of libraries."""
+"""What declarations use of each other, and which belong to a system."""
 
 from __future__ import annotations
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
@@ -19,33 +20,67 @@ from swarmdsl.syntax import (
 )
 
 
-def used_declarations(project: Project) -> list[tuple[File, Declaration]]:
+@dataclass(frozen=True)
+class Uses:
+    """What the names in a declaration mean; not `complete` where one of them means nothing."""
+
+    nodes: frozenset[Node]
+    types: frozenset[Named]
+    complete: bool
+
+
+class UsesOfAll(dict[TopLevel, Uses]):
+    """What each declaration uses, looked for when it is first asked for."""
+
+    def __missing__(self, owner: TopLevel) -> Uses:
+        self[owner] = found = _uses(owner)
+        return found
+
+    def only(self, project: Project) -> UsesOfAll:
+        """The same without declarations that the project does not have any more."""
+        owners = (*project.declarations(), *project.optimizations())
+        return UsesOfAll({owner: self[owner] for _, owner in owners if owner in self})
+
+
+def used_declarations(
+    project: Project, uses: UsesOfAll | None = None
+) -> list[tuple[File, Declaration]]:
     """All that the project declares itself, and what that leads to, in the order of the files."""
     pairs = list(project.declarations())
     if not any(file.library for file in project.files):
         return pairs
-    by_type = {interface_name(file, node.name): node for file, node in pairs}
+    uses = uses if uses is not None else UsesOfAll()
+    by_type: dict[Named, Declaration] = {}
     owners: dict[Node, Declaration] = {}
-    for _, declaration in pairs:
+    for file, declaration in pairs:
+        if not file.library:
+            continue
+        by_type[interface_name(file, declaration.name)] = declaration
         owners[declaration] = declaration
         if isinstance(declaration, Component):
-            for item in declaration.items:
-                if isinstance(item, Operation):
-                    owners[item] = declaration
+            operations = (item for item in declaration.items if isinstance(item, Operation))
+            owners.update(dict.fromkeys(operations, declaration))
+    nodes, types = frozenset(owners), frozenset(by_type)
     work: list[TopLevel] = [node for file, node in pairs if not file.library]
     work += [optimization for _, optimization in project.optimizations()]
-    used: set[TopLevel] = set()
+    used: set[TopLevel] = set(work)
     while work:
-        node = work.pop()
-        if node in used:
-            continue
-        used.add(node)
-        targets = [ref.target for _, ref in references(node)]
-        targets += [use.target for use in nodes_of(node, NameUse)]
-        targets += [activity.owner for activity in nodes_of(node, Activity)]
-        work += [owners[target] for target in targets if target in owners]
-        for ref in nodes_of(node, TypeRef):
-            element = ref.type.element if isinstance(ref.type, Array) else ref.type
-            if isinstance(element, Named) and element in by_type:
-                work.append(by_type[element])
+        found = uses[work.pop()]
+        of_library = {owners[node] for node in found.nodes & nodes}
+        of_library.update(by_type[type_] for type_ in found.types & types)
+        work += of_library - used
+        used |= of_library
     return [(file, node) for file, node in pairs if node in used]
+
+
+def _uses(owner: TopLevel) -> Uses:
+    refs = [ref.target for _, ref in references(owner)]
+    names = [use.target for use in nodes_of(owner, NameUse) if use.name != "event"]
+    asked = [activity.owner for activity in nodes_of(owner, Activity)]
+    types = (ref.type for ref in nodes_of(owner, TypeRef))
+    elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)
+    return Uses(
+        frozenset(node for node in (*refs, *names, *asked) if node is not None),
+        frozenset(element for element in elements if isinstance(element, Named)),
+        None not in refs and None not in names,
+    )

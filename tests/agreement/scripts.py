@@ -199,9 +199,9 @@ class Watch(Observer):
 class Model(Ours):
     """Our engine over the table of a model; ids and events are those of the document."""
 
-    def __init__(self, subject: Subject) -> None:
+    def __init__(self, subject: Subject, watch: Watch | None = None) -> None:
         self.subject = subject
-        self.watch = Watch()
+        self.watch = watch or Watch()
         data = first_data(subject.machine, subject.system, subject.params)
         super().__init__(subject.table, data, self.watch)
 

@@ -19,6 +19,7 @@ action Ring { result { } }
 swarm event Start : std_msgs/Empty
 swarm event Ping  : std_msgs/Empty
 event Button : Press on "button"
+event Told   : Press on "told"
 
 function blink : abstraction { action "cmd/blink" : Blink }
 function ring : abstraction { action "cmd/ring" : Ring }
@@ -40,7 +41,7 @@ statemachine Blinking {
         on aborted   -> Broken
       }
       state Dark {
-        entry / send Ping()
+        entry / send Ping(), send Told(times = count)
         after 5 s -> Bright
       }
       state Broken {

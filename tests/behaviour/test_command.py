@@ -171,6 +171,22 @@ def test_what_is_missed_is_not_rounded_away(monkeypatch: pytest.MonkeyPatch) -> 
     assert "99 % of all" in out.getvalue()
 
 
+def test_documents_of_one_name_are_counted_apart(swarmc: Callable[..., Ran], folder: Path) -> None:
+    for name, event in (("one", "go"), ("two", "stay")):
+        (folder / f"{name}.scxml").write_text(
+            '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="D">'
+            '<state id="a"><transition event="go" target="b"/></state><final id="b"/></scxml>'
+        )
+        (folder / f"{name}.swarmtest.toml").write_text(
+            f'model = "{name}.scxml"\n[[test]]\nname = "it"\n'
+            f'steps = [{{ send = "{event}" }}, {{ pass = "1 s" }}]\n'
+        )
+    found = swarmc("test", "one.swarmtest.toml", "two.swarmtest.toml", "--coverage")
+
+    rows = [" ".join(line.split()) for line in found.out.splitlines() if line.startswith("D ")]
+    assert rows == ["D 2 of 2 1 of 1", "D 1 of 2 0 of 1"]
+
+
 def test_too_little_coverage_fails(swarmc: Callable[..., Ran], folder: Path) -> None:
     write(folder, a=FINE)
     # The states Off of both machines, out of 12 states and 12 transitions.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -66,6 +67,33 @@ def steps(*each: str) -> str:
             '{ any = "lamp", starts = "blink" }',
         ),
         (_DARK, '{ who = "lamp[0]", sends = "Ping" }', '{ who = "lamp[1]", sends = "Ping" }'),
+        # Data: of what is sent, and of variables; what is not named may be anything.
+        (
+            _DARK,
+            '{ who = "lamp[0]", sends = "Told", data = { times = 3 } }',
+            '{ who = "lamp[0]", sends = "Told", data = { times = 4 } }',
+        ),
+        (
+            _DARK,
+            '{ no = "lamp", sends = "Told", data = { times = 4 } }',
+            '{ no = "lamp", sends = "Told", data = { times = 3 } }',
+        ),
+        (
+            f'{_DARK}, {{ pass = "1 s" }}',
+            '{ no = "lamp", sends = "Told", data = { times = 3 } }',
+            '{ any = "lamp", sends = "Told", data = { times = 3 } }',
+        ),
+        (
+            _DARK,
+            '{ who = "lamp[0]", has = { count = 3 } }',
+            '{ all = "lamp", has = { count = 3 } }',
+        ),
+        (_DARK, '{ count = 2, of = "lamp", has = { count = 0 } }', "{ has = { count = 0 } }"),
+        (
+            f'{_DARK}, {{ lose = "lamp[0]" }}',
+            '{ no = "lamp", has = { count = 3 } }',
+            '{ any = "lamp", has = { count = 3 } }',
+        ),
         (_DARK, '{ who = "lamp[1]", starts = "ring" }', '{ no = "lamp", starts = "ring" }'),
         (
             f"{_START}, {_START}",
@@ -323,3 +351,56 @@ def test_what_fails_in_the_model_is_told(ran: Callable[..., Ran], folder) -> Non
 
     assert found.code == 0
     assert "warning[SW1007]: a value in `Blinking` failed: division by zero" in found.out
+
+
+@pytest.mark.parametrize(
+    ("claim", "expected", "told"),
+    [
+        (
+            '{ who = "lamp[0]", sends = "Told", data = { times = 4 } }',
+            "expected `lamp[0]` to send `Told` with `times = 4`",
+            "`lamp[0]` sends `Ping` and `Told(times = 3)`",
+        ),
+        (
+            '{ all = "lamp", has = { count = 3 } }',
+            "expected all `lamp` to have `count = 3`",
+            "`lamp[0]` has `count = 3`, `lamp[1]` and `lamp[2]` have `count = 0`",
+        ),
+    ],
+)
+def test_data_that_are_others_are_told(
+    ran: Callable[..., Ran], claim: str, expected: str, told: str
+) -> None:
+    found = ran(steps(_DARK, claim))
+
+    assert found.code == 1
+    assert f"error[SW1101]: {expected}\n" in found.out
+    assert told in found.out
+
+
+def test_variables_are_waited_for(ran: Callable[..., Ran]) -> None:
+    scenario = "scenario = { functions = { blink = { results = [{ count = 2 }] } } }\n"
+    held = '{ who = "lamp[0]", has = { count = 2 }, WITHIN }'
+    text = f'{scenario}[[test]]\nname = "it"\nsteps = [{_START}, {held}]\n'
+
+    assert ran(text.replace("WITHIN", 'within = "1 s"')).code == 0
+    assert ran(text.replace("WITHIN", 'within = "999 ms"')).code == 1
+
+
+def test_variables_of_documents(ran: Callable[..., Ran], folder: Path) -> None:
+    (folder / "d.scxml").write_text(
+        """<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript">
+          <datamodel><data id="o" expr="{n: 1, list: [1, true], more: 2}"/></datamodel>
+          <state id="a"><transition event="go"><assign location="o.n" expr="o.n + 1"/></transition>
+          </state>
+        </scxml>""",
+        encoding="utf-8",
+    )
+    text = (
+        'model = "d.scxml"\n[[test]]\nname = "it"\nsteps = [{ send = "go" }, { has = { CLAIM } }]\n'
+    )
+
+    assert ran(text.replace("CLAIM", "o = { n = 2, list = [1, true] }")).code == 0
+    for wrong in ("o = { n = 1 }", "o = { list = [1] }", "o = { list = [true, true] }", "p = 1"):
+        found = ran(text.replace("CLAIM", wrong))
+        assert (found.code, "SW1101" in found.out) == (1, True)

@@ -14,15 +14,25 @@ ROOT = Path(__file__).resolve().parents[2]
 
 # To find libraries in Python packages.
 LIBRARIES = {"importlib.metadata"}
-HEAVY = ("textx", "arpeggio", "lark", "jinja2", "lxml", "rich", "importlib.metadata")
+HEAVY = (
+    "click",
+    "textx",
+    "arpeggio",
+    "lark",
+    "jinja2",
+    "lxml",
+    "rich",
+    "pygls",
+    "importlib.metadata",
+)
 
 
 @pytest.mark.parametrize(
     ("arguments", "allowed"),
     [
-        (["--version"], set()),
-        (["--help"], set()),
-        (["check", "--help"], set()),
+        (["--version"], {"click"}),
+        (["--help"], {"click"}),
+        (["check", "--help"], {"click"}),
         (["check", "examples/minimal"], set()),
         (["check", "examples/search_and_rescue"], LIBRARIES),
         (
@@ -44,6 +54,16 @@ def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypat
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert set(eval(ran.stderr.splitlines()[-1])) <= allowed
+
+
+def test_a_model_without_mistakes_needs_no_colours(monkeypatch):
+    monkeypatch.chdir(ROOT)
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    code = (
+        "import sys\nfrom swarmdsl.cli import run\nrun(['check', 'examples/minimal'])\n"
+        "sys.exit('rich' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
 def test_a_check_imports_no_later_phase(tmp_path, monkeypatch):

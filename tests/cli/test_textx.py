@@ -23,9 +23,9 @@ def test_the_language_is_listed():
     assert "swarm (*.swarm)" in listed.stdout + listed.stderr
 
 
-def test_the_targets_of_a_plain_build_are_listed():
+def test_the_bundled_targets_are_listed():
     listed = textx("list-generators")
-    for target in plugins.BUILT_IN.keys() - plugins.ON_REQUEST:
+    for target in plugins.BUILT_IN:
         assert f"swarm -> {target}" in listed.stdout + listed.stderr
         assert getattr(textx_entry, target).description
 
@@ -91,6 +91,14 @@ def test_generate(good, tmp_path):
         assert ran.returncode == 0, ran.stderr
         files = [path for path in (tmp_path / "made" / target).rglob("*") if path.is_file()]
         assert files, target
+
+
+def test_generate_for_other_tools(examples, tmp_path):
+    model = examples / "emergency_exit" / "emergency_exit.swarm"
+    for target in sorted(plugins.ON_REQUEST):
+        ran = textx("generate", model, "--target", target, "-o", tmp_path)
+        assert ran.returncode == 0, ran.stderr
+        assert [path for path in (tmp_path / target).rglob("*") if path.is_file()], target
 
 
 def test_generate_with_an_option(good, tmp_path):

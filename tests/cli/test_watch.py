@@ -71,16 +71,23 @@ def watching(model: Path) -> Iterator[Watching]:
     found.stop()
 
 
+def put(path: Path, text: str) -> None:
+    """Write a file at once: nobody sees half of it, nor a change of a folder that is watched."""
+    half = path.parents[2] / "half"
+    half.write_text(text, encoding="utf-8")
+    half.replace(path)
+
+
 def test_check(model: Path, watching: Watching) -> None:
     assert "error[" not in watching.run()
-    model.write_text(WRONG, encoding="utf-8")
+    put(model, WRONG)
     assert "did you mean `std_msgs/Empty`?" in watching.run()
-    model.write_text(RIGHT, encoding="utf-8")
+    put(model, RIGHT)
     assert "error[" not in watching.run()
     other = model.with_name("b.swarm")
-    other.write_text('import "gone.swarm"\n', encoding="utf-8")
+    put(other, 'import "gone.swarm"\n')
     assert "gone.swarm" in watching.run()
-    model.with_name("gone.swarm").write_text("package gone\nevent E : std_msgs/Empty\n")
+    put(model.with_name("gone.swarm"), "package gone\nevent E : std_msgs/Empty\n")
     assert "error[" not in watching.run()
     other.unlink()
     assert "error[" not in watching.run()
@@ -89,18 +96,88 @@ def test_check(model: Path, watching: Watching) -> None:
 
 def test_build(model: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    model.write_text(MACHINE, encoding="utf-8")
+    put(model, MACHINE)
     watching = Watching("build", str(model.parent), "--target", "scxml", "--out", str(out))
     try:
         watching.run()
         (first,) = out.rglob("*.scxml")
-        model.write_text(MACHINE.replace("-> B", "-> Lost"), encoding="utf-8")
+        put(model, MACHINE.replace("-> B", "-> Lost"))
         assert "error[" in watching.run()
         assert first.exists()
-        model.write_text(MACHINE.replace("Work", "Rest"), encoding="utf-8")
+        put(model, MACHINE.replace("Work", "Rest"))
         assert "error[" not in watching.run()
         (second,) = out.rglob("*.scxml")
         assert second != first
         assert watching.end() == 0
     finally:
         watching.stop()
+
+
+def test_what_a_target_cannot_express_is_told_at_its_place(model: Path, tmp_path: Path) -> None:
+    """This is one in the file, although a declaration is checked on its own."""
+    put(model, f"{RIGHT}{MACHINE}")
+    option = ("--option", "scxml.profile=cpswarm")
+    watching = Watching("build", str(model), "-t", "scxml", *option, "--out", str(tmp_path / "out"))
+    try:
+        said = watching.run()
+        assert "cannot express a transition after a time" in said
+        assert f" --> {model}:3:41\n" in said
+    finally:
+        watching.stop()
+
+
+def test_the_project_file_is_watched(model: Path, watching: Watching) -> None:
+    assert "no errors in 1 file" in watching.run()
+    project = model.with_name("swarm.toml")
+    put(project, '[lint]\nwarn = ["unused-declaration"]\n')
+    assert "event `Start` is never used" in watching.run()
+    put(project, "[lint")
+    assert "swarm.toml:1:" in watching.run()
+    project.unlink()
+    assert "no errors in 1 file" in watching.run()
+
+
+def test_a_project_file_that_does_not_go_with_the_command_line(model: Path, tmp_path: Path) -> None:
+    put(model, MACHINE)
+    project = model.with_name("swarm.toml")
+    put(project, "[targets.scxml]\n")
+    option = ("--option", "scxml.profile=portable")
+    watching = Watching("build", str(model.parent), *option, "--out", str(tmp_path / "out"))
+    try:
+        assert "no errors in 1 file" in watching.run()
+        put(project, "[targets.adf]\n")
+        assert "target `scxml` is not built" in watching.run()
+        put(project, "[targets.scxml]\n")
+        assert "no errors in 1 file" in watching.run()
+    finally:
+        watching.stop()
+
+
+def test_a_package_that_comes_and_grows(model: Path) -> None:
+    text = "package a\nimport things.*\nevent Start : std_msgs/Empty\nconst B : int32 = MORE\n"
+    put(model, text)
+    watching = Watching("check", str(model))
+    try:
+        assert "error[SW0008]" in watching.run()
+        package = model.parent / "things"
+        made = model.parent / "made"
+        made.mkdir()
+        put(made / "one.swarm", "const ONE : int32 = 1\n")
+        made.rename(package)
+        assert "no value called `MORE`" in watching.run()
+        put(package / "two.swarm", "const MORE : int32 = 1\n")
+        assert "error[" not in watching.run()
+    finally:
+        watching.stop()
+
+
+def test_new_interfaces_of_ros(model: Path, tmp_path: Path, watching: Watching) -> None:
+    watching.run()
+    messages = tmp_path / "x_msgs" / "msg"
+    messages.mkdir(parents=True)
+    put(messages / "A.msg", "int32 a\n")
+    text = 'package a\nimport ros "../x_msgs"\nevent Start : x_msgs/B\n'
+    put(model, text)
+    assert "x_msgs/B" in watching.run()
+    put(messages / "B.msg", "int32 b\n")
+    assert "error[" not in watching.run()

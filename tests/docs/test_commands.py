@@ -27,6 +27,10 @@ _NOT_RUN = (
     ". .venv",
     "pip install",
     "make ",
+    # What needs ROS 2 is run by tests/ros2.
+    "colcon build",
+    ". install/",
+    "ros2 launch",
 )
 
 

@@ -66,6 +66,12 @@ MODELS = {
     "guards of two terms": machine(
         "on Num [event.data == <i> and x < <i>] / x = x + 1 -> F", ON_S, "var x : int32 = 0\n"
     ),
+    "variables": lambda count: (
+        HEAD
+        + f"statemachine M {{\n{repeated('var v<i> : int32', count)}initial S state S {{\n"
+        + repeated("on Num [v<i> == event.data] / v<i> = event.data -> S", count)
+        + "on Go -> F }\nfinal F }"
+    ),
     "delays": machine("after <j> s -> F", ON_S),
     "branches": machine(
         "[x == <i>] -> F",

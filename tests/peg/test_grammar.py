@@ -11,10 +11,10 @@ import pytest
 from textx import TextXSyntaxError, metamodel_from_str
 
 from swarmdsl.expression_parser import TooDeepError
-from swarmdsl.peg.emission import Target
 from swarmdsl.peg.grammar import Grammar, UnsupportedError, read
 from swarmdsl.peg.machine import mismatch
 from swarmdsl.peg.module import definitions
+from swarmdsl.peg.target import Target
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word
 
@@ -57,9 +57,11 @@ def made(text: str) -> Any:
     """The definitions of a parser for a grammar, with classes made for its nodes."""
     grammar = grammar_of(text)
     nodes = {
-        name: tuple(rule.attributes) for name, rule in grammar.rules.items() if rule.kind == "node"
+        name: {attribute: f"{attribute}_" for attribute in rule.attributes}
+        for name, rule in grammar.rules.items()
+        if rule.kind == "node"
     }
-    source, _ = definitions(grammar, Target(nodes, frozenset(), {}, {}))
+    source, _ = definitions(grammar, Target(nodes, {}, {}))
     names: dict[str, Any] = {
         name: make_dataclass(name, ["span", *attributes]) for name, attributes in nodes.items()
     }

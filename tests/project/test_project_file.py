@@ -29,6 +29,7 @@ PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
 @pytest.mark.parametrize(
     ("toml", "lines"),
     [
+        ("x = " + "[" * 999, ["1:1: error[SW0011] `swarm.toml` is not TOML: TOML inline arrays"]),
         ("[project\n", ["1:9: error[SW0011] `swarm.toml` is not TOML: expected ']' at the end"]),
         (
             '[project]\nnam = "x"\n[lints]\n[build]\nout = 3\n',

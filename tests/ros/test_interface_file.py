@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ros.declarations import Constant
-from swarmdsl.ros.interface_file import KINDS, InterfaceFile, Kind, parse_interface
+from swarmdsl.ros.interface_file import INTERFACE_KINDS, InterfaceFile, Kind, parse_interface
 from swarmdsl.source import Source
 from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType, Value, walk
 
@@ -380,7 +380,10 @@ PIECES = [
 ]
 
 
-@given(st.lists(st.sampled_from(PIECES) | st.text(max_size=3)).map("".join), st.sampled_from(KINDS))
+@given(
+    st.lists(st.sampled_from(PIECES) | st.text(max_size=3)).map("".join),
+    st.sampled_from(INTERFACE_KINDS),
+)
 def test_any_text_is_read_or_reported(text: str, kind: Kind) -> None:
     report = Diagnostics()
     found = parse_interface(Source("Thing", text), "my_msgs", "Thing", kind, report)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.package_folder import find_interfaces
+from swarmdsl.ros.package_folder import find_interfaces, find_parameters
 from swarmdsl.source import Source, Span
 
 AT = Span(Source("model.swarm", 'import ros "interfaces"'), 11, 23)
@@ -206,3 +206,36 @@ def test_an_unreadable_folder(tmp_path: Path, report: Diagnostics) -> None:
     finally:
         (tmp_path / "secret").chmod(0o700)
     assert messages(report) == [f"cannot read `{tmp_path / 'secret'}`: permission denied"]
+
+
+@pytest.mark.parametrize(
+    ("paths", "start", "expected"),
+    [
+        pytest.param(
+            ["gps/param/b.yaml", "gps/param/a.yml", "gps/param/a.txt", "uav/config/x/c.yaml"],
+            "",
+            ["gps a.yml", "gps b.yaml", "x c.yaml"],
+            id="by-folder",
+        ),
+        pytest.param(
+            ["mavros_gps:gps/package.xml", "gps/config/x/a.yaml", "gps/docs/b.yaml", "gps/c.yaml"],
+            "",
+            ["mavros_gps a.yaml"],
+            id="of-a-package",
+        ),
+        pytest.param(["gps/a.yaml", "vel/b.yaml"], "", ["gps a.yaml", "vel b.yaml"], id="copies"),
+        pytest.param(["gps/param/a.yaml"], "gps/param", ["gps a.yaml"], id="inside"),
+        pytest.param(
+            ["mavros_gps:gps/package.xml", "gps/param/a.yaml"],
+            "gps/param",
+            ["mavros_gps a.yaml"],
+            id="inside-a-package",
+        ),
+        pytest.param(["params/gps/a.yaml"], "params", ["gps a.yaml"], id="called-so"),
+        pytest.param(["1st/a.yaml", "gps/build/a.yaml"], "", ["build a.yaml"], id="names"),
+    ],
+)
+def test_parameter_files(paths: list[str], start: str, expected: list[str], tmp_path: Path) -> None:
+    found = find_parameters(make(tmp_path, *paths) / start)
+
+    assert [f"{each.package} {each.path.name}" for each in found] == expected

@@ -124,6 +124,20 @@ def test_done_data() -> None:
     assert after(instance, "e") == ["b"]
 
 
+def test_done_data_goes_without_what_has_no_value() -> None:
+    instance = running("""
+      <state id="a">
+        <transition event="done.state.a" cond="_event.data.n === 3" target="b"/>
+        <state id="a1"><transition event="e" target="end"/></state>
+        <final id="end"><donedata>
+          <param name="gone" expr="nobody.x"/><param name="n" expr="1 + 2"/>
+        </donedata></final>
+      </state>
+      <state id="b"/>""")
+
+    assert after(instance, "e") == ["b"]
+
+
 # ---- content
 
 

@@ -93,7 +93,8 @@ def test_a_line_has_all_that_happened(simulate: Simulate) -> None:
         *("t", "member", "event", "configuration", "entered", "exited"),
         *("started", "cancelled", "sent"),
     ]
-    assert [list(line.values()) for line in ran.trace] == [
+    assert [line.get("data") for line in ran.trace] == [None, None, {"id": "", "count": 0}, None]
+    assert [list(line.values())[:9] for line in ran.trace] == [
         [0, None, None, ["Wait"], ["Wait"], [], [], [], []],
         [250, None, "Start", ["Busy"], ["Busy"], ["Wait"], ["go"], [], []],
         [1250, None, "do.Busy.succeeded", ["Tell"], ["Tell"], ["Busy"], ["land"], [], ["Found"]],
@@ -253,12 +254,27 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
         ('{"event": "Start" "after": 5}', "SW1003]: this line is no event: expecting ',' ", "2:19"),
         ("[1, 2]", "SW1003]: this line is no event: an object is wanted, not a list", "2:1"),
         ('{"after": 5}', 'SW1003]: this line is no event: it needs an `"event"`', "2:1"),
-        ('{"event": "Start", "after": NaN}', "SW1003]: this line is no event: `NaN`", "2:1"),
-        ("[" * 100_000, "SW1003]: this line is no event: ", "2:1"),
+        ('{"event": "Start", "after": NaN}', "SW1003]: this line is no event: `NaN`", "2:29"),
+        (
+            '{"event": "Found", "data": {"level": 1e999}}',
+            "SW1003]: this line is no event: `1e999` is too large a number",
+            "2:38",
+        ),
+        (
+            '{"event": "Start", "event": "Stop"}',
+            "SW1003]: this line is no event: `event` stands in it twice",
+            "2:3",
+        ),
+        ("[" * 100_000, "SW1003]: this line is no event: it is nested too deeply", "2:1"),
+        (
+            '{"after": ' + "9" * 5000 + "}",
+            "SW1003]: this line is no event: a number in it has too",
+            "2:1",
+        ),
         ('{"event": "Strat"}', "SW0202]: no event called `Strat`", "2:12"),
         ('{"event": "Start", "afer": 5}', "SW0012]: an event has no `afer`", "2:21"),
         ('{"event": "Start", "after": -1}', "SW0013]: `after` takes a number", "2:21"),
-        ('{"event": "Start", "after": 1e999}', "SW0013]: `after` takes a number", "2:21"),
+        ('{"event": "Start", "after": 1e308}', "SW0013]: `after` takes a number", "2:21"),
         ('{"event": "Start", "member": "uav[9]"}', "SW0202]: no member called `uav[9]`", "2:31"),
         ('{"event": "Found", "data": {"levle": 1}}', "SW0601]: `test/Report` has no field", "2:30"),
         ('{"event": "Found", "data": {"level": "x"}}', "SW0013]: `level` takes a whole", "2:30"),

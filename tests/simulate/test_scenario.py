@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from itertools import pairwise
+from pathlib import Path
 
 import pytest
 
@@ -210,6 +211,40 @@ def test_a_server_is_free_again_when_its_silence_is_over(simulate: Simulate) -> 
     assert (ran.trace[-1]["t"], ran.trace[-1]["configuration"]) == (10_500, ["End"])
 
 
+def test_the_end_of_a_silence_does_not_end_another_one(simulate: Simulate) -> None:
+    ran = simulate(
+        """
+        statemachine Work {
+          initial Go
+          state Go { do land
+                     on succeeded -> End
+                     on aborted   -> Go
+                     after 4 s    -> Go }
+          final End
+        }
+        """,
+        scenario="""
+          [[faults]]
+          at     = "500 ms"
+          silent = "land"
+          lasts  = "9 s"
+          [[faults]]
+          at     = "1 s"
+          silent = "land"
+          lasts  = "2 s"
+        """,
+    )
+
+    assert (ran.trace[-1]["t"], ran.trace[-1]["configuration"]) == (10_500, ["End"])
+
+
+def test_a_folder_is_no_scenario(simulate: Simulate, tmp_path: Path) -> None:
+    ran = simulate(WORK, "--scenario", str(tmp_path))
+
+    assert ran.code == 1
+    assert "is a folder, not a scenario\n  = help: name a file in it\n" in ran.err
+
+
 def test_the_same_seed_gives_the_same_bytes(simulate: Simulate) -> None:
     scenario = """
       seed = 5
@@ -276,7 +311,8 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
     [
         ("sed = 1", "SW0012]: a scenario has no `sed`", "1:1"),
         ("seed = 1.5", "SW0013]: `seed` takes a whole number, not `1.5`", "1:8"),
-        ("until = 30", 'SW0013]: `until` takes a time like "1.5 s", not `30`', "1:9"),
+        ("until = 30", 'SW0013]: `until` takes a time like "1.5 s", with `us`, `ms`, `s`,', "1:9"),
+        ("until = '9999999 h'", "SW0013]: `until` takes at most 292 years, not", "1:9"),
         ("until = [", "SW0011]: `scenario.toml` is not TOML", "1:10"),
         ("[count]\nuva = 3", "SW0202]: no role called `uva`", "2:1"),
         ("[count]\nrover = 3", "SW0013]: `rover` takes 1, not `3`", "2:9"),
@@ -336,7 +372,7 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
             "SW0013]: `every` takes a",
             "4:9",
         ),
-        ("[[faults]]\nat = '1 s'", "SW1008]: this needs `silent`", "1:3"),
+        ("[[faults]]\nat = '1 s'", "SW1008]: this needs `lost`", "1:3"),
         ("[[faults]]\nat = '1 s'\nlost = 'uav[2]'", "SW0202]: no member called `uav[2]`", "3:8"),
         ("[[faults]]\nat = '1 s'\nsilent = 'og'", "SW0202]: no function called `og`", "3:10"),
         ("[faults]\nat = '1 s'", "SW0013]: `faults` takes tables: `[[faults]]`", "1:2"),

@@ -10,6 +10,7 @@ import pytest
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostic
+from swarmdsl.lower import lower
 from swarmdsl.source import Span
 from swarmdsl.workspace import Workspace
 
@@ -213,9 +214,11 @@ def test_edits(seed: int, tmp_path: Path, pytestconfig: pytest.Config) -> None:
                 history.append(f"==== {path.name}\n{text}")
             from_disk = dice.random() < 0.5 or None in texts.values()
             workspace.update(dict.fromkeys(texts) if from_disk else texts)
-            fresh = compiler.check([folder]).report
-            expected = list(map(plain, fresh))
+            fresh = compiler.check([folder])
+            expected = list(map(plain, fresh.report))
             assert list(map(plain, workspace.report)) == expected, "\n".join(history[-2:])
+            if fresh.valid is not None:
+                assert lower(workspace.project) == fresh.system, "\n".join(history[-2:])
             done += 1
             if done % EDITS_A_MODEL == 0:
                 break

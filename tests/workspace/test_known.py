@@ -6,9 +6,12 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import compiler
+from swarmdsl.diagnostics import Level
+from swarmdsl.project.settings import Settings
 from swarmdsl.workspace import Workspace
 
 Say = Callable[[str], list[str]]
+SETTINGS = Settings(levels={"unused-declaration": Level.WARN})
 
 EXCHANGE = """\
 swarm event Start : std_msgs/Empty
@@ -25,13 +28,14 @@ def say(tmp_path: Path) -> Say:
     """Edits a file; returns the names of what is said of it, which a first run says too."""
     file = tmp_path / "model.swarm"
     file.write_text("", encoding="utf-8")
-    workspace = Workspace([file])
+    workspace = Workspace([file], SETTINGS)
 
     def edit(text: str) -> list[str]:
         file.write_text(text, encoding="utf-8")
         workspace.update({file: text})
         found = [(each.name, each.message) for each in workspace.report]
-        assert found == [(each.name, each.message) for each in compiler.check([file]).report]
+        anew = compiler.check([file], SETTINGS).report
+        assert found == [(each.name, each.message) for each in anew]
         return [name for name, _ in found]
 
     return edit
@@ -86,3 +90,36 @@ def test_member_runs_another_machine(say: Say) -> None:
 def test_member_leaves_the_swarm(say: Say) -> None:
     assert "unhandled-event" not in say(EXCHANGE)
     assert "unhandled-event" in say(EXCHANGE.replace("hearer : Hearer[1]", ""))
+
+
+USER = """\
+struct Place { x : float64 }
+const LEAST : int32 = 3
+event Go : Place
+statemachine M {
+  var n : int32 = 0
+  initial A
+  state A { on Go [n < LEAST] / n = n + 1 -> A on Go -> B }
+  final B
+}
+"""
+
+
+@pytest.mark.parametrize(("word", "instead"), [("LEAST]", "4]"), (": Place", ": std_msgs/Empty")])
+def test_declaration_is_used_no_more(say: Say, word: str, instead: str) -> None:
+    assert "unused-declaration" not in say(USER)
+    assert "unused-declaration" in say(USER.replace(word, instead))
+    assert "unused-declaration" not in say(USER)
+
+
+def test_declaration_of_a_library_is_used_no_more(say: Say) -> None:
+    """Only events of a library that are used share their topics with others."""
+    text = """\
+import cpswarm.events.*
+swarm event Begin : std_msgs/Int32 on "mission_start"
+statemachine M { initial A state A { on MissionStart -> B on Begin -> B } final B }
+"""
+    other = text.replace("on MissionStart", "on MissionAbort")
+    assert "topic-types" in say(text)
+    assert "topic-types" not in say(other)
+    assert "topic-types" in say(text)

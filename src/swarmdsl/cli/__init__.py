@@ -2,7 +2,7 @@
 
 What was asked for goes to stdout, all about the run to stderr. Whatever a command needs
 is imported when it runs, and the command itself when it is named or `--help` lists it, so
-that `swarmc --version` is quick.
+that a small check is quick.
 """
 
 from __future__ import annotations
@@ -16,44 +16,18 @@ import sys
 from collections.abc import Sequence
 from importlib import import_module
 from io import TextIOWrapper
-from keyword import iskeyword
 from typing import NoReturn
 
-import click
-
-from swarmdsl import __version__
-from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, OK, TERMINATED
+from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
-COMMANDS = ("build", "check", "explain", "fmt", "import", "simulate", "targets", "test")
-
-
-class _Commands(click.Group):
-    """The commands, each imported when it is asked for."""
-
-    def list_commands(self, _context: click.Context) -> list[str]:
-        return list(COMMANDS)
-
-    def get_command(self, _context: click.Context, name: str) -> click.Command | None:
-        if name not in COMMANDS:
-            return None
-        called = f"{name}_" if iskeyword(name) else name
-        command = getattr(import_module(f"{__name__}.{called}"), called)
-        assert isinstance(command, click.Command)
-        return command
-
-
-@click.command(
-    cls=_Commands,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    epilog="Example: swarmc build examples/search_and_rescue --target smach -o out",
+COMMANDS = (
+    *("build", "check", "codegen", "explain", "fmt", "import", "lsp", "simulate", "targets"),
+    "test",
 )
-@click.version_option(__version__, prog_name="swarmc")
-@options.debug
-def cli() -> None:
-    """Compile swarms of robots: .swarm models to exchange formats and ROS packages."""
+# Those whose options are plain data: a command line in the plainest form is read without Click.
+PLAIN = ("build", "check")
 
 
 def main() -> None:
@@ -87,25 +61,46 @@ def _leave(code: int) -> NoReturn:
 def run(arguments: Sequence[str]) -> int:
     """Run a command line; return the exit code."""
     try:
-        code = cli.main(list(arguments), prog_name="swarmc", standalone_mode=False)
+        code = _run_plainly(arguments)
+        if code is None:
+            from swarmdsl.cli import commands
+
+            code = commands.run(arguments)
         sys.stdout.flush()
-    except click.ClickException as error:
-        error.show()
-        return error.exit_code
-    except (click.Abort, KeyboardInterrupt):
+    except KeyboardInterrupt:
+        sys.stderr.write("\n")
         return INTERRUPTED
     except Exception as error:
         if isinstance(error, OSError) and error.errno in _STDOUT_FAULTS:
             _close_stdout()
-            click.echo(f"swarmc: cannot write the output: {error.strerror}", err=True)
+            sys.stderr.write(f"swarmc: cannot write the output: {error.strerror}\n")
             return ERRORS
         import logging
 
         logging.getLogger(__name__).debug("internal error", exc_info=True)
-        click.echo(f"swarmc: internal error: {type(error).__name__}: {error}", err=True)
-        click.echo("this is a bug in swarmc; `--debug` shows where", err=True)
+        sys.stderr.write(f"swarmc: internal error: {type(error).__name__}: {error}\n")
+        sys.stderr.write("this is a bug in swarmc; `--debug` shows where\n")
         return INTERNAL
-    return int(code or OK)
+    return code
+
+
+def _run_plainly(arguments: Sequence[str]) -> int | None:
+    """Run a command that needs no Click; None where it is needed, for help or for complaints."""
+    if not arguments or arguments[0] not in PLAIN:
+        return None
+    from swarmdsl.cli.parameters import read
+    from swarmdsl.project.command_line import UsageError
+
+    name, *words = arguments
+    module = import_module(f"{__name__}.{name}")
+    values = read(module.OPTIONS, words)
+    if values is None:
+        return None
+    try:
+        code: int = getattr(module, name)(**values)
+    except UsageError:  # nothing was done; Click complains, and tells the usage
+        return None
+    return code
 
 
 # All other input and output of swarmc turns its errors into diagnostics.

@@ -1,43 +1,38 @@
-"""Arguments and options that several commands have."""
+"""Arguments and options that several commands have, as Click reads them."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, TypeVar
 
 import click
 
-from swarmdsl.render import FORMATS
+from swarmdsl.cli.parameters import FORMAT, Option
+
+_Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
+
+
+def option(about: Option) -> Callable[[_Decorated], _Decorated]:
+    """What adds an option that is described as plain data."""
+    types = {None: None, str: None, Path: click.Path(path_type=Path)}
+    return click.option(
+        *about.flags,
+        about.parameter,
+        is_flag=about.kind is None,
+        type=click.Choice(about.choices) if about.choices else types[about.kind],
+        metavar=about.metavar,
+        multiple=about.repeated,
+        default=about.default,
+        show_default=bool(about.choices),
+        help=about.help,
+    )
+
 
 files = click.argument(
     "paths", metavar="[FILE|FOLDER]...", nargs=-1, type=click.Path(path_type=Path)
 )
-diagnostics_format = click.option(
-    "--format",
-    "format_",
-    type=click.Choice(FORMATS),
-    default=FORMATS[0],
-    show_default=True,
-    help="How diagnostics are printed.",
-)
-watch = click.option(
-    "--watch", is_flag=True, help="Run again whenever a file of the model changes, until Ctrl-C."
-)
-allow = click.option(
-    "--allow", multiple=True, metavar="NAME", help="Silence a warning; may be repeated."
-)
-warn = click.option(
-    "--warn",
-    multiple=True,
-    metavar="NAME",
-    help="Report a warning that is silent unless asked for, or that swarm.toml silences or denies. "
-    "May be repeated.",
-)
-deny = click.option(
-    "--deny",
-    multiple=True,
-    metavar="NAME",
-    help="Take a warning for an error; `warnings` stands for all. May be repeated.",
-)
+diagnostics_format = option(FORMAT)
 
 
 def _show_debug(_context: click.Context, _param: click.Parameter, debug: bool) -> None:

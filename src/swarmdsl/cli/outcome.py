@@ -6,8 +6,6 @@ import signal
 import sys
 from typing import TYPE_CHECKING, TextIO
 
-import click
-
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 from swarmdsl.render import render, summary
 
@@ -29,7 +27,7 @@ def conclude(result: Result, format_: str, stream: TextIO) -> int:
         from swarmdsl.render.written import render_written
 
         render_written(result.written, sys.stderr)
-    click.echo(summary(result.report, result.files), err=True)
+    sys.stderr.write(f"{summary(result.report, result.files)}\n")
     return exit_code(result.report)
 
 

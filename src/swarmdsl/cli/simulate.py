@@ -47,6 +47,11 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 )
 @click.option("--trace-file", type=click.Path(path_type=Path), help="Write that to a file.")
 @click.option("--timeline", type=click.Path(path_type=Path), help="Draw who was where, as SVG.")
+@click.option(
+    "--replay",
+    type=click.Path(path_type=Path),
+    help="Hold a trace of robots, lines of JSON, against the model, and say where they left it.",
+)
 @click.option("--seed", type=int, help="Another course of chance.  [default: the scenario's, or 0]")
 @click.option(
     "--until",
@@ -67,6 +72,7 @@ def simulate(
     trace: str | None,
     trace_file: Path | None,
     timeline: Path | None,
+    replay: Path | None,
     seed: int | None,
     until: int | None,
     real_time: bool,
@@ -83,8 +89,22 @@ def simulate(
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` are not given together")
+    for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
+        if replay is not None and value is not None:
+            raise click.UsageError(f"`--replay` and `--{name}` are not given together")
     request = Request(
-        paths, machine, swarm, events, scenario, trace, trace_file, timeline, seed, until, real_time
+        paths,
+        machine,
+        swarm,
+        events,
+        scenario,
+        trace,
+        trace_file,
+        timeline,
+        seed,
+        until,
+        real_time,
+        replay,
     )
     well = simulate_(request, lambda report: render(report, format_, sys.stderr))
     return INTERRUPTED if well is None else OK if well else ERRORS

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from time import perf_counter, sleep
 
 import click
 
+from swarmdsl.compiler import Result
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.project import places
+from swarmdsl.project.command_line import UsageError
 from swarmdsl.project.settings import Settings
 from swarmdsl.workspace import Workspace
 
@@ -17,54 +22,86 @@ _PAUSE = 0.2
 """Seconds between two looks at the files."""
 
 Stamp = tuple[int, int]
+Stamps = Mapping[str, Stamp | None]
+# Says what came of a check, or builds what it found valid.
+Conclude = Callable[[Result, Settings], object]
 
 
-def watch_files(settings: Settings, conclude: Callable[[Workspace], object]) -> int:
-    """Conclude each time that a file of a model changes; return 0 when the user ends it.
+def watch_files(
+    paths: tuple[Path, ...],
+    read_settings: Callable[[Diagnostics], Settings],
+    conclude: Conclude,
+) -> int:
+    """Conclude each time that a file of a model or of its project changes; 0 when the user ends it.
 
     Looking at the times of a few hundred files takes milliseconds, and works on all file systems.
+    What the settings make impossible is told, and may be mended there.
     """
     try:
-        workspace = Workspace(settings.sources, settings)
-        gc.collect()
-        gc.freeze()
-        known = _stamps(workspace)
-        _show(workspace, conclude, None)
         while True:
-            sleep(_PAUSE)
-            found = _stamps(workspace)
-            changed = {path for path, _ in known.items() ^ found.items()}
-            if changed:
-                start = perf_counter()
-                workspace.update(dict.fromkeys(changed))
-                # Of what changed meanwhile the older time counts, so that it is seen next.
-                known = _stamps(workspace)
-                known.update((path, found[path]) for path in known.keys() & found.keys())
-                _show(workspace, conclude, perf_counter() - start)
-                gc.collect()
+            before = _stamps(places(paths[0] if paths else Path()))
+            report = Diagnostics()
+            settings = read_settings(report)
+            if report.has_errors:
+                _show(conclude, Result(report, files=1), settings)
+                while _stamps(before) == before:
+                    sleep(_PAUSE)
+            else:
+                _watch(before, settings, conclude)
     except KeyboardInterrupt:
         click.echo(err=True)
         return 0
 
 
+def _watch(project: Stamps, settings: Settings, conclude: Conclude) -> None:
+    """Watch the files of a model until the project file changes."""
+    workspace = Workspace(settings.sources, settings)
+    gc.collect()
+    gc.freeze()
+    known = _stamps(workspace.watched())
+    _show(conclude, _result(workspace, settings), settings)
+    while _stamps(project) == project:
+        sleep(_PAUSE)
+        found = _stamps(workspace.watched())
+        changed = {path for path, _ in known.items() ^ found.items()}
+        if changed:
+            start = perf_counter()
+            workspace.update({Path(path): None for path in changed})
+            seconds = perf_counter() - start
+            # Of what changed meanwhile the older time counts, so that it is seen next.
+            known = _stamps(workspace.watched())
+            known.update((path, found[path]) for path in known.keys() & found.keys())
+            _show(conclude, _result(workspace, settings), settings, seconds)
+            gc.collect()
+
+
+def _result(workspace: Workspace, settings: Settings) -> Result:
+    report = workspace.report
+    valid = None if report.has_errors else workspace.project
+    return Result(report, workspace.files, valid, settings.name)
+
+
 def _show(
-    workspace: Workspace, conclude: Callable[[Workspace], object], seconds: float | None
+    conclude: Conclude, result: Result, settings: Settings, seconds: float | None = None
 ) -> None:
     if sys.stdout.isatty():
         click.clear()
-    conclude(workspace)
+    try:
+        conclude(result, settings)
+    except UsageError as error:  # of what the project file leaves open
+        click.echo(f"Error: {error}", err=True)
     taken = f" after {seconds * 1000:.0f} ms" if seconds is not None else ""
     click.echo(f"waiting for changes{taken}; end with Ctrl-C", err=True)
 
 
-def _stamps(workspace: Workspace) -> dict[Path, Stamp | None]:
-    """When each file was changed, and how long it is; None for one that is not there."""
-    return {path: _stamp(path) for path in workspace.watched()}
+def _stamps(paths: Iterable[str | Path]) -> dict[str, Stamp | None]:
+    """When each file and folder was changed, and how long it is; None for one that is not there."""
+    return {os.fspath(path): _stamp(path) for path in paths}
 
 
-def _stamp(path: Path) -> Stamp | None:
+def _stamp(path: str | Path) -> Stamp | None:
     try:
-        stat = path.stat()
-    except OSError:
+        stat = os.stat(path)  # noqa: PTH116 - takes any path, a far too long one too
+    except (OSError, ValueError):
         return None
     return stat.st_mtime_ns, stat.st_size

@@ -13,7 +13,7 @@ from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.folding import Folded, Folding
 from swarmdsl.inference.fitting import fits, is_number, range_of
-from swarmdsl.inference.operators import Operation
+from swarmdsl.inference.operators import Application
 from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Primitive, Type
 from swarmdsl.scopes import report_unresolved
@@ -21,18 +21,14 @@ from swarmdsl.source import Span
 from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
     Call,
-    Constant,
     EnumType,
     ExpressionTree,
     Field,
     FieldUse,
-    FitnessInput,
     NameUse,
     OperatorUse,
-    Param,
     Parameter,
     Value,
-    Variable,
     Word,
 )
 
@@ -58,57 +54,58 @@ class Typing:
         """The same where `event` is a message of that type, if it is known which event it is."""
         return Typing(self.interfaces, self.report, known, type_, self.folding)
 
-    def silent(self) -> Typing:
-        """The same, and what is wrong is not reported."""
-        return Typing(self.interfaces, Diagnostics(), self.has_event, self.event, self.folding)
-
     def infer(self, tree: ExpressionTree) -> Type | None:
         """The type of an expression; what is wrong in it is reported."""
         match tree:
+            case NameUse():
+                return self._name(tree)
             case Value(value=value, unit=unit):
                 return _value_type(value, unit)
-            case NameUse(name="event"):
-                if not self.has_event:
-                    self.report.report(
-                        "no-event-data",
-                        tree.span,
-                        help="use it in a guard or effect of a transition on one event",
-                    )
-                return self.event
-            case NameUse(target=EnumType() as enum):
-                self.report.report(
-                    "bad-operand",
-                    tree.span,
-                    operator=tree.span.text,
-                    operands="its own: name one of its values",
-                    help=f"write `{tree.span.text}.{enum.values[0].name}`" if enum.values else None,
-                )
-                return None
-            case NameUse(target=None):
-                return None
-            case NameUse(target=Variable() | Param() | Constant() | FitnessInput() as value):
-                return value.type.type
             case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
                 return self._enum_value(enum, name)
             case FieldUse(base=base, name=name):
                 return self.field(self.infer(base), name, name.span)
-            case Call(arguments=operands) | OperatorUse(operands=operands):
+            case OperatorUse(operands=operands) | Call(arguments=operands):
                 return self._checked_result(tree, [self.infer(operand) for operand in operands])
         raise AssertionError(tree)
 
+    def _name(self, use: NameUse) -> Type | None:
+        """The type of what a name means."""
+        if use.name == "event":
+            if not self.has_event:
+                self.report.report(
+                    "no-event-data",
+                    use.span,
+                    help="use it in a guard or effect of a transition on one event",
+                )
+            return self.event
+        target = use.target
+        if isinstance(target, EnumType):
+            self.report.report(
+                "bad-operand",
+                use.span,
+                operator=use.span.text,
+                operands="its own: name one of its values",
+                help=f"write `{use.span.text}.{target.values[0].name}`" if target.values else None,
+            )
+            return None
+        return target.type.type if target is not None else None
+
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """The type of an operation on operands of these types."""
-        return Operation(tree, types, self._is_enum, self.report).result()
+        return Application(tree, types, self._is_enum, self.report).result()
 
-    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> None:
-        """Report an expression whose value cannot be used as a `wanted`."""
+    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> bool:
+        """Report an expression whose value cannot be used as a `wanted`; return if it is right."""
         if tree is None:
-            return
+            return True
+        before = len(self.report)
         found = self.infer(tree)
-        value = self.folding.value(tree)
-        if fits(found, wanted) and value is not None:
-            self._check_size(tree, value, wanted)
-        elif not fits(found, wanted):
+        if fits(found, wanted):
+            value = self.folding.value(tree)
+            if value is not None:
+                self._check_size(tree, value, wanted)
+        else:
             help_ = None
             if wanted == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
@@ -118,13 +115,13 @@ class Typing:
             self.report.report(
                 "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
             )
+        return len(self.report) == before
 
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
         """The type of an operation; one that has no result, whenever it is done, is reported."""
-        mistakes = Diagnostics()
-        type_ = Operation(tree, types, self._is_enum, mistakes).result()
-        if mistakes:
-            self.report.include(mistakes)
+        before = len(self.report)
+        type_ = self.result(tree, types)
+        if len(self.report) > before:
             return type_
         fault = self.folding.undefined(tree, duration=type_ == DURATION)
         if fault is not None:
@@ -140,7 +137,7 @@ class Typing:
                 return
             case int() if (possible := range_of(wanted)) is not None and value not in possible:
                 help_ = f"it is a number from {possible[0]} to {possible[-1]}"
-            case int() | float() if wanted == _FLOAT32 and abs(value) > _LARGEST_FLOAT32:
+            case int() | float() if abs(value) > _LARGEST_FLOAT32 and wanted == _FLOAT32:
                 help_ = "larger numbers need a `float64`"
             case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):
                 found = f"a text of {len(value)} characters"

@@ -5,11 +5,16 @@ from __future__ import annotations
 from swarmdsl.ir.types import FLOATS, INTEGERS, Array, Primitive, Type
 
 _NUMBERS = {*INTEGERS, *FLOATS, "byte", "char"}
+_RANGES = {
+    name: range(2**bits) if name.startswith("u") else range(-(2 ** (bits - 1)), 2 ** (bits - 1))
+    for name in INTEGERS
+    for bits in (int(name.lstrip("uint")),)
+}
 
 
 def fits(found: Type | None, wanted: Type | None) -> bool:
     """Whether a value of one type can be used where the other is wanted."""
-    if found is None or wanted is None or found == wanted:
+    if found is None or wanted is None or found is wanted or found == wanted:
         return True
     if isinstance(found, Array) and isinstance(wanted, Array):
         if wanted.size is None or (wanted.bounded and found.size is not None):
@@ -41,9 +46,4 @@ def is_float(type_: Type | None) -> bool:
 
 def range_of(type_: Type | None) -> range | None:
     """The numbers that an integer type can hold; None for other types."""
-    if not isinstance(type_, Primitive) or type_.name not in INTEGERS:
-        return None
-    bits = int(type_.name.lstrip("uint"))
-    return (
-        range(2**bits) if type_.name.startswith("u") else range(-(2 ** (bits - 1)), 2 ** (bits - 1))
-    )
+    return _RANGES.get(type_.name) if isinstance(type_, Primitive) else None

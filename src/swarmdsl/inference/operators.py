@@ -15,7 +15,7 @@ _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
 
 
 @dataclass(frozen=True)
-class Operation:
+class Application:
     """An operator or function on operands of these types, None for one that is not known."""
 
     tree: Call | OperatorUse
@@ -55,7 +55,7 @@ class Operation:
             return FLOAT
         if self._durations():
             return DURATION
-        return self._widest() if self._require(is_number, self._unit()) else None
+        return self._widest() if self._require(is_number, self._unit) else None
 
     def _sign(self, operator: str, operand: Type | None) -> Type | None:
         if operator == "not":
@@ -72,16 +72,15 @@ class Operation:
                 advice = "compare their fields" if self._messages() else self._unit()
                 self._report_operands(advice)
             return BOOL
+        numbers = is_number(left) and is_number(right)
         if operator in ("<", "<=", ">", ">="):
-            if not self._durations():
-                enums = [t for t in self.types if isinstance(t, Named) and self.is_enum(t)]
-                advice = (
-                    "values of enums have no order: use `==` or `!=`" if enums else self._unit()
-                )
-                self._require(is_number, advice)
+            if not numbers and not self._durations():
+                self._require(is_number, self._order)
             return BOOL
         if left is None or right is None:
             return None
+        if numbers:
+            return FLOAT if operator == "/" else self._widest()
         if operator in ("+", "-") and self._durations():
             return DURATION
         if operator == "+" and is_text(left) and is_text(right):
@@ -92,9 +91,8 @@ class Operation:
             return DURATION
         if operator == "/" and self._durations():
             return FLOAT
-        if not self._require(is_number, self._unit() if operator in ("+", "-") else None):
-            return None
-        return FLOAT if operator == "/" else self._widest()
+        self._require(is_number, self._unit if operator in ("+", "-") else None)
+        return None
 
     def _comparable(self, left: Type | None, right: Type | None) -> bool:
         """Whether two values are equal or not in all targets: messages and arrays are not."""
@@ -119,6 +117,11 @@ class Operation:
             return None
         return FLOAT if any(map(is_float, self.types)) else INT
 
+    def _order(self) -> str | None:
+        """What to write for a comparison of what has no order."""
+        enums = any(isinstance(known, Named) and self.is_enum(known) for known in self.types)
+        return "values of enums have no order: use `==` or `!=`" if enums else self._unit()
+
     def _unit(self) -> str | None:
         """What to write for a number that stands beside a duration."""
         if DURATION not in self.types:
@@ -131,11 +134,13 @@ class Operation:
         ]
         return f"give it a unit: `{numbers[0]} s`" if numbers else None
 
-    def _require(self, test: Callable[[Type], bool], advice: str | None = None) -> bool:
+    def _require(
+        self, test: Callable[[Type], bool], advice: Callable[[], str | None] | None = None
+    ) -> bool:
         """Report operands that are not of the right type; return whether all are."""
         fine = all(known is None or test(known) for known in self.types)
         if not fine:
-            self._report_operands(advice)
+            self._report_operands(advice() if advice is not None else None)
         return fine
 
     def _report_operands(self, advice: str | None = None) -> None:

@@ -33,7 +33,7 @@ from swarmdsl.syntax import (
     StateMachine,
     TypeRef,
     Variable,
-    walk,
+    nodes_of,
 )
 from swarmdsl.topics import heard_on
 
@@ -184,8 +184,8 @@ def _monitored(
     """One event for each other topic that is monitored, named after it."""
     seen: set[str] = set()
     for _, declaration in pairs:
-        for node in walk(declaration):
-            if not isinstance(node, MonitorTrigger) or node.type.type is None:
+        for node in nodes_of(declaration, MonitorTrigger):
+            if node.type.type is None:
                 continue
             topic = heard_on(node)
             if topic in declared or topic in seen:

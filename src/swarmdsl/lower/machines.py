@@ -38,7 +38,7 @@ from swarmdsl.syntax import (
     StateMachine,
     Variable,
     Vertex,
-    walk,
+    nodes_of,
 )
 
 
@@ -142,7 +142,7 @@ class _Builder:
                 )
                 if state.machine is not None:
                     return self._submachine(made, state, frame)
-                if any(True for _ in vertices(state)):
+                if vertices(state):
                     return replace(
                         made,
                         kind=ir.StateKind.COMPOSITE,
@@ -217,17 +217,13 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
     A default is that of the members and components which behave so, where they agree.
     """
     own = [item for item in machine.items if isinstance(item, Param)]
-    used = {
-        node.target
-        for node in walk(machine)
-        if isinstance(node, NameUse) and isinstance(node.target, Param)
-    }
+    used = {use.target for use in nodes_of(machine, NameUse) if isinstance(use.target, Param)}
     given = [
         values for owner in context.behaving.get(machine, []) for values in _values(owner, context)
     ]
     found = []
     for param in lower_params(
-        [*own, *sorted(used - set(own), key=lambda p: p.span.start)], context
+        [*own, *sorted(used - set(own), key=lambda p: p.span.absolute.start)], context
     ):
         values = [params.get(param.name, param.default) for params in given] or [param.default]
         agreed = values[0] if all(value == values[0] for value in values) else None

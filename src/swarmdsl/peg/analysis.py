@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from string import ascii_letters, punctuation
+from string import ascii_letters
 from typing import Any
 
+from swarmdsl.expressions import MARKS
 from swarmdsl.peg.grammar import (
     Assign,
     Choice,
@@ -29,7 +30,6 @@ except ImportError:  # Python 3.10
     import sre_parse as sre
 
 _LETTERS = frozenset(ascii_letters + "_")
-MARKS = frozenset(punctuation) - {"_"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -27,26 +27,9 @@ from swarmdsl.peg.grammar import (
     inside,
 )
 from swarmdsl.peg.lookahead import Lookahead
+from swarmdsl.peg.target import Target
 
 _ADVANCE = "ahead = TOKEN(text, ahead.end()); token = ahead[1]"
-
-
-@dataclass(frozen=True)
-class Target:
-    """What the rules become.
-
-    `nodes` are the classes of nodes with their arguments, `documented` those that take
-    documentation. A rule in `words` becomes a `Word`, by an expression for its text. The
-    functions in `written` are not generated: they parse rules of that name. `begin` is what
-    `parse` does first, `result` what it returns with the model.
-    """
-
-    nodes: Mapping[str, tuple[str, ...]]
-    documented: frozenset[str]
-    words: Mapping[str, str]
-    written: Mapping[str, str]
-    begin: str = ""
-    result: str = "0"
 
 
 @dataclass
@@ -79,13 +62,9 @@ class Emission:
             self._expression(rule.body, fail)
             if recursive:
                 self._line("depth -= 1")
-            arguments = "".join(f", {name}_" for name in self.target.nodes[rule.name])
-            made = f"{rule.name}({self._span('start')}{arguments})"
-            if rule.name in self.target.documented:
-                self._line(f"made = {made}")
-                self._line("if start in docs: made.doc = docs.pop(start)")
-                made = "made"
-            self._line(f"return {made}")
+            fields = {"span": self._span("start"), **self.target.nodes[rule.name]}
+            self._make("made", rule.name, fields)
+            self._line("return made")
         self._line("")
 
     def ordered_attempts(self) -> None:
@@ -226,7 +205,9 @@ class Emission:
             self._line("at = ahead.start()")
             text = self._text(part, fail, known=known)
             span = f"new_span(Span, (source, at, at + len({text})))"
-            return f"Ref({text}, {assign.refers!r}, {span})"
+            fields = {"name": text, "kind": repr(assign.refers), "span": span, "target": "None"}
+            self._make("value", "Ref", fields)
+            return "value"
         if rule.kind == "choice":
             self._line(f"rule = {self.look.table(rule)}")
             self._line(f"if rule is None: {fail}")
@@ -282,6 +263,12 @@ class Emission:
                     self._line(f"{text} += {match}[1]; behind = {match}")
                     self._line(f"ahead = TOKEN(text, {match}.end()); token = ahead[1]")
         return text
+
+    def _make(self, variable: str, node: str, fields: Mapping[str, str]) -> None:
+        """Make a node; its class would take a third longer for it."""
+        self._line(f"{variable} = new_node({node})")
+        for name, value in fields.items():
+            self._line(f"{variable}.{name} = {value}")
 
     # ---- lines
 

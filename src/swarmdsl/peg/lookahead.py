@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 
-from swarmdsl.peg.analysis import MARKS, Analysis, First
+from swarmdsl.expressions import MARKS
+from swarmdsl.peg.analysis import Analysis, First
 from swarmdsl.peg.grammar import Assign, Choice, Expression, Rule, Terminal, UnsupportedError, Use
 
 # ASCII words and marks; the empty text stands for all else, and for the end.
@@ -28,10 +29,10 @@ class Lookahead:
 
     def constants(self) -> list[str]:
         """The lines that define the regular expressions and sets."""
-        blank = self.analysis.grammar.blank
+        grammar = self.analysis.grammar
         return [
-            f"BLANK = {blank!r}",
-            f"TOKEN = re.compile({f'({_TOKEN})'!r} + BLANK).match",
+            f"BLANK = {grammar.blank!r}",
+            f"TOKEN = re.compile({f'({_TOKEN}){grammar.no_comment}'!r}).match",
             *(
                 f"{name} = re.compile({f'({regex})'!r} + BLANK, re.MULTILINE).match"
                 for regex, name in self._regexes.items()

@@ -25,7 +25,7 @@ Instruction = tuple[int, int]
 
 
 # A regular expression, the name of its rule, and the text where it is one.
-Terminal = tuple[str, str, str]
+MachineTerminal = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,15 +33,15 @@ class Mismatch:
     """The place where a text stops following a grammar, and all that could come there."""
 
     at: int
-    expected: frozenset[Terminal]
+    expected: frozenset[MachineTerminal]
 
 
 def mismatch(
-    program: Sequence[Instruction], terminals: Sequence[Terminal], blank: str, text: str
+    program: Sequence[Instruction], terminals: Sequence[MachineTerminal], blank: str, text: str
 ) -> Mismatch | None:
     """Where a text departs from the grammar of a program; None when it follows it."""
     skip = _matcher(blank)
-    furthest, expected = -1, set[Terminal]()
+    furthest, expected = -1, set[MachineTerminal]()
     # Where to go on, and at which offset: None where a call returns.
     stack: list[tuple[int, int | None]] = []
     address = at = 0

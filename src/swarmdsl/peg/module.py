@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from swarmdsl.peg.analysis import Analysis
-from swarmdsl.peg.emission import Emission, Target
+from swarmdsl.peg.emission import Emission
 from swarmdsl.peg.grammar import Grammar, Terminal, inside
 from swarmdsl.peg.lookahead import Lookahead
 from swarmdsl.peg.program import Program
+from swarmdsl.peg.target import Target
 
 _DEFINITIONS = '''\
+new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
 

@@ -26,7 +26,7 @@ class Program:
 
     def __init__(self, grammar: Grammar) -> None:
         self.instructions: list[machine.Instruction] = []
-        self.terminals: dict[machine.Terminal, int] = {}
+        self.terminals: dict[machine.MachineTerminal, int] = {}
         self._addresses: dict[str, int] = {}
         self._calls: list[tuple[int, str]] = []
         self._write(Use(grammar.start))

@@ -7,19 +7,27 @@ from pathlib import Path
 from typing import Any
 
 import swarmdsl
-from swarmdsl.peg.emission import Target
 from swarmdsl.peg.grammar import read
 from swarmdsl.peg.module import definitions
+from swarmdsl.peg.target import Target
 from swarmdsl.resources import grammar_checksum
-from swarmdsl.syntax import NODES, Documented
+from swarmdsl.syntax import NODES, Documented, Node
 
 PATH = Path(swarmdsl.__file__).with_name("swarm_parser.py")
+
+
+def _values(node: type[Node]) -> dict[str, str]:
+    """Expressions for the fields of a node: what was parsed, its documentation, or the default."""
+    parsed = {part.name: f"{part.name}_" for part in fields(node) if part.init}
+    others = {part.name: repr(part.default) for part in fields(node) if not part.init}
+    if issubclass(node, Documented):
+        others["doc"] = "docs.pop(start) if start in docs else ''"
+    del parsed["span"]
+    return {**parsed, **others}
+
+
 TARGET = Target(
-    nodes={
-        name: tuple(field.name for field in fields(node) if field.init and field.name != "span")
-        for name, node in NODES.items()
-    },
-    documented=frozenset(name for name, node in NODES.items() if issubclass(node, Documented)),
+    nodes={name: _values(node) for name, node in NODES.items()},
     words={
         **dict.fromkeys(("Name", "FieldName", "InterfaceName", "PackageName"), "{}"),
         "Text": "unquoted({})",

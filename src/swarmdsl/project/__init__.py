@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
@@ -30,13 +30,18 @@ def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
 
 def find_file(start: Path) -> Path | None:
     """The project file in the folder of `start` or in the closest one above it."""
-    # As text: what was given may be no path that can be looked up.
-    absolute = os.path.abspath(start)  # noqa: PTH100
-    for folder in (Path(absolute), *Path(absolute).parents):
-        found = os.path.join(folder, FILE_NAME)  # noqa: PTH118
+    for found in places(start):
         if os.path.isfile(found):  # noqa: PTH113
             return Path(found if start.is_absolute() else os.path.relpath(found))
     return None
 
 
-__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings"]
+def places(start: Path) -> Iterator[str]:
+    """Where the project file of `start` is looked for; the first there is counts."""
+    # As text: what was given may be no path that can be looked up.
+    absolute = os.path.abspath(start)  # noqa: PTH100
+    for folder in (Path(absolute), *Path(absolute).parents):
+        yield os.path.join(folder, FILE_NAME)  # noqa: PTH118
+
+
+__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings", "places"]

@@ -9,8 +9,6 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import click
-
 from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Level
 from swarmdsl.project import find_settings
@@ -20,6 +18,10 @@ from swarmdsl.source import COMMAND_LINE, Source, Span
 
 if TYPE_CHECKING:
     from swarmdsl.emit import Request
+
+
+class UsageError(Exception):
+    """What is asked for on the command line cannot be meant; nothing has been done yet."""
 
 
 def run_settings(
@@ -49,11 +51,11 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
         name, equals, value = option.partition("=")
         target, dot, name = name.partition(".")
         if not (equals and dot and name):
-            raise click.UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE")
+            raise UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE")
         if target not in given:
-            raise click.UsageError(f"`--option {option}`: target `{target}` is not built")
+            raise UsageError(f"`--option {option}`: target `{target}` is not built")
         if given[target].setdefault(name, value) != value:
-            raise click.UsageError(
+            raise UsageError(
                 f"`{target}.{name}` is given as `{given[target][name]}` and as `{value}`"
             )
         places[target][name] = _place(option)
@@ -78,9 +80,9 @@ def _levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
             option = f"`--{level.value} {word}`"
             if name is None:
                 hint = similar_diagnostic(word) or "`swarmc explain` lists all"
-                raise click.UsageError(f"{option}: there is no diagnostic `{word}`: {hint}")
+                raise UsageError(f"{option}: there is no diagnostic `{word}`: {hint}")
             if not may_have(name, level):
-                raise click.UsageError(f"{option}: errors cannot be allowed")
+                raise UsageError(f"{option}: errors cannot be allowed")
             if (other := found.setdefault(name, level)) is not level:
-                raise click.UsageError(f"{option}: `--{other.value}` names `{name}` too")
+                raise UsageError(f"{option}: `--{other.value}` names `{name}` too")
     return found

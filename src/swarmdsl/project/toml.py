@@ -68,7 +68,8 @@ def parse_toml(source: Source, report: Diagnostics) -> Document | None:
         at = getattr(error, "pos", 0)
         reason = str(getattr(error, "msg", error))
         place = Span(source, at, at)
-        reason = reason[:1].lower() + reason[1:]
+        if not reason.startswith("TOML"):
+            reason = reason[:1].lower() + reason[1:]
         if reason.startswith(_OVERWRITING):
             place = _last_key(source, at)
             reason = f"`{place.text}` overwrites what is given before it"

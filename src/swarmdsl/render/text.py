@@ -22,6 +22,8 @@ Piece = tuple[str, str]
 def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     """Write the diagnostics, in colour when the stream is a terminal."""
     drawn = [list(_drawn(diagnostic)) for diagnostic in found]
+    if not drawn:
+        return
     if not (stream.isatty() or os.environ.get("FORCE_COLOR")):
         stream.writelines(f"{''.join(text for text, _ in pieces)}\n" for pieces in drawn)
         return

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections import Counter
 from typing import TextIO
 
-import click
-
 from swarmdsl.output import Written
 from swarmdsl.render import counted
 from swarmdsl.render.printable import printable
@@ -27,9 +25,9 @@ def render_written(written: Written, stream: TextIO) -> None:
         _render_table(["target", *columns], rows, stream)
     for path in written.left:
         place = printable(str(written.folder / path))
-        click.echo(f"note: `{place}` is no longer generated; it was edited, so it stays", stream)
+        stream.write(f"note: `{place}` is no longer generated; it was edited, so it stays\n")
     files = len(written.written) + len(written.unchanged) + len(written.kept)
-    click.echo(f"{counted(files, 'file')} in {printable(str(written.folder))}", stream)
+    stream.write(f"{counted(files, 'file')} in {printable(str(written.folder))}\n")
 
 
 def _render_table(head: list[str], rows: list[list[str]], stream: TextIO) -> None:
@@ -37,4 +35,4 @@ def _render_table(head: list[str], rows: list[list[str]], stream: TextIO) -> Non
     width, *widths = (max(map(len, column)) for column in zip(head, *rows, strict=True))
     for row in (head, *rows):
         cells = (text.rjust(wide) for text, wide in zip(row[1:], widths, strict=True))
-        click.secho("  ".join((row[0].ljust(width), *cells)), stream, bold=row is head)
+        stream.write("  ".join((row[0].ljust(width), *cells)) + "\n")

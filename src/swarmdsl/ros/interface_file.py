@@ -33,7 +33,7 @@ from swarmdsl.syntax import (
 )
 
 Kind = Literal["msg", "srv", "action"]
-KINDS: tuple[Kind, ...] = get_args(Kind)
+INTERFACE_KINDS: tuple[Kind, ...] = get_args(Kind)
 Interface = MessageType | ServiceType | ActionType
 
 # The parts between the `---` of a file, as the attributes of its node are called.

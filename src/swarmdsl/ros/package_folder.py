@@ -1,16 +1,16 @@
-"""Folders of interface packages: which interfaces there are, of which package."""
+"""Folders of ROS packages: which interfaces and parameter files there are, of which package."""
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.libraries import SUFFIX
-from swarmdsl.ros.interface_file import KINDS, Kind
+from swarmdsl.ros.interface_file import INTERFACE_KINDS, Kind
 from swarmdsl.source import Span
 
 _MANIFEST = "package.xml"
@@ -21,6 +21,8 @@ _BUILT = frozenset(
     f"{name}{suffix}" for name in ("build", "devel", "install") for suffix in ("", "_isolated")
 )
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
+# Where the packages of ROS keep the files with values for their parameters.
+_PARAMETERS = ("param", "params", "config", "cfg")
 _WANTED = (
     "name the folder of a ROS package with .msg, .srv or .action files, "
     "or one with several such packages"
@@ -37,12 +39,40 @@ class InterfacePath:
     path: Path
 
 
-def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[InterfacePath]:
+@dataclass(frozen=True)
+class ParameterPath:
+    """A file with values for the parameters of the nodes of a package."""
+
+    package: str
+    path: Path
+
+
+def find_parameters(folder: Path) -> list[ParameterPath]:
+    """The YAML files in a folder that have values for parameters, by package and path.
+
+    In a package these lie in `param`, `config` and the like; a folder without `package.xml` is
+    taken for a copy of that. What cannot be read there is passed over.
+    """
+    finder = _Finder(folder, None, Diagnostics())
+    return sorted(finder.find_parameters(), key=lambda found: (found.package, str(found.path)))
+
+
+def find_interfaces(
+    folder: Path,
+    at: Span | None,
+    report: Diagnostics,
+    *,
+    required: bool = True,
+    look: Callable[[Path], None] | None = None,
+) -> list[InterfacePath]:
     """The interfaces in a folder, by package, kind and name; mistakes are reported at `at`.
 
     The folder is that of a package, with the files in it or in `msg`, `srv` and `action`,
-    or one with several packages below it: a ROS workspace, for instance.
+    or one with several packages below it: a ROS workspace, for instance. That there are none is a
+    mistake where they are `required`. `look` hears of each folder and manifest that is looked at.
     """
+    if look is not None:
+        look(folder)
     if not folder.exists():
         report.report("file-not-found", at, path=folder, help=_WANTED)
         return []
@@ -56,7 +86,7 @@ def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[
             help="write `import` without `ros`" if folder.suffix == SUFFIX else _WANTED,
         )
         return []
-    finder = _Finder(folder, at, report)
+    finder = _Finder(folder, at, report, look)
     found: dict[tuple[str, Kind, str], InterfacePath] = {}
     for interface in finder.find():
         first = found.setdefault((interface.package, interface.kind, interface.name), interface)
@@ -68,7 +98,7 @@ def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[
                 name=f"{interface.package}/{interface.kind}/{interface.name}",
                 notes=(f"the files are `{first.path}` and `{interface.path}`",),
             )
-    if not found and not finder.reported:
+    if required and not found and not finder.reported:
         report.report(
             "file-not-found",
             at,
@@ -80,14 +110,21 @@ def find_interfaces(folder: Path, at: Span | None, report: Diagnostics) -> list[
 
 def _order(key: tuple[str, Kind, str]) -> tuple[str, int, str]:
     package, kind, name = key
-    return package, KINDS.index(kind), name
+    return package, INTERFACE_KINDS.index(kind), name
 
 
 class _Finder:
     """Looks through one folder."""
 
-    def __init__(self, folder: Path, at: Span | None, report: Diagnostics) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        at: Span | None,
+        report: Diagnostics,
+        look: Callable[[Path], None] | None = None,
+    ) -> None:
         self._top = folder
+        self._look = look
         self._at = at
         self._report = report
         # The package that each manifest names, None for a manifest that names none.
@@ -100,7 +137,7 @@ class _Finder:
             files = [
                 (name.removesuffix(f".{kind}"), kind, folder / name)
                 for name in names
-                for kind in KINDS
+                for kind in INTERFACE_KINDS
                 if name.endswith(f".{kind}")
             ]
             if not files:
@@ -115,6 +152,20 @@ class _Finder:
                 else:
                     self._bad_name(name, "interface", f"rename `{path}`")
 
+    def find_parameters(self) -> Iterator[ParameterPath]:
+        """All files with values for parameters."""
+        for folder, names in self._folders():
+            within = self._within(folder, _PARAMETERS)
+            home = next((parent for parent in within if parent.name in _PARAMETERS), None)
+            package = self._manifest_name(within)
+            if package is not None and home is None:
+                continue  # of a package, but not for its nodes
+            if package is None:
+                package = (within[0].parent if home is within[0] else within[0]).name
+            for name in names if _NAME.fullmatch(package) else ():
+                if name.endswith((".yaml", ".yml")):
+                    yield ParameterPath(package, folder / name)
+
     def _folders(self) -> Iterator[tuple[Path, list[str]]]:
         """The folders that may have interfaces, each with the names of its files."""
         seen: set[str] = set()
@@ -124,28 +175,44 @@ class _Finder:
                 inner.clear()
                 continue
             seen.add(real)
+            if self._look is not None:
+                self._look(Path(folder))
             left_out = _BUILT if "src" in inner and _MANIFEST not in names else frozenset()
             inner[:] = sorted({name for name in inner if name[0] != "."} - left_out)
             yield Path(folder), sorted(names)
 
     def _package(self, folder: Path) -> str:
-        """The package that the files in a folder belong to."""
-        home = _absolute(folder)
-        parents = [home, *home.parents]
-        top = _absolute(self._top)
-        within = parents[: parents.index(top) + 1] if top in parents else parents[:1]
-        if top.name in KINDS:
-            within.append(top.parent)
-        for parent in within:
-            name = self._named_by_manifest(parent)
-            if name is not None:
-                return name
-        holder = next((parent for parent in parents if parent.name in KINDS), None)
+        """The package that the interfaces in a folder belong to."""
+        within = self._within(folder, INTERFACE_KINDS)
+        name = self._manifest_name(within)
+        if name is not None:
+            return name
+        home = within[0]
+        holder = next(
+            (parent for parent in (home, *home.parents) if parent.name in INTERFACE_KINDS), None
+        )
         return (holder.parent if holder in within else home).name
+
+    def _within(self, folder: Path, inside: Sequence[str]) -> list[Path]:
+        """A folder and those around it that may be the one of its package.
+
+        Where the user has named one that lies `inside` a package, the package is around it.
+        """
+        home, top = _absolute(folder), _absolute(self._top)
+        parents = [home, *home.parents]
+        within = parents[: parents.index(top) + 1] if top in parents else parents[:1]
+        return [*within, top.parent] if top.name in inside else within
+
+    def _manifest_name(self, folders: Iterable[Path]) -> str | None:
+        """The package that the first manifest in these folders names."""
+        names = map(self._named_by_manifest, folders)
+        return next((name for name in names if name is not None), None)
 
     def _named_by_manifest(self, folder: Path) -> str | None:
         manifest = folder / _MANIFEST
         if manifest not in self._manifests:
+            if self._look is not None:
+                self._look(manifest)
             self._manifests[manifest] = self._read(manifest) if manifest.is_file() else None
         return self._manifests[manifest]
 

@@ -18,7 +18,7 @@ from typing import Literal
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir.types import Named
-from swarmdsl.ros.interface_file import KINDS, Interface, Kind, parse_interface
+from swarmdsl.ros.interface_file import INTERFACE_KINDS, Interface, Kind, parse_interface
 from swarmdsl.source import Source
 from swarmdsl.syntax import Documented
 
@@ -34,7 +34,7 @@ def lookup(type_: Named, kind: Kind | None = None) -> Interface | None:
     A service and an action may share a name: `nav_msgs/GetMap`. Without `kind` a message
     comes first, then a service.
     """
-    for wanted in KINDS if kind is None else (kind,):
+    for wanted in INTERFACE_KINDS if kind is None else (kind,):
         found = _parsed(type_.package, wanted, type_.name)
         if found is not None:
             return found

@@ -2,8 +2,8 @@
 
 SCXML 1.0, Appendix D, over tables of plain data (`Machine`). An `Instance` of one runs in a
 `World`, which has the clock and the servers of activities; nothing here reads the time or
-knows of threads. Needs the standard library only, and nothing else of swarmdsl, because
-generated packages get a copy.
+knows of threads. Needs the standard library of Python 3.8 only, and nothing else of swarmdsl,
+because generated packages get a copy.
 """
 
 from .activity import Run, Servers

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, Callable  # noqa: UP035 - for Python 3.8
 
 from .table import Edge, Event, Kind, State, Transition, members
 from .world import FAILURES
@@ -13,14 +13,13 @@ if TYPE_CHECKING:
     from .instance import Instance
 
 Operation = Callable[["Instance", Event], object]
-Program = tuple[tuple[int, Operation], ...]
-"""What is done in a step, in order, each with the states that are active at that moment."""
 
 
 class Step:
     """A microstep: what taking some transitions does.
 
-    `traced` is the program for instances that are observed. `starts` are the states entered
+    `program` is what is done, in order, each with the states that are active at that moment,
+    `traced` that for instances that are observed. `starts` are the states entered
     that have an activity, `final` is the final state of the machine itself that was entered.
     A `quiet` step leads to where only an event can lead on from, unless its program raised one.
     """
@@ -28,7 +27,11 @@ class Step:
     __slots__ = ("final", "program", "quiet", "starts", "target", "traced")
 
     def __init__(
-        self, target: Configuration, traced: Program, starts: tuple[int, ...], final: int
+        self,
+        target: Configuration,
+        traced: tuple[tuple[int, Operation], ...],
+        starts: tuple[int, ...],
+        final: int,
     ) -> None:
         self.target = target
         self.traced = traced
@@ -45,7 +48,7 @@ class Steps:
         self.source = source
         self.machine = source.machine
         histories = [h for around in self.machine.histories for h in around]
-        self.held = dict(zip(histories, source.histories, strict=True))
+        self.held = {each: source.histories[i] for i, each in enumerate(histories)}
         self.entered = 0
         self.by_default = 0
         self.from_history: dict[int, Edge] = {}

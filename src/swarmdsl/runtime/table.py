@@ -6,11 +6,11 @@ all its instances. What is done (guards, effects) are callables in it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple  # noqa: UP035 - for Python 3.8
 
 if TYPE_CHECKING:
     from .activity import Run, Timer
@@ -18,16 +18,18 @@ if TYPE_CHECKING:
     from .instance import Instance
 
 
-@dataclass(slots=True)
 class Event:
     """Something that happened, by name, and the data that came with it; never changed.
 
     `origin` is the activity or delay of the instance itself that it came from, if any.
     """
 
-    name: str
-    data: Any = None
-    origin: Run | Timer | None = None
+    __slots__ = ("data", "name", "origin")
+
+    def __init__(self, name: str, data: Any = None, origin: Run | Timer | None = None) -> None:
+        self.name = name
+        self.data = data
+        self.origin = origin
 
 
 Guard = Callable[["Instance", Event], Any]
@@ -61,7 +63,7 @@ class Transition(NamedTuple):
     """Where it comes from, for a person who reads a trace."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Activity:
     """What a state does while it is active, on a server outside of the machine.
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Callable, Protocol  # noqa: UP035 - for Python 3.8
 
 if TYPE_CHECKING:
     from .activity import Run

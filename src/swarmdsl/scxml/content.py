@@ -9,11 +9,12 @@ from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.runtime import Effect, Event, ExecutionError, Guard, Instance
+from swarmdsl.runtime.world import FAILURES
 from swarmdsl.scxml.document import Document, Node
 from swarmdsl.scxml.ecmascript import Unreadable, Value, location, read
 from swarmdsl.scxml.values import text, truth
 
-_DELAY = re.compile(r"\s*\+?(\d+(?:\.\d+)?|\.\d+)(ms|s|m|min|h|d)\s*")
+_DELAY = re.compile(r"\s*\+?([0-9]+(?:\.[0-9]+)?|\.[0-9]+)(ms|s|m|min|h|d)\s*")
 _UNITS = {"ms": 10**6, "s": 10**9, "m": 60 * 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
 _UNITS["d"] = 24 * _UNITS["h"]
 # What <send> may say for the machine itself, and for its internal queue.
@@ -62,7 +63,11 @@ class Content:
             return None
 
     def data(self, node: Node) -> Data | None:
-        """What the `<param>`s, the `<content>` or the names of an element give an event."""
+        """What the `<param>`s, the `<content>` or the names of an element give an event.
+
+        Where a param has no value, a `<send>` is not sent (6.2), but a `<donedata>` only goes
+        without that param (5.7).
+        """
         fields: list[tuple[str, Value]] = []
         for name in (node.get("namelist") or "").split():
             fields.append((name, self._read(name, node, "namelist")))
@@ -75,6 +80,8 @@ class Content:
             fields.append((child.get("name") or "", found or nothing))
         if not fields:
             return None
+        if node.name == "donedata":
+            return _with_value(fields)
         return lambda instance, event: {key: v(instance, event, {}) for key, v in fields}
 
     def value(self, node: Node) -> Value:
@@ -214,6 +221,21 @@ class Content:
         if value is None:
             return lambda instance, event: written
         return lambda instance, event: text(value(instance, event, {}))
+
+
+def _with_value(fields: list[tuple[str, Value]]) -> Data:
+    """Those of the fields that have a value."""
+
+    def data(instance: Instance, event: Event) -> Any:
+        found = {}
+        for name, value in fields:
+            try:
+                found[name] = value(instance, event, {})
+            except FAILURES as error:
+                instance.fail(error)
+        return found
+
+    return data
 
 
 def nothing(instance: Instance, event: Event, names: object) -> None:

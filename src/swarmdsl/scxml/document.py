@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from bisect import bisect_right
+from collections.abc import Collection, Iterator
 from xml.parsers import expat
 
 from swarmdsl.diagnostics import Diagnostics
@@ -13,6 +14,7 @@ SCXML = "http://www.w3.org/2005/07/scxml"
 
 _ATTRIBUTE = re.compile(r"""\s+([^\s=/>]+)\s*=\s*("[^"]*"|'[^']*')""")
 _NAME = re.compile(r"[^\s/>]+")
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]")
 _DOCTYPE = "<!DOCTYPE"
 _DEEPEST = 250
 
@@ -21,12 +23,12 @@ class Node:
     """An element: its name and attributes without the namespace of SCXML, and what is in it.
 
     `children` are those of SCXML and `ours` those of swarmdsl, once the vocabulary has been
-    checked. Attributes in other namespaces are left out.
+    checked. Attributes in other namespaces are left out. `comment` is what stands before it.
     """
 
     __slots__ = (
-        *("attributes", "children", "get", "line", "name", "namespace", "ours", "parent"),
-        *("start", "text"),
+        *("attributes", "children", "comment", "get", "line", "name", "namespace", "ours"),
+        *("parent", "start", "text"),
     )
 
     def __init__(
@@ -39,6 +41,7 @@ class Node:
         self.start = start
         self.line = line
         self.text = ""
+        self.comment = ""
         self.children: list[Node] = []
         self.ours: tuple[Node, ...] = ()
 
@@ -57,11 +60,13 @@ class Document:
     def __init__(self, source: Source, root: Node) -> None:
         self.source = source
         self.root = root
+        # Where characters end that have more than one byte.
+        self.wide = [] if source.text.isascii() else list(_wide(source.text))
 
     def at(self, node: Node, attribute: str = "", word: str = "") -> Span:
         """The name of an element, or the value of its attribute, or a word of that."""
         text = self.source.text
-        start = _characters(text, node.start) + 1
+        start = node.start - bisect_right(self.wide, node.start) + 1
         named = _NAME.match(text, start)
         assert named is not None
         end = named.end()
@@ -75,8 +80,12 @@ class Document:
         return Span(self.source, named.start(), end)
 
 
-def parse(source: Source, report: Diagnostics) -> Document | None:
+def parse(
+    source: Source, report: Diagnostics, namespaces: Collection[str] = (SCXML,)
+) -> Document | None:
     """Parse a file; None when it is no SCXML, which has been reported then.
+
+    The outermost element is in one of the namespaces; "" stands for none.
 
     A document type could define entities, which grow beyond all bounds or stand for other
     files: there must be none.
@@ -104,7 +113,7 @@ def parse(source: Source, report: Diagnostics) -> Document | None:
         return None
     assert builder.root is not None
     document = Document(source, builder.root)
-    if (builder.root.namespace, builder.root.name) != (SCXML, "scxml"):
+    if builder.root.name != "scxml" or builder.root.namespace not in namespaces:
         report.report(
             "not-scxml",
             document.at(builder.root),
@@ -130,12 +139,14 @@ class _Builder:
         self.root: Node | None = None
         self.inside: list[Node] = []
         self.reached = 0
+        self.comment = ""
         self.parser = parser = expat.ParserCreate("utf-8", "}")
         parser.buffer_text = True
         parser.StartElementHandler = self.start
         parser.EndElementHandler = self.end
         parser.CharacterDataHandler = self.add_text
         parser.StartDoctypeDeclHandler = self.refuse
+        parser.CommentHandler = self.add_comment
 
     def start(self, name: str, attributes: dict[str, str]) -> None:
         inside = self.inside
@@ -146,6 +157,8 @@ class _Builder:
                 break
         parser = self.parser
         node = Node(name, attributes, parent, parser.CurrentByteIndex, parser.CurrentLineNumber)
+        if self.comment:
+            node.comment, self.comment = self.comment, ""
         if parent is None:
             self.root = node
         else:
@@ -157,6 +170,11 @@ class _Builder:
 
     def end(self, name: str) -> None:
         self.inside.pop()
+        self.comment = ""
+
+    def add_comment(self, text: str) -> None:
+        plain = text[1:-1] if text[:1] == text[-1:] == " " else text.strip()
+        self.comment = f"{self.comment}\n{plain}" if self.comment else plain
 
     def add_text(self, text: str) -> None:
         if not text.isspace():
@@ -174,6 +192,16 @@ def _without_namespace(attributes: dict[str, str]) -> dict[str, str]:
         for name, value in attributes.items()
         if "}" not in name or name.startswith(f"{SCXML}}}")
     }
+
+
+def _wide(text: str) -> Iterator[int]:
+    """The offset behind each character of more than one byte, once for each byte more."""
+    offset = 0
+    for found in _NOT_ASCII.finditer(text):
+        more = len(found[0].encode("utf-8")) - 1
+        end = found.end() + offset + more
+        offset += more
+        yield from [end] * more
 
 
 def _characters(text: str, offset: int) -> int:

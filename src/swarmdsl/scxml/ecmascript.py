@@ -78,13 +78,13 @@ def read(written: str) -> Value:
 
     The function raises ExecutionError where ECMAScript throws.
     """
-    return _function(_parse(written))
+    return _function(parse(written))
 
 
 @lru_cache(maxsize=1000)
 def location(written: str) -> Callable[[Instance, Event, Any], None]:
     """What assigns to a variable, or to a member of one. Raises Unreadable."""
-    tree = _parse(written)
+    tree = parse(written)
     if tree.data == "name":
         name = str(tree.children[0])
 
@@ -116,14 +116,16 @@ def _parser() -> Lark:
     return Lark(_GRAMMAR, parser="lalr", maybe_placeholders=False)
 
 
-def _parse(written: str) -> Tree[Token]:
+def parse(written: str) -> Tree[Token]:
+    """The tree of an expression. Raises Unreadable."""
     try:
         tree = _parser().parse(written)
     except UnexpectedInput as error:
         if isinstance(error, UnexpectedToken) and error.token.type == "$END":
             raise Unreadable("it ends early") from None
-        rest = written[error.pos_in_stream or 0 :].split()
-        raise Unreadable(f"`{rest[0]}` cannot stand here") from None
+        start = error.pos_in_stream or 0
+        word = written[start : start + 40].split()[0]
+        raise Unreadable(f"`{word}` cannot stand here") from None
     depth, level = 0, [tree]
     while level:
         depth += 1
@@ -140,7 +142,7 @@ def _function(tree: Any) -> Value:
             number = _number(str(children[0]))
             return lambda instance, event, names: number
         case "text":
-            literal = _unquoted(children[0])
+            literal = unquoted(children[0])
             return lambda instance, event, names: literal
         case "name":
             return _name(str(children[0]))
@@ -148,9 +150,7 @@ def _function(tree: Any) -> Value:
             values = [_function(child) for child in children]
             return lambda instance, event, names: [v(instance, event, names) for v in values]
         case "object":
-            pairs = [
-                (_unquoted(pair.children[0]), _function(pair.children[1])) for pair in children
-            ]
+            pairs = [(unquoted(pair.children[0]), _function(pair.children[1])) for pair in children]
             return lambda instance, event, names: {
                 key: value(instance, event, names) for key, value in pairs
             }
@@ -303,7 +303,8 @@ def _number(token: str) -> float | int:
     return whole(int(token, 16) if token[1:2] in ("x", "X") else float(token))
 
 
-def _unquoted(token: str) -> str:
+def unquoted(token: str) -> str:
+    """The text that a token stands for, of a name the name itself."""
     if token[0] not in "\"'":
         return str(token)
 
@@ -311,4 +312,6 @@ def _unquoted(token: str) -> str:
         code = found[1] or found[2]
         return chr(int(code, 16)) if code else _ESCAPED.get(found[3], found[3])
 
-    return _ESCAPE.sub(plain, token[1:-1])
+    made = _ESCAPE.sub(plain, token[1:-1])
+    # A character beyond the first 65536 is escaped as a pair.
+    return made.encode("utf-16", "surrogatepass").decode("utf-16", "replace")

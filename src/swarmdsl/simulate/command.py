@@ -26,6 +26,7 @@ from swarmdsl.scxml import read as read_scxml
 from swarmdsl.simulate.actors import Actor, actors
 from swarmdsl.simulate.durations import shown
 from swarmdsl.simulate.inputs import STDIN, Input, Reader, lines_of
+from swarmdsl.simulate.replay import replay
 from swarmdsl.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
 from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.scenario_file import read_scenario
@@ -63,6 +64,7 @@ class Request:
     seed: int | None = None
     until: int | None = None
     real_time: bool = False
+    replay: Path | None = None
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -73,7 +75,9 @@ def simulate(request: Request, tell: Tell) -> bool | None:
     report = Diagnostics()
     prepared = _prepare(request, report)
     tell(report)
-    return prepared.play(tell) if prepared is not None else False
+    if prepared is None:
+        return False
+    return prepared.replay(tell) if request.replay is not None else prepared.play(tell)
 
 
 def _prepare(request: Request, report: Diagnostics) -> _Play | None:
@@ -90,7 +94,7 @@ def _prepare(request: Request, report: Diagnostics) -> _Play | None:
         return None
     inputs: list[Input] = []
     if request.events is not None and request.events != _STDIN:
-        source = read_source(Path(request.events), None, report)
+        source = read_source(Path(request.events), None, report, "a file of events")
         inputs = Reader(subject, cast, report).file(source) if source is not None else []
     return None if report.has_errors else _Play(request, subject, scenario, cast, inputs)
 
@@ -99,7 +103,7 @@ def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scena
     """The scenario of a file, or the one in which nothing special happens."""
     if path is None:
         return Scenario()
-    source = read_source(path, None, report)
+    source = read_source(path, None, report, "a scenario")
     document = parse_toml(source, report) if source is not None else None
     if document is None:
         return None
@@ -151,6 +155,19 @@ class _Play:
         seed = request.seed if request.seed is not None else scenario.seed
         self._listeners: list[Callable[[Line], None]] = []
         self._world = World(subject.system, cast, scenario, seed, self._listeners)
+
+    def replay(self, tell: Tell) -> bool:
+        """Hold a trace against the model; whether all of it is as the model says."""
+        assert self._request.replay is not None
+        report = Diagnostics()
+        source = read_source(self._request.replay, None, report)
+        if source is not None:
+            found = replay(source, self._subject, self._cast, report)
+            lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
+            members = f"{found.members} member{'s' if found.members != 1 else ''}"
+            click.echo(f"{lines} of {members} as the model says", err=True)
+        tell(report)
+        return not report.has_errors
 
     def play(self, tell: Tell) -> bool | None:
         # A compiler needs no garbage to be looked for, but this may run for long.

@@ -18,7 +18,7 @@ from swarmdsl.source import Span
 
 _HISTORIES = (Kind.HISTORY, Kind.DEEP_HISTORY)
 _Key = tuple[str, int]
-"""The name of a source, and where in it something begins; of a document its name and a number."""
+"""The name of a source, and where in it something begins; of a document its file and a number."""
 
 
 @dataclass
@@ -63,10 +63,12 @@ class Coverage:
     def __init__(self) -> None:
         self._machines: dict[tuple[str, str], MachineCoverage] = {}
         self._known: dict[Machine, _Known] = {}
+        self._files: dict[Machine, str] = {}
 
     def expect(self, subject: Subject) -> None:
         """Count all machines that some robot of the model runs, whether they run now or not."""
         if subject.document is not None:
+            self._files[subject.document.machine] = subject.document.source.name
             self.count(subject.document.machine)
         system = subject.system
         if system is None:
@@ -124,7 +126,7 @@ class Coverage:
                 owners[number] = origin.submachine, f"{state.id}."
             if state.kind in _HISTORIES:
                 continue
-            key = _key(origin, machine, number)
+            key = self._key(origin, machine, number)
             name = state.id.removeprefix(prefix)
             row = self._machines.setdefault((key[0], owner), MachineCoverage(owner))
             row.states.setdefault(key, name)
@@ -134,10 +136,17 @@ class Coverage:
                 # That of a parallel state may be in its regions as well.
                 if _identity(transition) not in known.transitions:
                     number = len(machine.states) + len(known.transitions)
-                    key = _key(transition.origin, machine, number)
+                    key = self._key(transition.origin, machine, number)
                     row.transitions.setdefault(key, f"{name}: {_words(transition)}")
                     row.origins.setdefault(key, transition.origin)
                     known.transitions[_identity(transition)] = row, key
+
+    def _key(self, origin: object, machine: Machine, number: int) -> _Key:
+        place = _place(origin)
+        if place is None:
+            # Two documents may give their machines the same name.
+            return self._files.get(machine, machine.name), number
+        return place.source.name, place.start
 
 
 def _identity(transition: Transition) -> int:
@@ -150,11 +159,6 @@ def _place(origin: object) -> Span | None:
     """Where something stands in the text of the model."""
     place = origin if isinstance(origin, Span) else getattr(origin, "origin", None)
     return place if isinstance(place, Span) else None
-
-
-def _key(origin: object, machine: Machine, number: int) -> _Key:
-    place = _place(origin)
-    return (machine.name, number) if place is None else (place.source.name, place.start)
 
 
 def _words(transition: Transition) -> str:

@@ -12,7 +12,7 @@ from swarmdsl.expressions import UNITS, nanoseconds
 MILLISECOND = UNITS["ms"]
 SECOND = UNITS["s"]
 
-_WRITTEN = re.compile(rf"\s*(\d+(?:\.\d+)?)\s*({'|'.join(UNITS)})\s*")
+_WRITTEN = re.compile(rf"\s*([0-9]+(?:\.[0-9]+)?)\s*({'|'.join(UNITS)})\s*")
 # 292 years: what ROS holds at most.
 _LONGEST = 2**63 - 1
 # So many evenly spread numbers have, added, a variance of 1, and are normally spread nearly.
@@ -26,6 +26,11 @@ def duration(text: str) -> int | None:
         return None
     length = nanoseconds(found[1], found[2])
     return length if length <= _LONGEST else None
+
+
+def is_too_long(text: str) -> bool:
+    """Whether a text is a duration but for its length, which ROS cannot hold."""
+    return _WRITTEN.fullmatch(text) is not None and duration(text) is None
 
 
 def shown(length: int) -> str:

@@ -65,14 +65,25 @@ class Reader:
         if not text.strip():
             return None
         try:
-            value = json.loads(text, parse_constant=_no_number)
+            value = json.loads(
+                text, parse_constant=_no_number, parse_float=_real, object_pairs_hook=_fields
+            )
         except json.JSONDecodeError as error:
             start = place.start + min(error.pos, max(len(text) - 1, 0))
             reason = error.msg[:1].lower() + error.msg[1:]
             self._bad(Span(place.source, start, min(start + 1, place.end)), reason)
             return None
-        except (ValueError, RecursionError) as error:
-            self._bad(place, str(error))
+        except RecursionError:
+            self._bad(place, "it is nested too deeply")
+            return None
+        except _JsonError as error:
+            reason, word = error.args
+            start = place.start + max(text.find(word), 0)
+            self._bad(Span(place.source, start, start + len(word)), reason)
+            return None
+        except ValueError:
+            # Python's own limit for the digits of a whole number.
+            self._bad(place, "a number in it has too many digits")
             return None
         if not isinstance(value, dict):
             self._bad(place, f"an object is wanted, not {kind(value)}")
@@ -183,5 +194,26 @@ def _is_time(after: float) -> bool:
     return math.isfinite(after) and 0 <= after <= _LONGEST
 
 
+class _JsonError(ValueError):
+    """What Python takes for JSON, but what means nothing, or not one thing; why, and the word."""
+
+
 def _no_number(word: str) -> Any:
-    raise ValueError(f"`{word}` is no number of JSON")
+    raise _JsonError(f"`{word}` is no number of JSON", word)
+
+
+def _real(word: str) -> float:
+    value = float(word)
+    if math.isinf(value):
+        raise _JsonError(f"`{word}` is too large a number", word)
+    return value
+
+
+def _fields(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """An object, of whose keys none is there twice: the first value would be lost."""
+    found: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in found:
+            raise _JsonError(f"`{key}` stands in it twice", key)
+        found[key] = value
+    return found

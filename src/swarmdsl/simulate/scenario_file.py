@@ -218,7 +218,9 @@ class _Reader:
                     table.wrong((key,), "nothing where a member is lost", table.values[key])
             of = table.names("lost", self.members, "member")
             return Fault(at, of) if at is not None else None
-        if not self.needs(table, "silent"):
+        if "silent" not in table:
+            help_ = "`lost` names a member that is lost, `silent` a function that does not answer"
+            self.report.report("missing-key", table.value_place(()), name="lost", help=help_)
             return None
         function = table.name("silent", self.known_functions(), "function")
         to = table.names("of", self.members, "member") if "of" in table else None

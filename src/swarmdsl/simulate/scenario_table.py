@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, TypeVar
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, listed
+from swarmdsl.expressions import UNITS
 from swarmdsl.project.toml import Document, Keys
-from swarmdsl.simulate.durations import Fixed, Length, Normal, Uniform, duration
+from swarmdsl.simulate.durations import Fixed, Length, Normal, Uniform, duration, is_too_long
 from swarmdsl.simulate.values import MisfitError, Way, kind
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 
 T = TypeVar("T")
 _LENGTH = 'a time like "1.5 s"'
+_DURATION = f"{_LENGTH}, with {listed(list(UNITS))}"
 
 
 class Table:
@@ -96,7 +98,8 @@ class Table:
     def _duration(self, way: Way, value: Any) -> int | None:
         length = duration(value) if isinstance(value, str) else None
         if length is None:
-            self.wrong(way, _LENGTH, value)
+            too_long = isinstance(value, str) and is_too_long(value)
+            self.wrong(way, "at most 292 years" if too_long else _DURATION, value)
         return length
 
     def share(self, key: str) -> float | None:

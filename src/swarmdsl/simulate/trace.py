@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from swarmdsl.runtime import Event, Instance, LoopError, Observer, Run, State, Transition
 from swarmdsl.simulate.actors import Actor
@@ -17,7 +18,10 @@ _LIMIT = 10_000
 
 @dataclass(slots=True)
 class Line:
-    """What one event led to. `event` is None for the start; names of states are their ids."""
+    """What one event led to. `event` is None for the start; names of states are their ids.
+
+    `data` is that of the event, `messages` are those of the events in `sent`.
+    """
 
     time: int
     actor: Actor
@@ -28,7 +32,9 @@ class Line:
     started: list[str] = field(default_factory=list)
     cancelled: list[str] = field(default_factory=list)
     sent: list[str] = field(default_factory=list)
+    messages: list[Any] = field(default_factory=list)
     taken: list[Transition] = field(default_factory=list)
+    data: Any = None
 
 
 class Trace(Observer):
@@ -47,7 +53,7 @@ class Trace(Observer):
         self._actors[instance] = actor
         instance.observer = self
 
-    def begin(self, instance: Instance, event: str | None) -> None:
+    def begin(self, instance: Instance, event: str | None, data: Any = None) -> None:
         """An event from outside is looked at: the line of the one before is complete.
 
         Raises LoopError where this happens again and again while no time passes.
@@ -60,7 +66,7 @@ class Trace(Observer):
         self._instance = instance
         if count > _LIMIT:
             raise LoopError(instance.machine.name, instance.configuration.innermost)
-        self._line = Line(now, self._actors[instance], event)
+        self._line = Line(now, self._actors[instance], event, data=data)
 
     @property
     def actor(self) -> Actor:
@@ -85,7 +91,7 @@ class Trace(Observer):
     def received(self, instance: Instance, event: Event) -> None:
         """Begin a line for a delay or an activity; others have begun theirs already."""
         if event.origin is not None:
-            self.begin(instance, event.name)
+            self.begin(instance, event.name, event.data)
 
     def entered(self, instance: Instance, state: State) -> None:
         """Note it."""
@@ -117,6 +123,7 @@ class Trace(Observer):
         """Note it."""
         assert self._line is not None
         self._line.sent.append(event.name)
+        self._line.messages.append(event.data)
 
 
 def as_json(line: Line) -> str:
@@ -132,7 +139,9 @@ def as_json(line: Line) -> str:
         "cancelled": line.cancelled,
         "sent": line.sent,
     }
-    return json.dumps(values, ensure_ascii=False)
+    if line.data:
+        values["data"] = line.data
+    return json.dumps(values, ensure_ascii=False, default=str)
 
 
 def as_text(line: Line, width: int = 0) -> str:

@@ -65,7 +65,8 @@ class World:
         self._crossings: Counter[tuple[str | None, str | None]] = Counter()
         self._ends: dict[Run, Alarm | None] = {}
         self._listeners: dict[tuple[str, Robot], list[Actor]] = {}
-        self._silent: set[tuple[Robot, str]] = set()
+        self._silent: Counter[tuple[Robot, str]] = Counter()
+        """How many silences of a function are going on."""
         self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
@@ -121,13 +122,17 @@ class World:
             if run is not None:
                 self._end(run, event, data)
             elif instance.running:
-                self.trace.begin(instance, event)
+                self.trace.begin(instance, event, data)
                 instance.receive(Event(event, data))
             self.trace.flush()
 
     def runs(self, actor: Actor) -> list[Run]:
         """The activities that a machine has going on."""
         return [run for run in self._ends if run.instance is self._instances[actor]]
+
+    def data(self, actor: Actor) -> Any:
+        """What the variables of a machine hold."""
+        return self._instances[actor].data
 
     def listeners(self, event: str, robot: Robot) -> list[Actor]:
         """The machines of a robot that wait for an event in some state."""
@@ -213,7 +218,7 @@ class World:
     # ---- inside
 
     def _is_silent(self, robot: Robot, function: str) -> bool:
-        return any((robot, name) in self._silent for name in (function, EVERY_FUNCTION))
+        return any(self._silent[robot, name] for name in (function, EVERY_FUNCTION))
 
     def _stop(self, run: Run) -> None:
         robot, function = self._actors[run.instance].robot, run.activity.name
@@ -261,7 +266,7 @@ class World:
             if fault.function is None:
                 self.lose(robot)
                 return
-            self._silent.add((robot, fault.function))
+            self._silent[robot, fault.function] += 1
             for run, alarm in self._ends.items():
                 if self._actors[run.instance].robot is robot and self._is_silent(
                     robot, run.activity.name
@@ -277,7 +282,7 @@ class World:
 
     def _answer(self, answers: tuple[Robot, str]) -> None:
         """End a silence; what was asked to stop in it does so now."""
-        self._silent.discard(answers)
+        self._silent[answers] -= 1
         unheard, self._unheard = self._unheard, []
         for run in unheard:
             if self._is_silent(self._actors[run.instance].robot, run.activity.name):

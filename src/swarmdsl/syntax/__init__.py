@@ -106,7 +106,16 @@ from swarmdsl.syntax.nodes import (
     Value,
     Word,
 )
-from swarmdsl.syntax.tree import NODES, changed, children, nodes_of, references, walk
+from swarmdsl.syntax.tree import (
+    NODES,
+    by_class,
+    changed,
+    children,
+    depth,
+    nodes_of,
+    references,
+    walk,
+)
 
 __all__ = [
     "NODES",
@@ -198,8 +207,10 @@ __all__ = [
     "Vertex",
     "Word",
     "World",
+    "by_class",
     "changed",
     "children",
+    "depth",
     "in_metres",
     "nodes_of",
     "references",

@@ -46,10 +46,9 @@ class Documented(Node):
 class TopLevel(Documented):
     """A declaration of a file.
 
-    `nodes` are it and all inside it, `by_class` the same by their classes, once somebody asked.
+    `by_class` are it and all inside it by their classes, once somebody asked.
     """
 
-    nodes: tuple[Node, ...] | None = field(default=None, init=False, metadata={"elsewhere": True})
     by_class: Mapping[type[Node], Sequence[Any]] | None = field(
         default=None, init=False, metadata={"elsewhere": True}
     )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
 from types import UnionType
 from typing import Any, TypeVar, get_args
 
@@ -63,44 +64,8 @@ def children(node: Node) -> Iterator[Node]:
             yield value
 
 
-def walk(node: Node) -> Iterable[Node]:
-    """A node and all inside it, in document order.
-
-    Every phase walks every declaration, which hardly changes once it is parsed: what is in
-    it is looked for once.
-    """
-    if not isinstance(node, TopLevel):
-        return _walk(node)
-    if node.nodes is None:
-        node.nodes = tuple(_walk(node))
-    return node.nodes
-
-
-def nodes_of(owner: TopLevel, kind: type[N]) -> Sequence[N]:
-    """The nodes of one class in a declaration, in document order, looked for once like all."""
-    if owner.by_class is None:
-        by_class: dict[type[Node], list[Any]] = {}
-        for node in walk(owner):
-            by_class.setdefault(type(node), []).append(node)
-        owner.by_class = by_class
-    return owner.by_class.get(kind, ())
-
-
-def references(owner: Node) -> Iterator[tuple[Node, Ref[Any]]]:
-    """The references in a node, in document order, each with the node that holds it."""
-    for node in walk(owner):
-        for attribute in _REFERENCES[type(node)]:
-            ref = getattr(node, attribute)
-            if ref is not None:
-                yield node, ref
-
-
-def changed(owner: TopLevel) -> None:
-    """Forget what is in a declaration: a node of it was replaced."""
-    owner.nodes = owner.by_class = None
-
-
-def _walk(node: Node) -> Iterator[Node]:
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all inside it, in document order."""
     ahead = [node]
     while ahead:
         node = ahead.pop()
@@ -108,6 +73,50 @@ def _walk(node: Node) -> Iterator[Node]:
         for attribute, many in _PARTS[type(node)]:
             value = getattr(node, attribute)
             if many:
-                ahead.extend(reversed(value))
+                ahead += value[::-1]
             elif value is not None:
                 ahead.append(value)
+
+
+def depth(node: Node) -> int:
+    """How many nodes stand in each other, at most."""
+    levels, level = 0, [node]
+    while level:
+        levels += 1
+        level = [inner for outer in level for inner in children(outer)]
+    return levels
+
+
+def by_class(owner: TopLevel) -> Mapping[type[Node], Sequence[Any]]:
+    """All nodes of a declaration by their classes, those of each in document order.
+
+    Every phase asks for them, and a declaration hardly changes once it is parsed: they are
+    looked for once.
+    """
+    if owner.by_class is None:
+        found: dict[type[Node], list[Any]] = defaultdict(list)
+        for node in walk(owner):
+            found[type(node)].append(node)
+        owner.by_class = dict(found)
+    return owner.by_class
+
+
+def nodes_of(owner: TopLevel, kind: type[N]) -> Sequence[N]:
+    """The nodes of one class in a declaration, in document order."""
+    known = owner.by_class if owner.by_class is not None else by_class(owner)
+    return known.get(kind, ())
+
+
+def references(owner: TopLevel) -> Iterator[tuple[Node, Ref[Any]]]:
+    """The references in a declaration, each with the node that holds it."""
+    for kind, found in by_class(owner).items():
+        for attribute in _REFERENCES[kind]:
+            for node in found:
+                ref = getattr(node, attribute)
+                if ref is not None:
+                    yield node, ref
+
+
+def changed(owner: TopLevel) -> None:
+    """Forget what is in a declaration: a node of it was replaced."""
+    owner.by_class = None

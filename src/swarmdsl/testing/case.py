@@ -43,10 +43,11 @@ NONE = Quantity(most=0)
 
 @dataclass(frozen=True)
 class Claim:
-    """That so many of the machines `who` are in all these states, or have done something.
+    """That so many of the machines `who` are in all these states, hold values, or did something.
 
-    `states` has, for each machine that is meant, the states; `deed` and `name` are what was done.
-    `text` says it in words.
+    `states` has, for each machine that is meant, the states, and `values` what its variables
+    hold; `deed` and `name` are what was done, `data` what the event carries that is sent. Of
+    data, what is not named may be anything. `text` says it in words.
     """
 
     place: Span
@@ -54,8 +55,10 @@ class Claim:
     quantity: Quantity
     who: tuple[int, ...]
     states: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
+    values: Mapping[int, Mapping[str, Any]] = field(default_factory=dict)
     deed: Deed | None = None
     name: str = ""
+    data: Any = None
 
 
 @dataclass(frozen=True)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.ir import Action, Service, StateKind, StateMachine
+from swarmdsl.ir import Action, Service, StateKind, StateMachine, Type
 from swarmdsl.ir import Send as SendEffect
 from swarmdsl.ir import State as ModelState
 from swarmdsl.runtime import Kind, Machine
@@ -82,6 +82,29 @@ class Names:
             verb = "sends" if deed == "sends" else "calls"
             self._report.report("impossible-step", place, reason=f"{called} never {verb} `{name}`")
         return [n for n in able if word in ("", *_own_words(self.cast[n]))] or able
+
+    def holders(self, who: list[int], word: str, named: Iterable[tuple[str, Span]]) -> list[int]:
+        """Those of the machines that have all these variables; one that none has is reported."""
+        for name, place in named:
+            known = {n: self.variables(self.cast[n].machine) for n in who}
+            found = [n for n, types in known.items() if types is None or name in types]
+            if not found:
+                names = dict.fromkeys(each for types in known.values() for each in types or ())
+                help_ = suggest(name, names, "variables")
+                self._report.report(
+                    "unresolved-name", place, kind="variable", name=name, help=help_
+                )
+                return []
+            who = found
+        return [n for n in who if word in ("", *_own_words(self.cast[n]))] or who
+
+    def variables(self, machine: Machine) -> Mapping[str, Type] | None:
+        """The variables and params of a machine; of documents little is known."""
+        if self.subject.system is None:
+            return None
+        model = next(each for each in self.subject.system.machines if each.name == machine.name)
+        params = {each.name: each.type for each in model.params}
+        return {**params, **{each.name: each.type for each in model.variables}}
 
     def is_known(self, kind: str, name: str, place: Span) -> bool:
         """Whether there is an event or a function of that name; of documents little is known."""

@@ -57,7 +57,7 @@ class _Play:
         robots = case.subject.crew(case.scenario.counts)
         # Those of another run are no longer as they began.
         self._cast = actors(case.subject, robots, case.scenario, Diagnostics())
-        self._witness = Witness(self._cast)
+        self._witness = Witness(self._cast, lambda actor: self._world.data(actor))
         listeners = [self._witness.see, listener]
         self._world = World(case.subject.system, self._cast, case.scenario, seed, listeners)
 

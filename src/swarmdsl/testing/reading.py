@@ -56,6 +56,8 @@ class _Reader:
             return []
         named = list(self._paths(self._top, "model")) if "model" in self._top else []
         if "model" in self._top and not named:
+            if not self._report.has_errors:
+                self._top.wrong(("model",), "a path, or a list of some", [])
             return []
         model = self._models.of(named, self._path, self._report)
         if model is None:
@@ -146,7 +148,7 @@ class _Reader:
             holder.wrong(("scenario",), "a file, or a table", value)
             return None
         for path, place in self._paths(holder, "scenario"):
-            source = read_source(path, place, self._report)
+            source = read_source(path, place, self._report, "a scenario")
             document = parse_toml(source, self._report) if source is not None else None
             if document is not None:
                 return read_scenario(document, subject, self._report)

@@ -29,7 +29,9 @@ from swarmdsl.testing.case import (
     Send,
     Step,
 )
+from swarmdsl.testing.data import told
 from swarmdsl.testing.names import Names
+from swarmdsl.testing.wanted import event_data, variables
 
 _ACTIONS: Mapping[str, tuple[str, ...]] = {
     "send": ("to", "data"),
@@ -39,9 +41,9 @@ _ACTIONS: Mapping[str, tuple[str, ...]] = {
 }
 _SUBJECTS: Mapping[str, Quantity] = {"who": ALL, "all": ALL, "any": ANY, "no": NONE}
 _DEEDS: Mapping[str, Deed] = {"sends": "sends", "starts": "starts", "cancels": "cancels"}
-_VERBS = ("in", *_DEEDS)
+_VERBS = ("in", "has", *_DEEDS)
 _TIMES = ("within", "for")
-_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS)
+_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data")
 # What other tools and languages call it.
 _OTHER_WORDS = {
     **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
@@ -49,13 +51,14 @@ _OTHER_WORDS = {
     **dict.fromkeys(("finish", "complete", "outcome", "succeed", "abort"), "end"),
     **dict.fromkeys(("kill", "lost", "crash", "fail"), "lose"),
     **dict.fromkeys(("expect", "state", "active", "assert", "is"), "in"),
+    **dict.fromkeys(("variable", "variables", "var", "values", "where"), "has"),
     **dict.fromkeys(("every", "each"), "all"),
     **dict.fromkeys(("none", "not", "never"), "no"),
     **dict.fromkeys(("timeout", "before", "eventually"), "within"),
     **dict.fromkeys(("during", "always", "lasting"), "for"),
     **dict.fromkeys(("member", "by", "robot"), "who"),
 }
-_COUNT = re.compile(r"(\d{1,9})(?:\.\.(\d{1,9}|\*))?")
+_COUNT = re.compile(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}|\*))?")
 
 
 class StepReader:
@@ -197,6 +200,11 @@ class StepReader:
         who = self._members(table, key) if key is not None else self._names.everybody()
         if verb is None or quantity is None or not who:
             return None
+        if "data" in table and verb != "sends":
+            reason, place = "`data` stands with `sends`", table.key_place("data")
+            help_ = "`has` says what variables hold"
+            self._report.report("impossible-step", place, reason=reason, help=help_)
+            return None
         words = _words(table, key)
         word = table.values[key] if key is not None else ""
         if verb == "in":
@@ -209,6 +217,15 @@ class StepReader:
                 tuple(meant),
                 states=meant,
             )
+        elif verb == "has":
+            values = variables(table, self._names, who, word)
+            text = (
+                f"{words}to have `{told(table.values['has'], table.values['has'])}`"
+                if values
+                else ""
+            )
+            place = table.value_place(("has",))
+            claim = Claim(place, text, quantity, tuple(values), values=values)
         else:
             what = "the name of an event" if verb == "sends" else "the name of a function"
             name = _text(table, verb, what)
@@ -216,7 +233,14 @@ class StepReader:
             able = self._names.able(who, word, _DEEDS[verb], name, place) if name else []
             said = {"sends": "to send", "starts": "to start", "cancels": "to cancel"}[verb]
             text = f"{words}{said} `{name}`"
-            claim = Claim(place, text, quantity, tuple(able), deed=_DEEDS[verb], name=name or "")
+            data = None
+            if name and able and "data" in table:
+                data = event_data(table, self._names, name)
+                if data is None:
+                    return None
+                text += f" with `{told(data, data)}`"
+            deed = _DEEDS[verb]
+            claim = Claim(place, text, quantity, tuple(able), deed=deed, name=name or "", data=data)
         return claim if claim.who and self._is_possible(table, claim) else None
 
     def _is_possible(self, table: Table, claim: Claim) -> bool:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any
 
 from swarmdsl.diagnostics import listed
 from swarmdsl.runtime import Machine
@@ -11,6 +12,8 @@ from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.trace import Line
 from swarmdsl.simulate.world import LOST
 from swarmdsl.testing.case import Claim, Deed
+from swarmdsl.testing.data import agrees
+from swarmdsl.testing.data import told as data_told
 
 _REMEMBERED = 8
 """How many of the last lines are shown with a failure."""
@@ -33,8 +36,9 @@ class _Marks(dict[int, bool]):
 class Witness:
     """Sees the lines of a trace, and knows by them where the machines are and what they did."""
 
-    def __init__(self, cast: Sequence[Actor]) -> None:
+    def __init__(self, cast: Sequence[Actor], data: Callable[[Actor], Any]) -> None:
         self._cast = cast
+        self._data = data
         self._numbers = {actor: number for number, actor in enumerate(cast)}
         self._states: list[list[str]] = [[] for _ in cast]
         self._lost: set[int] = set()
@@ -42,6 +46,7 @@ class Witness:
         """For which machines the claims are so that were asked for since the last mark."""
         self._known: dict[tuple[Machine, tuple[str, ...]], frozenset[str]] = {}
         self._done: dict[Deed, list[set[str]]] = {}
+        self._sent: list[list[tuple[str, Any]]] = []
         self.last: deque[Line] = deque(maxlen=_REMEMBERED)
         self.mark()
 
@@ -53,6 +58,7 @@ class Witness:
         if line.event == LOST:
             self._lost.add(number)
         self._done["sends"][number].update(line.sent)
+        self._sent[number].extend(zip(line.sent, line.messages, strict=True))
         self._done["starts"][number].update(line.started)
         self._done["cancels"][number].update(line.cancelled)
         for claim, so in self._so.values():
@@ -63,6 +69,7 @@ class Witness:
         """Forget what was done until now."""
         for deed in ("sends", "starts", "cancels"):
             self._done[deed] = [set() for _ in self._cast]
+        self._sent = [[] for _ in self._cast]
         self._so.clear()
 
     def holds(self, claim: Claim) -> bool:
@@ -76,7 +83,13 @@ class Witness:
 
     def _is_so(self, claim: Claim, number: int) -> bool:
         if claim.deed is not None:
-            return claim.name in self._done[claim.deed][number]
+            if claim.data is None:
+                return claim.name in self._done[claim.deed][number]
+            sent = (data for name, data in self._sent[number] if name == claim.name)
+            return any(agrees(claim.data, data) for data in sent)
+        if claim.values:
+            held = self._data(self._cast[number])
+            return number not in self._lost and agrees(claim.values[number], held)
         return number not in self._lost and self._active(number).issuperset(claim.states[number])
 
     def _active(self, number: int) -> frozenset[str]:
@@ -100,12 +113,22 @@ class Witness:
         if len(groups) > _SHOWN:
             kept = list(groups)[: _SHOWN - 1]
             rest = [name for what, names in groups.items() if what not in kept for name in names]
-            groups = {**{what: groups[what] for what in kept}, "are elsewhere": rest}
+            other = f"{claim.deed} something else" if claim.deed else "is elsewhere"
+            other = "has other values" if claim.values else other
+            groups = {**{what: groups[what] for what in kept}, other: rest}
         return ", ".join(_sentence(names, what) for what, names in groups.items())
 
     def _what(self, claim: Claim, number: int) -> str:
         if number in self._lost and claim.deed is None:
             return "is lost"
+        if claim.values:
+            return f"has `{data_told(self._data(self._cast[number]), claim.values[number])}`"
+        if claim.data is not None:
+            each = [
+                f"{name}({data_told(data, claim.data)})" if name == claim.name else name
+                for name, data in self._sent[number]
+            ]
+            return f"sends {listed(list(dict.fromkeys(each)), 'and') or 'nothing'}"
         if claim.deed is None:
             return f"is in {listed(self._states[number], 'and')}"
         done = sorted(self._done[claim.deed][number])
@@ -117,7 +140,7 @@ def _sentence(names: Sequence[str], what: str) -> str:
     if names == [""]:
         return what
     if len(names) > 1:
-        verb = {"is": "are"}.get(verb, verb.removesuffix("s"))
+        verb = {"is": "are", "has": "have"}.get(verb, verb.removesuffix("s"))
     shown = [*names[:_SHOWN], *([f"{len(names) - _SHOWN} more"] if len(names) > _SHOWN else [])]
     return f"{_names(shown, len(names) > _SHOWN)} {verb} {rest}"
 

@@ -56,7 +56,7 @@ from swarmdsl.validate.optimization import (
 from swarmdsl.validate.order import check_order
 from swarmdsl.validate.reachability import check_reachability
 from swarmdsl.validate.reuse import check_submachines, reused_machines
-from swarmdsl.validate.settling import check_settling, circles_of
+from swarmdsl.validate.settling import Settling, check_settling
 from swarmdsl.validate.structure import check_structure
 from swarmdsl.validate.style import check_style
 from swarmdsl.validate.transitions import check_transitions
@@ -82,7 +82,8 @@ def check_together(project: Project, context: Context) -> None:
     check_message_cycles(context)
     check_optimizations(project, context)
     check_unused(project, context)
-    used = used_declarations(project)
+    used = used_declarations(project, context.known.uses)
+    context.known.uses = context.known.uses.only(project)
     check_topics(used, context.report)
     check_events([node for _, node in used], context)
 
@@ -128,15 +129,16 @@ def _check(declaration: Declaration, context: Context) -> None:
         case Member():
             check_member(declaration, context)
         case StateMachine():
+            # First of all: it makes conditions of the guards, which other rules compare.
+            check_expressions(declaration, context)
             check_structure(declaration, context)
             check_transitions(declaration, context)
-            circles = circles_of(declaration, context)
-            check_settling(declaration, circles, context)
-            check_order(declaration, circles, context)
+            settling = Settling(declaration, context)
+            check_settling(declaration, settling, context)
+            check_order(declaration, settling, context)
             check_reachability(declaration, context)
             check_activities(declaration, context)
-            check_expressions(declaration, context)
-            check_guards(declaration, circles, context)
+            check_guards(declaration, settling, context)
             check_variables(declaration, context)
             check_conflicts(declaration, context)
         case Constant():

@@ -19,11 +19,8 @@ from swarmdsl.syntax import (
     Branch,
     Call,
     EnumType,
-    EventTrigger,
-    Expression,
     ExpressionTree,
     FieldUse,
-    MonitorTrigger,
     NameUse,
     Node,
     OperatorUse,
@@ -32,10 +29,11 @@ from swarmdsl.syntax import (
     walk,
 )
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.values import Numbers, Texts, Values, all_numbers, compared, these
+from swarmdsl.validate.values import Numbers, Texts, Values, all_numbers, between, compared, these
 
 _MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 _WHOLE = {*INTEGERS, "byte", "char"}
+_TRUE, _TRUE_OR_FALSE = these([1]), these([0, 1])
 # More alternatives than people write; each is a step of the search.
 _MOST_STEPS = 2_000
 
@@ -62,16 +60,26 @@ Condition = Atom | Combined
 ALWAYS = Combined(every=True)
 
 
-def condition(tree: ExpressionTree, typing: Typing) -> Condition:
+def guard_condition(tree: ExpressionTree, typing: Typing) -> Condition:
+    """The condition that a guard without mistakes is: one that has no result does not hold."""
+    holds = _condition(tree, typing)
+    if not any(_may_fail(part, typing.folding) for part in walk(tree)):
+        return holds
+    return Combined(
+        every=True, parts=(_truth(("has a result", _term(tree, typing.folding))), holds)
+    )
+
+
+def _condition(tree: ExpressionTree, typing: Typing) -> Condition:
     """The condition that a `bool` expression is."""
     known = typing.folding.value(tree)
     if isinstance(known, bool):
         return ALWAYS if known else negated(ALWAYS)
     match tree:
         case OperatorUse(operator="and" | "or" as word, operands=operands):
-            return Combined(word == "and", tuple(condition(part, typing) for part in operands))
+            return Combined(word == "and", tuple(_condition(part, typing) for part in operands))
         case OperatorUse(operator="not", operands=(operand,)):
-            return negated(condition(operand, typing))
+            return negated(_condition(operand, typing))
         case OperatorUse(operator=operator, operands=(left, right)) if operator in _MIRRORED:
             return _comparison(str(operator), left, right, typing)
     return _truth(_term(tree, typing.folding))
@@ -85,31 +93,13 @@ def negated(some: Condition) -> Condition:
 
 
 def condition_of(item: Transition | Branch, context: Context) -> Condition:
-    """The condition under which a transition is taken when it is triggered."""
+    """The condition under which a transition is taken when it is triggered.
+
+    Of a guard that is wrong nothing is known.
+    """
     if item.guard is None:
         return ALWAYS
-    if item not in context.conditions:
-        context.conditions[item] = _condition_of(item, item.guard, context)
-    return context.conditions[item]
-
-
-def _condition_of(item: Transition | Branch, guard: Expression, context: Context) -> Condition:
-    if guard.tree is None:
-        return _truth(item)
-    triggers = item.triggers if isinstance(item, Transition) else []
-    events = [each for each in triggers if isinstance(each, (EventTrigger, MonitorTrigger))]
-    typing = (context.with_event(events) if events else context.typing).silent()
-    tree = guard.tree
-    typing.infer(tree)
-    if typing.report.has_errors:
-        return _truth(item)  # whatever was meant
-    holds = condition(tree, typing)
-    if not any(_may_fail(part, typing.folding) for part in walk(tree)):
-        return holds
-    # A guard that has no result does not hold.
-    return Combined(
-        every=True, parts=(_truth(("has a result", _term(tree, typing.folding))), holds)
-    )
+    return context.conditions.get(item) or _truth(item)
 
 
 def _may_fail(part: Node, folding: Folding) -> bool:
@@ -137,8 +127,11 @@ def certain(item: Transition | Branch, context: Context) -> bool | None:
 
 def possible(conditions: Iterable[Condition]) -> bool:
     """Whether there are values for which all of the conditions hold."""
+    together = list(conditions)
+    if len(together) == 1 and isinstance(together[0], Atom):
+        return together[0].range.meets(together[0].values)  # type: ignore[arg-type]
     found: dict[Hashable, Values] = {}
-    ahead = [(list(conditions), found)]
+    ahead = [(together, found)]
     for _ in range(_MOST_STEPS):
         if not ahead:
             return False
@@ -184,7 +177,7 @@ def _comparison(
     if value is None:
         return _relation(operator, left, right, typing)
     if isinstance(value, bool):
-        holds = condition(left, typing)
+        holds = _condition(left, typing)
         return holds if value is (operator == "==") else negated(holds)
     return _compared(operator, left, value, typing)
 
@@ -213,7 +206,7 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
     # What is stored fits in its type; what is computed with it may not.
     held = range_of(type_) if isinstance(tree, (NameUse, FieldUse)) else None
     if held is not None:
-        return compared(">=", held[0], whole=True) & compared("<=", held[-1], whole=True)
+        return between(held[0], held[-1])
     whole = isinstance(type_, Primitive) and type_.name in _WHOLE
     return all_numbers(whole=whole)
 
@@ -245,7 +238,7 @@ def _relation(
 
 
 def _truth(term: Hashable) -> Condition:
-    return Atom(("holds", term), these([1]), these([0, 1]))
+    return Atom(("holds", term), _TRUE, _TRUE_OR_FALSE)
 
 
 def _term(tree: ExpressionTree, folding: Folding) -> Hashable:

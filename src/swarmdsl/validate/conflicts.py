@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 
 from swarmdsl.diagnostics import Label
-from swarmdsl.ir.types import Type
 from swarmdsl.link_machines import regions
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
@@ -19,7 +18,6 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     nodes_of,
-    walk,
 )
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.conditions import condition_of, possible
@@ -29,16 +27,29 @@ from swarmdsl.validate.outline import Outline
 # More than people write for one event; what comes after them is not compared with more.
 _MOST_COMPARED = 50
 _Source = Event | MonitorTrigger
+# The transitions in each region.
+_Inside = Mapping[Region, Sequence[Transition]]
 
 
 def check_conflicts(machine: StateMachine, context: Context) -> None:
     """Check what the regions of each parallel state do on one event."""
-    _check_ways_out(machine, context)
-    for parallel in nodes_of(machine, Parallel):
-        _check_stored(parallel, context.outline(machine), context)
+    parallels = nodes_of(machine, Parallel)
+    if not parallels:
+        return
+    outline = context.outline(machine)
+    inside: dict[Region, list[Transition]] = {region: [] for region in nodes_of(machine, Region)}
+    for state, transitions in outline.transitions.items():
+        for outer in outline.around(state):
+            if isinstance(outer, Region):
+                inside[outer] += transitions
+    for found in inside.values():
+        found.sort(key=lambda transition: transition.span.start)
+    for parallel in parallels:
+        _check_ways_out(parallel, inside, outline, context)
+        _check_stored(parallel, inside, outline, context)
 
 
-def _check_stored(parallel: Parallel, outline: Outline, context: Context) -> None:
+def _check_stored(parallel: Parallel, inside: _Inside, outline: Outline, context: Context) -> None:
     """Report the second of two different values that two regions store on one event.
 
     SCXML runs the effects in the order of the text (3.13): the last one counts. What says
@@ -48,8 +59,8 @@ def _check_stored(parallel: Parallel, outline: Outline, context: Context) -> Non
     for region in regions(parallel):
         found = [
             store
-            for transition in walk(region)
-            if isinstance(transition, Transition) and _stays(transition, region, outline)
+            for transition in inside[region]
+            if _stays(transition, region, outline)
             for store in _stores(transition)
         ]
         for event, transition, effect in found:
@@ -119,37 +130,30 @@ def _called(event: _Source) -> str:
     return f"event `{event.name}`" if isinstance(event, Event) else f"topic `{event.topic}`"
 
 
-def _check_ways_out(machine: StateMachine, context: Context) -> None:
+def _check_ways_out(
+    parallel: Parallel, inside: _Inside, outline: Outline, context: Context
+) -> None:
     """Report the second of two transitions that leave a parallel state on one event.
 
     SCXML takes the first in the text (3.13); whoever reads the model should not have to know.
     """
-    outline = context.outline(machine)
-    for parallel in nodes_of(machine, Parallel):
-        leaving: dict[tuple[str, Type | None], tuple[Region, Transition]] = {}
-        for region in regions(parallel):
-            for transition in walk(region):
-                if not isinstance(transition, Transition) or transition.target is None:
+    leaving: dict[Hashable, tuple[Region, Transition]] = {}
+    for region in regions(parallel):
+        for transition in inside[region]:
+            target = transition.target.target if transition.target is not None else None
+            if target is None or region in outline.around(target):
+                continue
+            for event in map(awaited, transition.triggers):
+                if event is None:
                     continue
-                target = transition.target.target
-                if target is None or region in outline.around(target):
+                where, first = leaving.setdefault(_heard(event), (region, transition))
+                if where is region or (first.target and first.target.target is target):
                     continue
-                for trigger in transition.triggers:
-                    event = awaited(trigger)
-                    if event is None:
-                        continue
-                    heard = heard_on(event), event.type.type
-                    first = leaving.setdefault(heard, (region, transition))
-                    if (
-                        first[0] is not region
-                        and first[1].target is not None
-                        and (first[1].target.target is not target)
-                    ):
-                        context.report.report(
-                            "conflicting-regions",
-                            transition.span,
-                            event=_called(event),
-                            state=parallel.name,
-                            related=(Label(first[1].span, "this one is taken"),),
-                            help=f"move the transition to state `{parallel.name}`",
-                        )
+                context.report.report(
+                    "conflicting-regions",
+                    transition.span,
+                    event=_called(event),
+                    state=parallel.name,
+                    related=(Label(first.span, "this one is taken"),),
+                    help=f"move the transition to state `{parallel.name}`",
+                )

@@ -12,7 +12,7 @@ from swarmdsl.inference import Typing, constant, fits, is_number
 from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import Array, Named, Type
 from swarmdsl.load import Project
-from swarmdsl.ros.interface_file import KINDS
+from swarmdsl.ros.interface_file import INTERFACE_KINDS
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
@@ -33,6 +33,7 @@ from swarmdsl.syntax import (
     Variable,
     Word,
 )
+from swarmdsl.used import UsesOfAll
 from swarmdsl.validate.outline import Outline
 
 if TYPE_CHECKING:
@@ -51,6 +52,7 @@ class Known:
 
     reuse: Mapping[StateMachine, Reuse] = field(default_factory=dict)
     exchanges: Mapping[Declaration | None, Exchange] = field(default_factory=dict)
+    uses: UsesOfAll = field(default_factory=UsesOfAll)
 
 
 @dataclass(frozen=True)
@@ -174,7 +176,10 @@ def read_packages(project: Project) -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for file in project.files:
         for statement, read in file.imports:
-            if isinstance(statement, ImportRos) and Path(statement.path).name not in KINDS:
+            if (
+                isinstance(statement, ImportRos)
+                and Path(statement.path).name not in INTERFACE_KINDS
+            ):
                 for node in read.model.declarations:
                     found.setdefault(node.name.partition("/")[0], set())
     for _, node in project.declarations():

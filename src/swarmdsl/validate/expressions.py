@@ -25,13 +25,17 @@ from swarmdsl.syntax import (
     nodes_of,
 )
 from swarmdsl.validate.activities import check_arguments
+from swarmdsl.validate.conditions import guard_condition
 from swarmdsl.validate.context import Context
 from swarmdsl.validate.enums import check_first_value
 from swarmdsl.validate.interfaces import check_graph_name
 
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
-    """Check every expression of a machine but those of activities."""
+    """Check every expression of a machine but those of activities.
+
+    The conditions that its guards are become known with their types.
+    """
     for param in nodes_of(machine, Param):
         context.check_default(param, param.default)
     for variable in nodes_of(machine, Variable):
@@ -43,19 +47,28 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
         check_graph_name(monitor.topic, "a topic", context)
         context.check_kind(monitor.type, MessageType)
     for transition in nodes_of(machine, Transition):
+        if transition.guard is None and not transition.effects:
+            continue
         triggers = transition.triggers
         events = [t for t in triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
         all_events = events and len(events) == len(triggers)
         typing = context.with_event(events) if all_events else context.typing
-        context.expect(transition.guard, BOOL, typing)
+        _check_guard(transition, typing, context)
         _check_effects(transition.effects, typing, context)
     for branch in nodes_of(machine, Branch):
-        context.expect(branch.guard, BOOL, context.typing)
+        _check_guard(branch, context.typing, context)
         _check_effects(branch.effects, context.typing, context)
     for entry in nodes_of(machine, Entry):
         _check_effects(entry.effects, context.typing, context)
     for exit_ in nodes_of(machine, Exit):
         _check_effects(exit_.effects, context.typing, context)
+
+
+def _check_guard(item: Transition | Branch, typing: Typing, context: Context) -> None:
+    """Check the type of a guard; without a mistake it is a condition."""
+    tree = item.guard.tree if item.guard is not None else None
+    if tree is not None and typing.expect(tree, BOOL):
+        context.conditions[item] = guard_condition(tree, typing)
 
 
 def _check_delay(delay: Expression, context: Context) -> None:

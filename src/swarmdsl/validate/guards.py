@@ -5,22 +5,21 @@ from __future__ import annotations
 from swarmdsl.syntax import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
 from swarmdsl.validate.conditions import certain
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.settling import Circles, endless, is_idle
+from swarmdsl.validate.settling import Settling, is_idle
 
 
-def check_guards(machine: StateMachine, circles: Circles, context: Context) -> None:
+def check_guards(machine: StateMachine, settling: Settling, context: Context) -> None:
     """Check the guards of all transitions and branches of a machine.
 
     Where one that always holds makes a machine go round for ever, that has been reported.
     """
-    reported = endless(circles)
     for choice in nodes_of(machine, Choice):
         for branch in choice.branches:
-            if branch not in reported:
+            if branch not in settling.endless:
                 _check(branch, _advice(branch, choice), context)
     for state, transitions in context.outline(machine).transitions.items():
         for transition in transitions:
-            if transition not in reported:
+            if transition not in settling.endless:
                 _check(transition, _advice(transition, state), context)
 
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.diagnostics import Label
 from swarmdsl.enums import numbers
 from swarmdsl.ir.types import DURATION, Named, Primitive, Type
 from swarmdsl.link_machines import all_resolved
+from swarmdsl.source import Span
 from swarmdsl.syntax import (
     EnumType,
     NameUse,
@@ -31,9 +33,12 @@ def check_initialization(machine: StateMachine, context: Context, *, reused: boo
     if not variables or _has_unknown(machine) or not all_resolved(machine):
         return
     start = Ways(context.outline(machine)).start
-    for variable in variables:
-        settable = not reused and _has_literals(variable.type.type, context)
-        _check(variable, start, settable, context)
+    settable = {
+        variable: not reused and _has_literals(variable.type.type, context)
+        for variable in variables
+    }
+    for read, way in _early_reads(start, settable):
+        _report(read, way, settable[read.variable], context)
 
 
 def _has_unknown(machine: StateMachine) -> bool:
@@ -65,31 +70,58 @@ def _begins_well(type_: Type | None, context: Context) -> bool:
     return not isinstance(enum, EnumType) or 0 in numbers(enum).values()
 
 
-def _check(variable: Variable, start: Point, settable: bool, context: Context) -> None:
-    """Report the first read of a variable, in the number of steps, that no write comes before."""
-    before: dict[Point, Point | None] = {start: None}
+def _early_reads(
+    start: Point, settable: Mapping[Variable, bool]
+) -> Iterator[tuple[Read, Iterator[Point]]]:
+    """The first read of each variable, in the number of points, that no write comes before.
+
+    Each with the points that lead there, the last first. A variable that is not `settable` may be
+    tested. The variables go the ways together, a bit for each, however many there are.
+    """
+    bits = {variable: 1 << number for number, variable in enumerate(settable)}
+    everything = (1 << len(bits)) - 1
+    found: dict[Variable, tuple[Read, Point]] = {}
+    # At each point what is not written, and from where that came; what has yet to go on.
+    unset, ahead = {start: everything}, {start: everything}
+    came: dict[Point, list[tuple[int, Point]]] = {start: []}
     work = deque([start])
     while work:
         point = work.popleft()
-        step = point.first(variable)
-        if isinstance(step, Read) and (settable or not step.test):
-            _report(step, point, before, settable, context)
-            return
-        if step is not None:
-            continue
-        for reached in point.leads_to:
-            if reached not in before and all(part in before for part in reached.parts):
-                before[reached] = point
-                work.append(reached)
+        left = ahead.pop(point)
+        for step in point.steps:
+            bit = bits.get(step.variable, 0) & left
+            if bit:
+                left &= ~bit
+                if isinstance(step, Read) and (settable[step.variable] or not step.test):
+                    found.setdefault(step.variable, (step, point))
+        for reached in point.leads_to if left else ():
+            known, new = unset.get(reached, 0), left
+            for part in reached.parts:
+                new &= unset.get(part, 0)
+            new &= ~known
+            if new:
+                unset[reached] = known | new
+                came.setdefault(reached, []).append((new, point))
+                if reached not in ahead:
+                    work.append(reached)
+                ahead[reached] = ahead.get(reached, 0) | new
+
+    def way(point: Point | None, bit: int) -> Iterator[Point]:
+        while point is not None:
+            yield point
+            point = next((before for some, before in came[point] if some & bit), None)
+
+    for variable, bit in bits.items():
+        if variable in found:
+            read, point = found[variable]
+            yield read, way(point, bit)
 
 
-def _report(
-    read: Read, at: Point, before: dict[Point, Point | None], settable: bool, context: Context
-) -> None:
+def _report(read: Read, way: Iterable[Point], settable: bool, context: Context) -> None:
     variable = read.variable
-    point: Point | None = at
-    while point is not None and (point.after is None or _contains(point, read)):
-        point = before[point]
+    here = next(
+        (p.after for p in way if p.after is not None and not _contains(p.after, read)), None
+    )
     help_ = "write it on every way that leads here"
     if settable:
         written = f"var {variable.name} : {variable.type.span.text} = ..."
@@ -99,16 +131,13 @@ def _report(
         read.span,
         name=variable.name,
         label=f"nothing is stored in it yet: {_zero(variable.type.type, context)}",
-        related=(Label(point.after, "this way leads here before it is written"),)
-        if point is not None and point.after is not None
-        else (),
+        related=(Label(here, "this way leads here before it is written"),) if here else (),
         help=help_,
     )
 
 
-def _contains(point: Point, read: Read) -> bool:
-    assert point.after is not None
-    return point.after.start <= read.span.start < point.after.end
+def _contains(span: Span, read: Read) -> bool:
+    return span.start <= read.span.start < span.end
 
 
 def _has_literals(type_: Type | None, context: Context) -> bool:

@@ -30,6 +30,7 @@ from swarmdsl.syntax import (
     TypeRef,
     Variable,
     Word,
+    by_class,
     nodes_of,
 )
 from swarmdsl.topics import heard_on, topic_of
@@ -69,7 +70,8 @@ def check_message_cycles(context: Context) -> None:
 
 def check_values(declaration: Declaration, context: Context) -> None:
     """A value is no service and no action."""
-    for node in (node for kind in _VALUES for node in nodes_of(declaration, kind)):
+    found = by_class(declaration)
+    for node in (node for kind in _VALUES for node in found.get(kind, ())):
         type_ = node.type.type
         element = type_.element if isinstance(type_, Array) else type_
         known = context.interfaces.get(element) if isinstance(element, Named) else None

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterable
-from typing import TypeVar
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.draft import stands_for_nothing
@@ -44,7 +44,7 @@ from swarmdsl.syntax import (
     Variable,
     Vertex,
     Word,
-    walk,
+    by_class,
 )
 
 Named = (
@@ -72,12 +72,14 @@ RESERVED_EVENTS = ("error",)
 def check_names(project: Project, report: Diagnostics) -> None:
     """Check top-level names across files."""
     top_level: dict[Hashable, Declaration] = {}
-    for file, declaration in project.declarations():
-        name = str(declaration.name)
-        _check_first((file.package, name), declaration, top_level, report)
-        if isinstance(declaration, Interface):
-            # `Pose` of package `geo` and `geo/Pose` are one interface.
-            _check_first(interface_name(file, name), declaration, top_level, report)
+    for file in project.files:
+        package = file.package
+        for declaration in file.model.declarations:
+            name = str(declaration.name)
+            _check_first((package, name), declaration, top_level, report)
+            if isinstance(declaration, Interface):
+                # `Pose` of package `geo` and `geo/Pose` are one interface.
+                _check_first(interface_name(file, name), declaration, top_level, report)
 
 
 def check_names_inside(
@@ -95,57 +97,16 @@ def check_names_inside(
             name=declaration.name,
             help="SCXML keeps it for errors of its own",
         )
-    for node in walk(declaration):
-        for names in _namespaces(node) if type(node) in _WITH_NAMES else ():
-            among = [named for named in names if named.name not in no_names]
-            if len({named.name for named in among}) == len(among):
+    for kind, nodes in by_class(declaration).items():
+        if kind not in _NAMESPACES:
+            continue
+        for among in (names for node in nodes for names in _NAMESPACES[kind](node)):
+            if len(among) < 2 or len({named.name for named in among}) == len(among):
                 continue
             seen: dict[Hashable, Named] = {}
             for named in among:
-                _check_first(str(named.name), named, seen, report)
-
-
-_WITH_NAMES = frozenset(
-    (
-        *(StructType, MessageType, ServiceType, ActionType, Function, Component, Member),
-        *(EnumType, Operation, Fitness, Swarm, StateMachine, Parallel, State, Region),
-    )
-)
-
-
-def _namespaces(node: Node) -> Iterable[Iterable[Named]]:
-    """The groups of named things in a node whose names must differ."""
-    match node:
-        case StructType(fields=fields):
-            return (fields,)
-        case MessageType(fields=fields, constants=constants):
-            return ([*constants, *fields],)
-        case ServiceType(request=request, response=response):
-            return (request, response)
-        case ActionType(goal=goal, result=result, feedback=feedback):
-            return (goal, result, feedback)
-        case Function(items=items):
-            return ([item for item in items if isinstance(item, Param)],)
-        case Component() | Member():
-            return (_items(node),)
-        case EnumType(values=values):
-            return (values,)
-        case Operation(parameters=parameters):
-            return (parameters,)
-        case Fitness(items=items):
-            return ([item for item in items if isinstance(item, (FitnessInput, Param))],)
-        case Swarm(items=items):
-            return ([item for item in items if isinstance(item, Role)],)
-        case StateMachine(items=items):
-            return (
-                [item for item in items if isinstance(item, (Param, Variable))],
-                vertices(node),
-            )
-        case Parallel():
-            return (regions(node),)
-        case State() | Region():
-            return (vertices(node),)
-    return ()
+                if named.name not in no_names:
+                    _check_first(str(named.name), named, seen, report)
 
 
 def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
@@ -160,6 +121,34 @@ def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
         if isinstance(item, kinds) and (item in params or not isinstance(item, Param))
     ]
     return [*inherited, *own]
+
+
+def _of(*kinds: type[Named]) -> Callable[[Any], Iterable[Sequence[Named]]]:
+    """The items of these kinds in a node."""
+    return lambda node: ([item for item in node.items if isinstance(item, kinds)],)
+
+
+# The groups of named things in a node whose names must differ.
+_NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
+    StructType: lambda node: (node.fields,),
+    MessageType: lambda node: ([*node.constants, *node.fields],),
+    ServiceType: lambda node: (node.request, node.response),
+    ActionType: lambda node: (node.goal, node.result, node.feedback),
+    Function: _of(Param),
+    Component: lambda node: (_items(node),),
+    Member: lambda node: (_items(node),),
+    EnumType: lambda node: (node.values,),
+    Operation: lambda node: (node.parameters,),
+    Fitness: _of(FitnessInput, Param),
+    Swarm: _of(Role),
+    StateMachine: lambda node: (
+        [item for item in node.items if isinstance(item, (Param, Variable))],
+        vertices(node),
+    ),
+    Parallel: lambda node: (regions(node),),
+    State: lambda node: (vertices(node),),
+    Region: lambda node: (vertices(node),),
+}
 
 
 def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:

@@ -7,7 +7,6 @@ event before all that wait for one.
 from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
-from math import inf
 
 from swarmdsl.diagnostics import Label
 from swarmdsl.syntax import (
@@ -31,30 +30,36 @@ from swarmdsl.syntax import (
 from swarmdsl.topics import awaited, heard_on
 from swarmdsl.validate.conditions import certain, condition_of, negated, possible
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.delays import Leaving, check_late, leaves, sooner_one, soonest_of
 from swarmdsl.validate.outline import Outline
-from swarmdsl.validate.settling import Circles, Step, at_once, endless, immediate
+from swarmdsl.validate.settling import Settling, at_once
 
 _AT_ONCE = ("at once",)
 # More guards than people write for one event; what comes after them is not compared with more.
 _MOST_COMPARED = 50
-# A transition, and how long its trigger waits.
-_Leaving = tuple[float, Transition]
 
 
-def check_order(machine: StateMachine, circles: Circles, context: Context) -> None:
+def check_order(machine: StateMachine, settling: Settling, context: Context) -> None:
     """Report what is never taken because something else always comes before it."""
-    reported = endless(circles)
     outline = context.outline(machine)
+    has_delays = bool(nodes_of(machine, TimeTrigger))
     # By state what leaves it, or one around it, first: of those around others, which come before.
-    ends: dict[Container, _Leaving] = {}
+    ends: dict[Container, Leaving] = {}
     for state, transitions in outline.transitions.items():
-        dead = _check_immediate(state, transitions, reported, context)
-        alive = [t for t in transitions if t not in dead]
-        soonest = _soonest(alive, context)
-        outer = [ends[each] for each in (_owner(state, outline),) if each in ends]
-        _check_transitions(alive, state, soonest, outer, context)
-        if outer or soonest:
-            ends[state] = min([*outer, *soonest], key=lambda each: each[0])
+        alive = transitions
+        if state in settling.immediate:
+            dead = _check_immediate(state, transitions, settling, context)
+            alive = [each for each in transitions if each not in dead]
+        soonest: Sequence[Leaving] = ()
+        if has_delays:
+            soonest = soonest_of(alive, context)
+            outer = ends.get(_owner(state, outline))
+            if outer is not None:
+                alive = [each for each in alive if not check_late(each, outer, context)]
+            first = [each for each in (outer, *soonest[:1]) if each is not None]
+            if first:
+                ends[state] = min(first, key=lambda each: each[0])
+        _check_transitions(alive, state, soonest, context)
     for choice in nodes_of(machine, Choice):
         _check_branches(choice, context)
 
@@ -62,22 +67,22 @@ def check_order(machine: StateMachine, circles: Circles, context: Context) -> No
 def _check_immediate(
     state: State | Parallel,
     transitions: Sequence[Transition],
-    reported: set[Step],
+    settling: Settling,
     context: Context,
 ) -> set[Transition]:
     """Report what stands beside the way out that a state takes at once; return all of it.
 
     Where it is left at once in a circle of such states, that is the mistake.
     """
-    first = next((t for t in transitions if immediate(t, state, context)), None)
-    if first is None or first.target is None:
+    first = settling.immediate[state][0]
+    if first.target is None:
         return set()
     before = transitions[: transitions.index(first)]
     dead = [
         *(t for t in before if t.triggers and not any(at_once(each, state) for each in t.triggers)),
         *transitions[len(before) + 1 :],
     ]
-    if dead and first not in reported:
+    if dead and first not in settling.endless:
         context.report.report(
             "transition-never-fires",
             dead[0].span,
@@ -91,32 +96,33 @@ def _check_immediate(
 
 
 def _check_transitions(
-    transitions: list[Transition],
+    transitions: Sequence[Transition],
     state: State | Parallel,
-    soonest: Sequence[_Leaving],
-    outer: Sequence[_Leaving],
+    soonest: Sequence[Leaving],
     context: Context,
 ) -> None:
+    if len(transitions) == 1 and len(transitions[0].triggers) < 2:
+        return  # nothing to compare it with
     earlier: dict[Hashable, list[Transition]] = {}
     for transition in transitions:
         keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
-        _check_repeated(transition.triggers, keys, context)
-        sooner = [_sooner(each, transition, soonest, context) for each in transition.triggers]
-        late = [_late(each, outer, context) for each in transition.triggers]
-        if late and all(late):
-            _report_late(transition, outer[0][1], context)
-            continue
+        if len(keys) > 1:
+            _check_repeated(transition.triggers, keys, context)
         blockers = [
-            [first] if first is not None else _covering(transition, _all(earlier, each), context)
-            for first, each in zip(sooner or [None], keys, strict=True)
+            _covering(transition, _all(earlier, each), context) if earlier else [] for each in keys
         ]
+        if soonest:
+            for number, trigger in enumerate(transition.triggers):
+                sooner = sooner_one(trigger, transition, soonest, context)
+                blockers[number] = [sooner] if sooner is not None else blockers[number]
         if all(blockers):
             _report(transition, blockers[0], context)
         elif not _decided(transition, context):
-            for key in (key for each in keys for key in each[:1]):
+            for each in filter(None, keys):
+                key = each[0]
                 found = earlier.setdefault(key, [])
                 few = len(found) < _MOST_COMPARED or transition.guard is None
-                if few and (key[0] != "after" or _leaves(transition)):
+                if few and (key[0] != "after" or leaves(transition)):
                     found.append(transition)
 
 
@@ -223,7 +229,7 @@ def _all(
     earlier: Mapping[Hashable, list[Transition]], keys: list[tuple[Hashable, ...]]
 ) -> list[Transition]:
     found = {transition: None for key in keys for transition in earlier.get(key, ())}
-    return sorted(found, key=lambda transition: transition.span.start)
+    return sorted(found, key=lambda transition: transition.span.start) if found else []
 
 
 def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...]]:
@@ -245,62 +251,7 @@ def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...
             return [("after", delay.span.text)]
 
 
-def _leaves(transition: Transition) -> bool:
-    """Whether it ends all delays of its state."""
-    return transition.target is not None and not transition.internal
-
-
-def _soonest(transitions: Sequence[Transition], context: Context) -> list[_Leaving]:
-    """The two transitions that leave the state always and first, as their time comes."""
-    found: list[_Leaving] = []
-    for transition in transitions:
-        if transition.guard is None and _leaves(transition):
-            known = [_delay(trigger, context) for trigger in transition.triggers]
-            delays = [delay for delay in known if delay is not None]
-            if delays:
-                found.append((min(delays), transition))
-    return sorted(found, key=lambda each: each[0])[:2]
-
-
-def _sooner(
-    trigger: Trigger, transition: Transition, soonest: Sequence[_Leaving], context: Context
-) -> Transition | None:
-    """The transition that leaves the state always, and after a shorter time or the same."""
-    if not soonest:
-        return None
-    delay = _delay(trigger, context)
-    others = ((sooner, other) for sooner, other in soonest if other is not transition)
-    sooner, other = next(others, (inf, None))
-    if delay is None or other is None:
-        return None
-    before = other.span.start < transition.span.start
-    return other if sooner < delay or (before and sooner == delay) else None
-
-
 def _owner(state: State | Parallel, outline: Outline) -> Container:
     """The state that another one is in, or the machine."""
     container = outline.container[state]
     return outline.container[container] if isinstance(container, Region) else container
-
-
-def _late(trigger: Trigger, outer: Sequence[_Leaving], context: Context) -> bool:
-    """Whether a state around is left by then: it was entered no later."""
-    delay = _delay(trigger, context) if outer else None
-    return delay is not None and any(sooner <= delay for sooner, _ in outer)
-
-
-def _report_late(transition: Transition, before: Transition, context: Context) -> None:
-    context.report.report(
-        "transition-never-fires",
-        transition.span,
-        related=(Label(before.span, "this one leaves the state around it no later"),),
-        help="let it wait less long, or the other one longer",
-    )
-
-
-def _delay(trigger: Trigger, context: Context) -> float | None:
-    """How long a trigger waits, where that is known and makes sense."""
-    if isinstance(trigger, TimeTrigger) and trigger.delay.tree is not None:
-        value = context.typing.folding.value(trigger.delay.tree)
-        return value if isinstance(value, (int, float)) and value > 0 else None
-    return None

@@ -8,12 +8,12 @@ from swarmdsl.diagnostics import Label
 from swarmdsl.link_machines import all_resolved, regions, vertices
 from swarmdsl.scopes import bare, kind_of
 from swarmdsl.syntax import (
+    Branch,
     Choice,
     Container,
     DoneTrigger,
     FinalState,
     History,
-    Initial,
     Parallel,
     Region,
     State,
@@ -37,20 +37,21 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
         return
     outline = context.outline(machine)
     reached: set[Vertex | Region] = set()
-    work = _initials(machine)
+    work = _initials(machine, outline)
     while work:
         state = work.pop()
         if state in reached:
             continue
         reached.add(state)
-        work += _successors(state)
+        work += _successors(state, outline)
         outer = outline.container[state]
         if not isinstance(outer, StateMachine):
             work.append(outer)  # to be in a state is to be in those around it
-    unreached = list(_unreached(machine, reached))
-    waiting = _waiting(reached, outline) if unreached else {}
+    if reached.issuperset(outline.vertices):
+        return
+    waiting = _waiting(reached, outline)
     ended = {outline.container[end] for end in reached if isinstance(end, FinalState)}
-    for state in unreached:
+    for state in _unreached(machine, reached):
         context.report.report(
             "unreachable-state",
             state.name.span,
@@ -63,27 +64,27 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
         )
 
 
-def _initials(container: Container) -> list[Vertex | Region]:
-    initials = [item for item in container.items if isinstance(item, Initial)]
+def _initials(container: Container, outline: Outline) -> list[Vertex | Region]:
+    """What is entered with a container: its regions, or its initial state."""
+    initials = outline.initials[container]
     if not initials:
-        return list(vertices(container))
+        return [*outline.inside[container]]
     return [item.target.target for item in initials if item.target.target is not None]
 
 
-def _successors(state: Vertex | Region) -> list[Vertex | Region]:
-    """What a state leads to: its regions, its initial state, its transitions' targets."""
-    found: list[Vertex | Region] = [*regions(state)]
-    if isinstance(state, (State, Region)):
-        found += _initials(state)
-    arrows = [
-        *(state.branches if isinstance(state, Choice) else ()),
-        *([state] if isinstance(state, History) else ()),
-        *(
-            item
-            for item in (state.items if isinstance(state, (State, Parallel)) else ())
-            if isinstance(item, Transition)
-        ),
-    ]
+def _successors(state: Vertex | Region, outline: Outline) -> list[Vertex | Region]:
+    """What a state leads to: what is entered with it, its transitions' targets."""
+    found: list[Vertex | Region] = []
+    arrows: Sequence[Transition | Branch | History] = ()
+    match state:
+        case State() | Parallel():
+            found, arrows = _initials(state, outline), outline.transitions[state]
+        case Region():
+            found = _initials(state, outline)
+        case Choice():
+            arrows = state.branches
+        case History():
+            arrows = [state]
     targets = [arrow.target.target for arrow in arrows if arrow.target is not None]
     return found + [target for target in targets if target is not None]
 

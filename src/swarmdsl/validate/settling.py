@@ -6,12 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from swarmdsl.diagnostics import Label
 from swarmdsl.graph import cycles
-from swarmdsl.link_machines import regions, vertices
+from swarmdsl.link_machines import regions
 from swarmdsl.syntax import (
     Activity,
     Branch,
     Choice,
-    Container,
     DoneTrigger,
     History,
     Initial,
@@ -28,17 +27,57 @@ from swarmdsl.validate.context import Context
 
 # What leads on to another state without waiting.
 Step = Transition | Branch | Initial | History
-# Each by a state on it and the steps from there.
-Circles = Sequence[tuple[Vertex, list[Step]]]
 
 
-def check_settling(machine: StateMachine, circles: Circles, context: Context) -> None:
+class Settling:
+    """What a machine does without waiting for anything.
+
+    `immediate` are by state the transitions that are taken as soon as it is entered, `circles`
+    the steps that lead back to a state, and `endless` those of all circles.
+    """
+
+    def __init__(self, machine: StateMachine, context: Context) -> None:
+        self._outline = outline = context.outline(machine)
+        self._context = context
+        self.immediate: dict[State | Parallel, list[Transition]] = {}
+        for state, transitions in outline.transitions.items():
+            found = [each for each in transitions if _immediate(each, state, context)]
+            if found:
+                self.immediate[state] = found
+        self.circles: Sequence[tuple[Vertex, list[Step]]] = ()
+        # Initial states lead inward only.
+        others = [*nodes_of(machine, Choice), *nodes_of(machine, History)]
+        if self.immediate or others:
+            self.circles = list(cycles(outline.vertices, self._steps))
+        self.endless = {step for _, steps in self.circles for step in steps}
+
+    def _steps(self, vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
+        """The steps that lead on from a state, and where to."""
+        for step in self._steps_from(vertex):
+            if step.target is not None and step.target.target is not None:
+                yield step, step.target.target
+
+    def _steps_from(self, vertex: Vertex) -> Iterator[Step]:
+        match vertex:
+            case Choice(branches=branches):
+                yield from (branch for branch in branches if _certain(branch, self._context))
+            case History(target=default) if isinstance(default.target, History):
+                yield vertex
+            case State() | Parallel():
+                yield from self.immediate.get(vertex, ())
+                for region in regions(vertex):
+                    yield from self._outline.initials[region]
+                if self._outline.inside[vertex]:
+                    yield from self._outline.initials[vertex]
+
+
+def check_settling(machine: StateMachine, settling: Settling, context: Context) -> None:
     """Report circles of steps that wait for nothing, and those that only guards may end."""
-    for state, steps in circles:
+    for vertex, steps in settling.circles:
         help_ = "let one of the states on the way wait for something"
-        _report("endless-steps", state, steps, help_, context)
-    for state in context.outline(machine).states:
-        _check_stays(state, context)
+        _report("endless-steps", vertex, steps, help_, context)
+    for state, transitions in settling.immediate.items():
+        _check_stays(state, transitions, context)
     choices = nodes_of(machine, Choice)
     for choice, branches in cycles(choices, lambda choice: _branches(choice, context)):
         if any(not _certain(branch, context) for branch in branches):
@@ -46,9 +85,11 @@ def check_settling(machine: StateMachine, circles: Circles, context: Context) ->
             _report("choice-circle", choice, branches, help_, context)
 
 
-def _check_stays(state: State | Parallel, context: Context) -> None:
-    for transition in transitions_of(state):
-        if transition.target is None and immediate(transition, state, context):
+def _check_stays(
+    state: State | Parallel, transitions: Sequence[Transition], context: Context
+) -> None:
+    for transition in transitions:
+        if transition.target is None:
             context.report.report(
                 "endless-steps",
                 transition.span,
@@ -58,12 +99,7 @@ def _check_stays(state: State | Parallel, context: Context) -> None:
             )
 
 
-def endless(circles: Circles) -> set[Step]:
-    """The steps of all circles in which nothing is waited for."""
-    return {step for _, steps in circles for step in steps}
-
-
-def immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
+def _immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
     """Whether a transition is taken as soon as its state is entered, whatever happens."""
     triggers = transition.triggers
     at_entry = not triggers or any(at_once(trigger, state) for trigger in triggers)
@@ -82,37 +118,6 @@ def is_idle(state: State | Parallel) -> bool:
         and state.machine is None
         and not any(isinstance(item, (Activity, Vertex)) for item in state.items)
     )
-
-
-def transitions_of(state: State | Parallel) -> list[Transition]:
-    """The transitions that a state holds."""
-    return [item for item in state.items if isinstance(item, Transition)]
-
-
-def circles_of(machine: StateMachine, context: Context) -> Circles:
-    """The circles of steps in which nothing is waited for."""
-
-    def steps(vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
-        for step in _steps(vertex, context):
-            if step.target is not None and step.target.target is not None:
-                yield step, step.target.target
-
-    return list(cycles(context.outline(machine).vertices, steps))
-
-
-def _steps(vertex: Vertex, context: Context) -> Iterator[Step]:
-    match vertex:
-        case Choice(branches=branches):
-            yield from (branch for branch in branches if _certain(branch, context))
-        case History(target=default) if isinstance(default.target, History):
-            yield vertex
-        case State() | Parallel():
-            yield from (t for t in transitions_of(vertex) if immediate(t, vertex, context))
-            containers: list[Container] = [*regions(vertex)]
-            if isinstance(vertex, State) and any(vertices(vertex)):
-                containers.append(vertex)
-            for container in containers:
-                yield from (item for item in container.items if isinstance(item, Initial))
 
 
 def _branches(choice: Choice, context: Context) -> Iterator[tuple[Branch, Choice]]:

@@ -24,6 +24,7 @@ from swarmdsl.syntax import (
     TimeTrigger,
     Transition,
     Trigger,
+    Value,
     Variable,
     Vertex,
     nodes_of,
@@ -84,12 +85,10 @@ def results(trigger: Trigger | None, state: State | Parallel) -> list[Step]:
     ]
 
 
-def on(kind: type[Entry] | type[Exit], vertex: Node) -> list[Step]:
+def on(kind: type[Entry] | type[Exit], state: State | Parallel) -> list[Step]:
     """What a state does when it is entered, or left."""
-    if not isinstance(vertex, (State, Parallel)):
-        return []
     return [
-        step for item in vertex.items if isinstance(item, kind) for step in in_order(item.effects)
+        step for item in state.items if isinstance(item, kind) for step in in_order(item.effects)
     ]
 
 
@@ -109,7 +108,9 @@ def in_order(effects: list[Effect]) -> list[Step]:
 
 def reads(value: Expression | None, *, test: bool = False) -> Iterator[Read]:
     """What an expression reads."""
-    for use in walk(value) if value is not None else ():
+    if value is None or isinstance(value.tree, Value):
+        return
+    for use in walk(value):
         if isinstance(use, NameUse) and isinstance(use.target, Variable):
             yield Read(use.target, use.span, test)
 

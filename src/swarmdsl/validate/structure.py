@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.diagnostics import Label
-from swarmdsl.link_machines import all_resolved, content, regions, vertices
+from swarmdsl.link_machines import all_resolved, content, regions
 from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
@@ -11,7 +11,6 @@ from swarmdsl.syntax import (
     Container,
     FinalState,
     History,
-    Initial,
     NameUse,
     Parallel,
     Param,
@@ -23,6 +22,7 @@ from swarmdsl.syntax import (
 )
 from swarmdsl.validate.conditions import condition_of, negated, possible
 from swarmdsl.validate.context import Context
+from swarmdsl.validate.outline import Outline
 
 
 def check_structure(machine: StateMachine, context: Context) -> None:
@@ -34,9 +34,10 @@ def check_structure(machine: StateMachine, context: Context) -> None:
             owner=f"state machine `{machine.name}`",
             help="add `final Done`, or write `endless statemachine` if it never ends",
         )
-    _check_initial(machine, f"state machine `{machine.name}`", context)
+    outline = context.outline(machine)
+    _check_initial(machine, f"state machine `{machine.name}`", outline, context)
     for region in nodes_of(machine, Region):
-        _check_initial(region, f"region `{region.name}`", context)
+        _check_initial(region, f"region `{region.name}`", outline, context)
     for parallel in nodes_of(machine, Parallel):
         if not regions(parallel):
             context.report.report(
@@ -46,32 +47,31 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 help="add `region Name { ... }`; one without is a plain `state`",
             )
     for state in nodes_of(machine, State):
-        _check_state(state, context)
+        _check_state(state, outline, context)
     for choice in nodes_of(machine, Choice):
         _check_choice(choice, context)
-    _check_levels(machine, context)
+    _check_levels(outline, context)
 
 
-def _check_state(state: State, context: Context) -> None:
+def _check_state(state: State, outline: Outline, context: Context) -> None:
     activities = [item for item in state.items if isinstance(item, Activity)]
     context.check_single([item.span for item in activities], "the activity")
     contents = []
     if state.machine is not None:
         contents.append("the content of another machine")
-    if any(True for _ in vertices(state)):
+    if outline.inside[state]:
         contents.append("states of its own")
         if state.machine is None:
-            _check_initial(state, f"composite state `{state.name}`", context)
+            _check_initial(state, f"composite state `{state.name}`", outline, context)
     else:
-        for item in state.items:
-            if isinstance(item, Initial):
-                context.report.report(
-                    "mixed-content",
-                    item.span,
-                    state=state.name,
-                    content="an initial state and no states",
-                    help="add the states, or remove this line",
-                )
+        for initial in outline.initials[state]:
+            context.report.report(
+                "mixed-content",
+                initial.span,
+                state=state.name,
+                content="an initial state and no states",
+                help="add the states, or remove this line",
+            )
     if activities:
         contents.append("an activity")
     if len(contents) > 1:
@@ -86,10 +86,10 @@ def _check_state(state: State, context: Context) -> None:
         _check_reuse(state, state.machine.target, context)
 
 
-def _check_levels(machine: StateMachine, context: Context) -> None:
+def _check_levels(outline: Outline, context: Context) -> None:
     """Check that an internal transition leads inward and a history has something to resume."""
-    for history in vertices(machine):
-        if isinstance(history, History):
+    for history in nodes_of(outline.machine, History):
+        if outline.container[history] is outline.machine:
             context.report.report(
                 "misplaced-history",
                 history.name.span,
@@ -97,9 +97,8 @@ def _check_levels(machine: StateMachine, context: Context) -> None:
                 fault="stands outside of any composite state",
                 help="put it into the state that it leads back into",
             )
-    outline = context.outline(machine)
-    for state in outline.states:
-        for item in outline.transitions[state]:
+    for state, transitions in outline.transitions.items():
+        for item in transitions:
             target = item.target.target if item.target is not None else None
             if item.target is None or target is None or not item.internal:
                 continue
@@ -160,11 +159,11 @@ def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context
             return
 
 
-def _check_initial(container: Container, owner: str, context: Context) -> None:
-    found = [item for item in container.items if isinstance(item, Initial)]
+def _check_initial(container: Container, owner: str, outline: Outline, context: Context) -> None:
+    found = outline.initials[container]
     if not found:
         # Best one that is active for a while: a history has nothing to resume at the start.
-        states = [state for state in vertices(container) if not isinstance(state, History)]
+        states = [state for state in outline.inside[container] if not isinstance(state, History)]
         inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
         context.report.report(
             "missing-initial",
@@ -201,5 +200,5 @@ def completes(state: Container, context: Context) -> bool:
     inside = content(state)
     if inside is None or inside in context.damaged:
         return True
-    final = any(isinstance(vertex, FinalState) for vertex in vertices(inside))
+    final = any(isinstance(item, FinalState) for item in inside.items)
     return final or not all_resolved(inside)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import cast
+from collections.abc import Callable
 
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.scopes import bare, kind_of
@@ -35,10 +35,10 @@ from swarmdsl.syntax import (
     StructType,
     Swarm,
     Variable,
-    walk,
+    by_class,
 )
 from swarmdsl.validate.context import Context
-from swarmdsl.validate.names import RESERVED_EVENTS, Named
+from swarmdsl.validate.names import RESERVED_EVENTS
 
 
 def _upper_case(name: str) -> str:
@@ -46,9 +46,10 @@ def _upper_case(name: str) -> str:
 
 
 # What names look like, how that is called, and how another name becomes such a one.
-_CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*"), "CamelCase", camel_case
-_SNAKE = re.compile(r"[a-z][a-z0-9_]*"), "snake_case", snake_case
-_UPPER = re.compile(r"[A-Z][A-Z0-9_]*"), "UPPER_CASE", _upper_case
+_Style = tuple[re.Pattern[str], str, Callable[[str], str]]
+_CAMEL: _Style = re.compile(r"[A-Z][A-Za-z0-9]*"), "CamelCase", camel_case
+_SNAKE: _Style = re.compile(r"[a-z][a-z0-9_]*"), "snake_case", snake_case
+_UPPER: _Style = re.compile(r"[A-Z][A-Z0-9_]*"), "UPPER_CASE", _upper_case
 
 _STYLES = {
     **dict.fromkeys((StructType, EnumType, AliasType, Event, Component), _CAMEL),
@@ -61,18 +62,19 @@ _STYLES = {
 
 def check_style(declaration: Declaration, context: Context) -> None:
     """Check the style of all names in a declaration but those that ROS or others have given."""
-    for node in walk(declaration):
-        if type(node) not in _STYLES:
+    for kind, nodes in by_class(declaration).items():
+        if kind not in _STYLES:
             continue
-        style, written, better = _STYLES[type(node)]
-        name = cast("Named", node).name
-        reserved = isinstance(node, Event) and name in RESERVED_EVENTS
-        if not style.fullmatch(name) and not reserved:
-            context.report.report(
-                "naming-style",
-                name.span,
-                kind=bare(kind_of(node)),
-                name=name,
-                style=written,
-                help=f"write `{better(name)}`",
-            )
+        style, written, better = _STYLES[kind]
+        for node in nodes:
+            name = node.name
+            reserved = kind is Event and name in RESERVED_EVENTS
+            if not style.fullmatch(name) and not reserved:
+                context.report.report(
+                    "naming-style",
+                    name.span,
+                    kind=bare(kind_of(node)),
+                    name=name,
+                    style=written,
+                    help=f"write `{better(name)}`",
+                )

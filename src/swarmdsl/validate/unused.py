@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-
-from swarmdsl.ir.types import Array, Named
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import Project
 from swarmdsl.scopes import bare, kind_of
@@ -15,15 +12,12 @@ from swarmdsl.syntax import (
     Event,
     Function,
     Member,
-    NameUse,
     Node,
     Param,
     StateMachine,
     StructType,
     TopLevel,
-    TypeRef,
     nodes_of,
-    references,
 )
 from swarmdsl.validate.context import Context
 
@@ -43,10 +37,12 @@ def check_unused(project: Project, context: Context) -> None:
     types = {interface_name(file, node.name): node for file, node in pairs}
     owners: list[TopLevel] = [node for _, node in pairs]
     owners += [optimization for _, optimization in project.optimizations()]
-    refs = [ref for owner in owners for _, ref in references(owner)]
-    if context.damaged or any(ref.target is None for ref in refs):
+    uses = context.known.uses
+    if context.damaged or not all(uses[owner].complete for owner in owners):
         return
-    used = {target for owner in owners for target in _used(owner, types) if target is not owner}
+    used: set[Node | None] = set()
+    for owner in owners:
+        used |= {*uses[owner].nodes, *map(types.get, uses[owner].types)} - {owner}
     has_members = any(isinstance(node, Member) for node in owners)
     for file, node in pairs:
         if file.library:
@@ -63,15 +59,3 @@ def check_unused(project: Project, context: Context) -> None:
                 name=each.name,
                 help="remove it, or use it",
             )
-
-
-def _used(owner: TopLevel, types: Mapping[Named, TopLevel]) -> Iterator[Node | None]:
-    """What a declaration names: others, their values and types."""
-    for _, ref in references(owner):
-        yield ref.target
-    for use in nodes_of(owner, NameUse):
-        yield use.target
-    for type_ in nodes_of(owner, TypeRef):
-        element = type_.type.element if isinstance(type_.type, Array) else type_.type
-        if isinstance(element, Named):
-            yield types.get(element)

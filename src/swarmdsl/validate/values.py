@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from math import ceil, floor, inf
 
 from swarmdsl.dataclass import dataclass
@@ -34,21 +34,20 @@ class Numbers:
 
     def __and__(self, other: Numbers) -> Numbers:
         """The numbers in both sets."""
-        few, many = sorted((self.intervals, other.intervals), key=len)
-        kept: list[Interval] = []
-        for low, high in few:
-            for index in range(bisect_left(many, low, key=lambda each: each[1]), len(many)):
-                least, most = many[index]
-                if least > high:
-                    break
-                kept.append((max(low, least), min(high, most)))
-        return Numbers(tuple(kept), self.nan and other.nan, self.whole)
+        kept = tuple(_overlaps(self.intervals, other.intervals))
+        return Numbers(kept, self.nan and other.nan, self.whole)
 
     def __bool__(self) -> bool:
         """Whether there is a number in the set."""
-        return self.nan or any(
-            not self.whole or _has_whole(low, high) for low, high in self.intervals
-        )
+        return self.nan or self._holds_any(self.intervals)
+
+    def meets(self, other: Numbers) -> bool:
+        """Whether there is a number in both sets; not all are looked for."""
+        overlaps = _overlaps(self.intervals, other.intervals)
+        return (self.nan and other.nan) or self._holds_any(overlaps)
+
+    def _holds_any(self, intervals: Iterable[Interval]) -> bool:
+        return any(not self.whole or _has_whole(low, high) for low, high in intervals)
 
 
 @dataclass(frozen=True)
@@ -74,6 +73,10 @@ class Texts:
         """Whether there is a text in the set."""
         return self.others or bool(self.named)
 
+    def meets(self, other: Texts) -> bool:
+        """Whether there is a text in both sets."""
+        return bool(self & other)
+
 
 Values = Numbers | Texts
 
@@ -83,6 +86,11 @@ def all_numbers(*, whole: bool) -> Numbers:
     return Numbers(((_LEAST, _GREATEST),), nan=not whole, whole=whole)
 
 
+def between(least: int, most: int) -> Numbers:
+    """The whole numbers from one to another."""
+    return Numbers((((least, 0), (most, 0)),), whole=True)
+
+
 def these(numbers: Iterable[int]) -> Numbers:
     """Some whole numbers."""
     return Numbers(tuple(((number, 0), (number, 0)) for number in sorted(set(numbers))), whole=True)
@@ -90,16 +98,33 @@ def these(numbers: Iterable[int]) -> Numbers:
 
 def compared(operator: str, number: float, *, whole: bool) -> Numbers:
     """The numbers for which a comparison with `number` holds."""
-    at = ((number, 0), (number, 0))
-    intervals: dict[str, tuple[Interval, ...]] = {
-        "==": (at,),
-        "!=": tuple(_gaps((at,))),
-        "<": ((_LEAST, (number, -1)),),
-        "<=": ((_LEAST, (number, 0)),),
-        ">": (((number, 1), _GREATEST),),
-        ">=": (((number, 0), _GREATEST),),
-    }
-    return Numbers(intervals[operator], nan=operator == "!=" and not whole, whole=whole)
+    below, at, above = (number, -1), (number, 0), (number, 1)
+    intervals: tuple[Interval, ...] = ()
+    match operator:
+        case "==":
+            intervals = ((at, at),)
+        case "!=":
+            intervals = ((_LEAST, below), (above, _GREATEST))
+        case "<":
+            intervals = ((_LEAST, below),)
+        case "<=":
+            intervals = ((_LEAST, at),)
+        case ">":
+            intervals = ((above, _GREATEST),)
+        case ">=":
+            intervals = ((at, _GREATEST),)
+    return Numbers(intervals, nan=operator == "!=" and not whole, whole=whole)
+
+
+def _overlaps(one: Sequence[Interval], other: Sequence[Interval]) -> Iterator[Interval]:
+    """What intervals have in common."""
+    few, many = (one, other) if len(one) <= len(other) else (other, one)
+    for low, high in few:
+        for index in range(bisect_left(many, low, key=lambda each: each[1]), len(many)):
+            least, most = many[index]
+            if least > high:
+                break
+            yield max(low, least), min(high, most)
 
 
 def _gaps(intervals: Iterable[Interval]) -> Iterator[Interval]:

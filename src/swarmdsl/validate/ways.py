@@ -8,10 +8,10 @@ left, whichever of them is active.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from swarmdsl.dataclass import dataclass, field
-from swarmdsl.link_machines import regions, vertices
+from swarmdsl.link_machines import regions
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Branch,
@@ -23,7 +23,6 @@ from swarmdsl.syntax import (
     Expression,
     FinalState,
     History,
-    Initial,
     Parallel,
     Ref,
     Region,
@@ -31,12 +30,15 @@ from swarmdsl.syntax import (
     StateMachine,
     Transition,
     Trigger,
-    Variable,
     Vertex,
+    nodes_of,
 )
 from swarmdsl.validate.outline import Outline
 from swarmdsl.validate.settling import at_once
 from swarmdsl.validate.steps import Step, Write, in_order, on, reads, results, while_active
+
+# What is in each other, from the outside to the inside.
+_Path = Sequence[Vertex | Container]
 
 
 @dataclass(slots=True, eq=False)
@@ -49,14 +51,7 @@ class Point:
     steps: list[Step] = field(default_factory=list)
     leads_to: list[Point] = field(default_factory=list)
     after: Span | None = None
-    parts: list[Point] = field(default_factory=list)
-    _first: dict[Variable, Step] | None = None
-
-    def first(self, variable: Variable) -> Step | None:
-        """What is done first with a variable; the steps are all known by then."""
-        if self._first is None:
-            self._first = {step.variable: step for step in reversed(self.steps)}
-        return self._first.get(variable)
+    parts: Sequence[Point] = ()
 
 
 class Ways:
@@ -65,13 +60,11 @@ class Ways:
     def __init__(self, outline: Outline) -> None:
         self._outline = outline
         self._active = {vertex: Point(while_active(vertex)) for vertex in outline.vertices}
-        self._on_entry = {vertex: on(Entry, vertex) for vertex in outline.vertices}
-        self._on_exit: dict[Vertex | Container, list[Step]] = {
-            vertex: on(Exit, vertex) for vertex in outline.vertices
-        }
-        self._exits: dict[Vertex | Container, list[tuple[Vertex, list[Write]]]] = {}
-        for state in outline.states:
-            writes = [step for step in self._on_exit[state] if isinstance(step, Write)]
+        self._on_entry = _on(Entry, outline)
+        self._on_exit = _on(Exit, outline)
+        self._exits: dict[Vertex | Container, list[tuple[State | Parallel, list[Write]]]] = {}
+        for state, steps in self._on_exit.items():
+            writes = [step for step in steps if isinstance(step, Write)]
             for outer in outline.around(state) if writes else ():
                 self._exits.setdefault(outer, []).append((state, writes))
         self._left = {
@@ -79,7 +72,8 @@ class Ways:
             for state, transitions in outline.transitions.items()
             if any(transition.target is not None for transition in transitions)
         }
-        self.start = self._enter(outline.machine, [], None)
+        self.start = Point()
+        self._enter(self.start, outline.machine, ())
         for vertex in self._active:
             self._leave(vertex)
 
@@ -92,23 +86,31 @@ class Ways:
             here.leads_to.append(self._active[outer[0]])
         match vertex:
             case Choice(branches=branches):
-                tested: dict[Variable, Step] = {}
+                origins = [here]
                 for branch in branches:
-                    _add_test(branch.guard, tested)
-                    self._follow(here, list(tested.values()), branch, vertex)
+                    origins = _tested(branch.guard, origins)
+                    self._follow(origins, branch, vertex)
             case State() | Parallel():
-                if not self._left.isdisjoint(outer):
+                if vertex in self._on_exit and not self._left.isdisjoint(outer):
                     here.leads_to.append(Point(self._on_exit[vertex]))
-                by_trigger: dict[str, dict[Variable, Step]] = {}
+                # By trigger: the guards are tested in order until one holds.
+                waiting: dict[str, list[Point]] = {}
                 for transition in self._outline.transitions[vertex]:
+                    origins = []
                     triggers: list[Trigger | None] = [*transition.triggers]
-                    words = [trigger.span.text for trigger in transition.triggers] or [""]
-                    for word in set(words):
-                        _add_test(transition.guard, by_trigger.setdefault(word, {}))
-                    for trigger, word in zip(triggers or [None], words, strict=True):
-                        first = [*results(trigger, vertex), *by_trigger[word].values()]
-                        for origin in self._origins(trigger, vertex):
-                            self._follow(origin, first, transition, vertex)
+                    for trigger in triggers or [None]:
+                        word = trigger.span.text if trigger is not None else ""
+                        if word not in waiting:
+                            waiting[word] = self._fired(trigger, vertex)
+                        waiting[word] = _tested(transition.guard, waiting[word])
+                        origins += waiting[word]
+                    self._follow(origins, transition, vertex)
+
+    def _fired(self, trigger: Trigger | None, owner: State | Parallel) -> list[Point]:
+        """The points at which a trigger has fired, and what comes with it is stored."""
+        origins = self._origins(trigger, owner)
+        stored = results(trigger, owner)
+        return _followed(origins, Point([*stored])) if stored else origins
 
     def _origins(self, trigger: Trigger | None, owner: State | Parallel) -> list[Point]:
         """The points at which a trigger can fire."""
@@ -133,74 +135,74 @@ class Ways:
         return joined
 
     def _finals(self, container: Container | None) -> list[Point]:
-        inside = vertices(container) if container is not None else ()
+        inside = self._outline.inside[container] if container is not None else ()
         return [self._active[state] for state in inside if isinstance(state, FinalState)]
 
-    def _follow(
-        self, origin: Point, first: list[Step], arrow: Transition | Branch, source: Vertex
-    ) -> None:
+    def _follow(self, origins: list[Point], arrow: Transition | Branch, source: Vertex) -> None:
         """Add the way that a transition or a branch goes."""
-        effects = in_order(arrow.effects)
         target = arrow.target.target if arrow.target is not None else None
+        point = Point(after=arrow.span if target is not None else None)
+        _followed(origins, point)
         if target is None:
-            origin.leads_to.append(Point([*first, *effects]))
+            point.steps += in_order(arrow.effects)
             return
         sources, path = self._outline.path(source), self._outline.path(target)
-        inward = isinstance(arrow, Transition) and arrow.internal and isinstance(source, State)
-        # The innermost around both that is not left: no parallel state is that (SCXML 3.13).
-        stays: Container = [
-            outer
-            for outer, other in zip(sources, path, strict=False)
-            if outer is other
-            and isinstance(outer, (StateMachine, State, Region))
-            and ((inward and outer is source) or outer not in (source, target))
-        ][-1]
-        left = sources[sources.index(stays) + 1 :]
+        stay = self._kept(arrow, source, target)
+        left = sources[stay:]
         around = left[0] if left else source
-        exits: list[Step] = [
-            step
-            for state, writes in self._exits.get(around, ())
-            if state not in (*left, source)
-            for step in writes
-        ]
+        for state, writes in self._exits.get(around, ()):
+            if state not in left and state is not source:
+                point.steps += writes
         for outer in reversed(left):
-            exits += self._on_exit.get(outer, ())
-        entered = self._enter(stays, path[path.index(stays) + 1 :], arrow.span)
-        origin.leads_to.append(Point([*first, *exits, *effects], [entered], arrow.span))
+            if isinstance(outer, (State, Parallel)):
+                point.steps += self._on_exit.get(outer, ())
+        point.steps += in_order(arrow.effects)
+        stays = path[stay - 1]
+        assert isinstance(stays, (StateMachine, State, Region))
+        self._enter(point, stays, path[stay:])
 
-    def _enter(
-        self, container: Container, path: Sequence[Vertex | Container], after: Span | None
-    ) -> Point:
-        """The point at which the states on a path are entered, and all that come with them."""
-        point = Point(after=after)
-
-        def enter(vertex: Vertex, path: Sequence[Vertex | Container]) -> None:
-            point.steps += self._on_entry[vertex]
-            if isinstance(vertex, History) and not isinstance(vertex.target.target, History):
-                # Where it leads back to has been reached before, with less that was written.
-                container = self._outline.container[vertex]
-                inside(container, self._below(container, vertex.target))
-            elif isinstance(vertex, Parallel) or (
-                isinstance(vertex, State) and any(vertices(vertex))
+    def _kept(self, arrow: Transition | Branch, source: Vertex, target: Vertex) -> int:
+        """How many around both ends are not left: the last is no parallel state (SCXML 3.13)."""
+        sources, path = self._outline.path(source), self._outline.path(target)
+        inward = isinstance(arrow, Transition) and arrow.internal and isinstance(source, State)
+        if len(sources) == len(path) and sources[-2] is path[-2] and not inward:
+            return len(path) - 1
+        kept = 0
+        for depth, (outer, other) in enumerate(zip(sources, path, strict=False), 1):
+            if outer is not other:
+                break
+            if isinstance(outer, (StateMachine, State, Region)) and (
+                (inward and outer is source) or outer not in (source, target)
             ):
-                inside(vertex, path)
-            else:
-                point.leads_to.append(self._active[vertex])
+                kept = depth
+        return kept
 
-        def inside(container: Container, path: Sequence[Vertex | Container]) -> None:
+    def _enter(self, point: Point, container: Container, path: _Path) -> None:
+        """Let a point lead to the states on a path, and to all that are entered with them."""
+        if isinstance(container, Parallel):
             for region in regions(container):
-                inside(region, path[1:] if region in path else [])
-            if isinstance(container, Parallel):
-                return
-            if not path:
-                initial = next((i for i in container.items if isinstance(i, Initial)), None)
-                path = self._below(container, initial.target) if initial is not None else []
-            for vertex in path[:1]:
-                assert not isinstance(vertex, (StateMachine, Region))
-                enter(vertex, path[1:])
+                self._enter(point, region, path[1:] if region in path else ())
+            return
+        if not path:
+            initials = self._outline.initials[container]
+            path = self._below(container, initials[0].target) if initials else ()
+        for vertex in path[:1]:
+            assert not isinstance(vertex, (StateMachine, Region))
+            self._enter_state(point, vertex, path[1:])
 
-        inside(container, path)
-        return point
+    def _enter_state(self, point: Point, vertex: Vertex, path: _Path) -> None:
+        """The same from a state on."""
+        if isinstance(vertex, History) and not isinstance(vertex.target.target, History):
+            # Where it leads back to has been reached before, with less that was written.
+            container = self._outline.container[vertex]
+            self._enter(point, container, self._below(container, vertex.target))
+            return
+        if isinstance(vertex, (State, Parallel)):
+            point.steps += self._on_entry.get(vertex, ())
+            if self._outline.inside[vertex]:
+                self._enter(point, vertex, path)
+                return
+        point.leads_to.append(self._active[vertex])
 
     def _is_passed(self, vertex: Vertex) -> bool:
         """Whether a vertex is left before anything around it reacts to an event."""
@@ -213,13 +215,27 @@ class Ways:
             )
         )
 
-    def _below(self, container: Container, ref: Ref[Vertex]) -> Sequence[Vertex | Container]:
+    def _below(self, container: Container, ref: Ref[Vertex]) -> _Path:
         """The path from a container to a state in it."""
-        path = self._outline.path(ref.target) if ref.target is not None else []
-        return path[path.index(container) + 1 :] if container in path else []
+        path = self._outline.path(ref.target) if ref.target is not None else ()
+        return path[path.index(container) + 1 :] if container in path else ()
 
 
-def _add_test(guard: Expression | None, tested: dict[Variable, Step]) -> None:
-    """Add what a guard reads; what counts is the first read of each variable."""
-    for read in reads(guard, test=True):
-        tested.setdefault(read.variable, read)
+def _on(kind: type[Entry] | type[Exit], outline: Outline) -> Mapping[State | Parallel, list[Step]]:
+    """What states do when they are entered, or left."""
+    if not nodes_of(outline.machine, kind):
+        return {}
+    return {state: steps for state in outline.states if (steps := on(kind, state))}
+
+
+def _tested(guard: Expression | None, origins: list[Point]) -> list[Point]:
+    """Add what a guard reads; return the points that follow."""
+    steps: list[Step] = [*reads(guard, test=True)]
+    return _followed(origins, Point(steps)) if steps else origins
+
+
+def _followed(origins: Sequence[Point], point: Point) -> list[Point]:
+    """Let points lead to another one."""
+    for origin in origins:
+        origin.leads_to.append(point)
+    return [point]

@@ -15,10 +15,10 @@ from swarmdsl.diagnostics import MOST_HINTS, Diagnostic, Diagnostics, placed
 from swarmdsl.libraries import imported_name
 from swarmdsl.link import link
 from swarmdsl.link_constants import open_cycles
-from swarmdsl.load import Project, expanded, load
+from swarmdsl.load import File, Project, expanded, load
 from swarmdsl.parse import no_garbage_collection
 from swarmdsl.project.settings import Settings
-from swarmdsl.source import Source
+from swarmdsl.source import Source, Span
 from swarmdsl.syntax import StateMachine
 from swarmdsl.validate import (
     check_alone,
@@ -93,6 +93,19 @@ class Workspace:
         """How many files there are."""
         return len(self.project.files)
 
+    def file(self, path: Path) -> File | None:
+        """A file of the model, or one that it imports; None for any other."""
+        sheet = self._desk.sheet(path)
+        return sheet.file if sheet is not None else None
+
+    def piece(self, file: File, offset: int) -> Span:
+        """The piece of a file that an offset is in, or that ends there if it is the last."""
+        sheet = self._desk.sheet(Path(file.source.name))
+        units = sheet.units if sheet is not None else []
+        whole = Span(file.source, 0, len(file.source.text))
+        spans = (Span(unit.source, 0, len(unit.source.text)).absolute for unit in reversed(units))
+        return next((span for span in spans if span.start <= offset), whole)
+
     @property
     def report(self) -> Diagnostics:
         """All that is wrong, at places in the files."""
@@ -101,7 +114,7 @@ class Workspace:
         return report
 
     def watched(self) -> set[Path]:
-        """The files that matter: those read, those that cannot be, and those in the folders."""
+        """The files and folders that matter: those read, those looked for, those to be compiled."""
         return {*self._desk.asked, *expanded(self._paths, Diagnostics())}
 
     def diagnostics(self) -> dict[str, list[Diagnostic]]:

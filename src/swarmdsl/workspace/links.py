@@ -135,8 +135,8 @@ def _targets(
 class _WatchedScope(FileScope):
     """A scope that remembers where what was looked up in it stands."""
 
-    def __init__(self, file: File, project: Project, seen: Seen) -> None:
-        super().__init__(file, project)
+    def __init__(self, file: File, scopes: Scopes, seen: Seen) -> None:
+        super().__init__(file, scopes)
         self._seen = seen
         self.lost = _Lost(self.lost, seen)
 
@@ -166,5 +166,5 @@ class _WatchedScopes(Scopes):
         self._seen = seen
 
     def __missing__(self, file: File) -> FileScope:
-        self[file] = scope = _WatchedScope(file, self._project, self._seen)
+        self[file] = scope = _WatchedScope(file, self, self._seen)
         return scope

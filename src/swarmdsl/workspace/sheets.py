@@ -118,7 +118,7 @@ class Desk(Reader):
     """All sheets, by the real paths of their files; each file is read from disk once.
 
     `wanted` are the real paths of those that were asked for since it was last emptied, `asked`
-    the paths of all, also of those that cannot be read.
+    the paths of all, also of those that cannot be read, and of folders that were looked into.
     """
 
     def __init__(self, levels: Levels) -> None:
@@ -127,6 +127,10 @@ class Desk(Reader):
         self.asked: set[Path] = set()
         self._levels = levels
         self._edited: dict[str, bytes] = {}
+
+    def look(self, path: Path) -> None:
+        """Hear of a file or folder that was looked for."""
+        self.asked.add(path)
 
     def edit(self, path: Path, text: str | None) -> None:
         """Take a text for the content of a file; None for what is on disk."""

@@ -13,7 +13,7 @@ from swarmdsl.pieces import is_closed
 from swarmdsl.source import Source
 from swarmdsl.syntax import Component, Declaration, Member, Optimization, StateMachine
 
-Parser = Callable[[Source, Diagnostics], Parsed]
+ReportingParser = Callable[[Source, Diagnostics], Parsed]
 Levels = Mapping[str, Level]
 
 
@@ -29,7 +29,7 @@ class Unit:
 
     source: Source
     file: File
-    parser: Parser
+    parser: ReportingParser
     levels: Levels
     uses: set[Unit] = field(default_factory=set)
     users: set[Unit] = field(default_factory=set)

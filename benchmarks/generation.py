@@ -1,0 +1,70 @@
+"""Measures how long a ROS package takes to be generated, from cold, by the size of the machine."""
+
+from __future__ import annotations
+
+import shutil
+import sys
+from functools import partial
+from pathlib import Path
+from statistics import median
+
+from measure import Section, interleaved, process, spread
+
+ROUNDS = 7
+
+JAVA = {10: 1.5, 100: 2.5, 1000: 5.3, 5000: 18.2}
+"""Seconds that the original generator takes from its start to its end for a state machine with so
+many states that call actions; measured once, on two processors like these."""
+SHARE = 0.2
+"""Of the time of the original generator."""
+
+_SWARMC = str(Path(sys.executable).with_name("swarmc"))
+
+
+def section(folder: Path) -> Section:
+    """Build packages of ROS 1 for state machines in which each state calls an action."""
+    out = folder / "out"
+    commands: dict[str, list[str]] = {}
+    for states in JAVA:
+        model = folder / f"states{states}.swarm"
+        model.write_text(_model(states), encoding="utf-8")
+        commands[f"{states} states"] = [
+            *(_SWARMC, "build", str(model), "--target", "smach", "--out", str(out))
+        ]
+
+    def run(name: str) -> float:
+        shutil.rmtree(out, ignore_errors=True)
+        return process(commands[name]).cpu
+
+    # The first round compiles the modules of Python.
+    times = interleaved({name: partial(run, name) for name in commands}, ROUNDS, warm_up=1)
+    found = Section(
+        "Milliseconds of processor of whole processes, `swarmc build --target smach`, "
+        f"{ROUNDS} rounds (least / middle / greatest).",
+        ["state machine", "swarmc, ms", "original generator, ms"],
+    )
+    for (name, taken), java in zip(times.items(), JAVA.values(), strict=True):
+        found.rows.append([name, spread(taken, scale=1e3), f"{java * 1e3:.0f}"])
+    for (name, taken), java in zip(times.items(), JAVA.values(), strict=True):
+        found.goal(
+            f"{name}: share of the {java} s that the original generator in Java took from cold",
+            median(taken) / java,
+            SHARE,
+            "{:.3f}",
+        )
+    return found
+
+
+def _model(states: int) -> str:
+    """A machine that goes round in so many states."""
+    lines = [
+        "package bench",
+        "action Go { goal { x : float64 } }",
+        'function go : abstraction { action "go" : Go }',
+        "endless statemachine Long {",
+        "  initial S0",
+    ]
+    for number in range(states):
+        after = f"on succeeded -> S{(number + 1) % states}  on aborted -> S{number}"
+        lines.append(f"  state S{number} {{ do go(x = {number}.5)  {after} }}")
+    return "\n".join([*lines, "}", ""])

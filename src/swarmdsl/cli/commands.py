@@ -1,0 +1,72 @@
+"""The commands as Click reads them: all that can stand on a command line, and help."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import reduce, wraps
+from importlib import import_module
+from keyword import iskeyword
+from types import ModuleType
+
+import click
+
+from swarmdsl import __version__
+from swarmdsl.cli import COMMANDS, PLAIN, options
+from swarmdsl.cli.outcome import INTERRUPTED, OK
+from swarmdsl.project.command_line import UsageError
+
+
+class _Commands(click.Group):
+    """The commands, each imported when it is asked for."""
+
+    def list_commands(self, _context: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, _context: click.Context, name: str) -> click.Command | None:
+        if name not in COMMANDS:
+            return None
+        called = f"{name}_" if iskeyword(name) else name
+        module = import_module(f"swarmdsl.cli.{called}")
+        command = _of_click(module, name) if name in PLAIN else getattr(module, called)
+        assert isinstance(command, click.Command)
+        return command
+
+
+def _of_click(module: ModuleType, name: str) -> click.Command:
+    """A command that is a plain function, and whose options are plain data."""
+    function = getattr(module, name)
+
+    @wraps(function)
+    def told_by_click(*arguments: object, **named: object) -> object:
+        try:
+            return function(*arguments, **named)
+        except UsageError as error:
+            raise click.UsageError(str(error)) from error
+
+    decorators = [options.files, *map(options.option, module.OPTIONS), options.debug]
+    decorated = reduce(
+        lambda inner, decorator: decorator(inner), reversed(decorators), told_by_click
+    )
+    return click.command(epilog=module.EPILOG)(decorated)
+
+
+@click.command(
+    cls=_Commands,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog="Example: swarmc build examples/search_and_rescue --target smach -o out",
+)
+@click.version_option(__version__, prog_name="swarmc")
+@options.debug
+def cli() -> None:
+    """Compile swarms of robots: .swarm models to exchange formats and ROS packages."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run a command line; return the exit code."""
+    try:
+        return cli.main(list(arguments), prog_name="swarmc", standalone_mode=False) or OK
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except click.Abort:
+        return INTERRUPTED
