@@ -19,6 +19,7 @@ from swarmdsl.importing.repair import read
 from swarmdsl.importing.text import checked, text_of
 from swarmdsl.ir import Environment, Member, Multiplicity, Role, Swarm, System
 from swarmdsl.lower import lower
+from swarmdsl.naming import snake_case
 from swarmdsl.output import write
 from swarmdsl.source import Source
 
@@ -78,17 +79,22 @@ def _wanted(
     document = read(source, Diagnostics())
     if document is None:
         return []
-    known = {each.name for each in system.functions if (each.name, "category") not in guesses}
+    known = {each.name: each for each in system.functions if (each.name, "category") not in guesses}
     wanted: dict[str, None] = {}
     for node in document.root.walk():
         if node.name != "data" or node.get("id") != "adf":
             continue
         name = next((each.text.strip() for each in node.children if each.name == "name"), "")
+        reason = "no ADF file describes it"
         if name in known:
-            wanted.setdefault(name)
-        else:
-            what, reason = f"the skeleton of `{name}`", "no ADF file describes it"
-            report.report("left-out", document.at(node), what=what, reason=reason)
+            type_ = known[name].communication.type
+            # The package of the skeleton is where its interface must be described.
+            if type_.package != snake_case(name) or system.interface(type_) is not None:
+                wanted.setdefault(name)
+                continue
+            reason = f"nothing says what is in its `{type_}`"
+        what = f"the skeleton of `{name}`"
+        report.report("left-out", document.at(node), what=what, reason=reason)
     return list(wanted)
 
 
