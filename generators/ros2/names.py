@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.interface_files import bad_names
+from swarmdsl.interface_packages import InterfacePackage, check_order
 from swarmdsl.ir import (
     Action,
-    Constant,
-    Field,
     Interface,
-    Message,
     Param,
     Service,
     StateMachine,
@@ -37,9 +36,6 @@ _PARAMETERS = ("use_sim_time", "start_type_description_service")
 _PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
 _OF_AN_ACTION = ("Goal", "Result", "Feedback", "SendGoal", "GetResult", "FeedbackMessage")
 _OF_A_SERVICE = ("Request", "Response", "Event")
-_FIELD = re.compile(r"(?!.*__)(?!.*_$)[a-z][a-z0-9_]*")
-_CONSTANT = re.compile(r"[A-Z]([A-Z0-9_]?[A-Z0-9]+)*")
-_INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 _TOPIC = re.compile(r"(~/|/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
@@ -95,35 +91,37 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
                 bad(report, callback, "the name of a function", activity.origin)
 
 
-def check_interface_package(
-    name: str, interfaces: Sequence[Interface], behavior: str, report: Diagnostics
+def check_interfaces(
+    system: System, packages: Iterable[InterfacePackage], behavior: str, report: Diagnostics
 ) -> None:
-    """Check the name of a package of interfaces, and the names in it."""
-    at = interfaces[0].origin
+    """Check the packages of interfaces beside the package `behavior`, and the names in them."""
+    for package in packages:
+        _check_package(package, behavior, report)
+    # What packages elsewhere define cannot be in one that is generated.
+    generated = {behavior, *(package.name for package in packages)}
+    for interface in system.interfaces:
+        if interface.external and interface.type.package in generated:
+            use = "a package of others: a package of that name is generated"
+            bad(report, interface.type.package, use, interface.origin)
+    check_order(packages, TARGET, report)
+
+
+def _check_package(package: InterfacePackage, behavior: str, report: Diagnostics) -> None:
+    name, at = package.name, package.interfaces[0].origin
     if not is_ros_package_name(name) or name in _IMPORTED:
         bad(report, name, "the name of a ROS package", at, help=_PACKAGE_NAMES)
     elif name == behavior:
         use = "the package of its interfaces: the package with the behaviour has that name"
         bad(report, name, use, at, help="give that one another name with the option `package`")
     owners: dict[str, Interface] = {}
-    for interface in interfaces:
-        _check_interface(interface, report)
+    for interface in package.interfaces:
+        for wrong, use, hint, place in bad_names(interface, 2):
+            bad(report, wrong, use, place, help=hint)
         for made in _made_of(interface):
             owner = owners.setdefault(made, interface)
             if owner is not interface:
                 related = (Label(owner.origin, "the first is here"),) if owner.origin else ()
                 bad(report, made, "two types of a package", interface.origin, related=related)
-
-
-def check_other_interfaces(
-    system: System, defined: Iterable[str], behavior: str, report: Diagnostics
-) -> None:
-    """What packages elsewhere define cannot be in one that is generated."""
-    generated = {behavior, *defined}
-    for interface in system.interfaces:
-        if interface.external and interface.type.package in generated:
-            use = "a package of others: a package of that name is generated"
-            bad(report, interface.type.package, use, interface.origin)
 
 
 def _made_of(interface: Interface) -> list[str]:
@@ -135,34 +133,6 @@ def _made_of(interface: Interface) -> list[str]:
     elif isinstance(interface, Service):
         suffixes = _OF_A_SERVICE
     return [name, *(f"{name}_{suffix}" for suffix in suffixes)]
-
-
-def _check_interface(interface: Interface, report: Diagnostics) -> None:
-    if not _INTERFACE.fullmatch(interface.type.name):
-        hint = "a ROS interface starts with a capital letter and has letters and digits only"
-        bad(report, interface.type.name, "the name of an interface", interface.origin, help=hint)
-    constants: tuple[Constant, ...] = ()
-    if isinstance(interface, Message):
-        constants = interface.constants
-    for item in constants:
-        if not _CONSTANT.fullmatch(item.name):
-            hint = "ROS 2 wants capital letters, digits and single `_`"
-            bad(report, item.name, "the name of a constant", item.origin, help=hint)
-    for field in (field for part in parts(interface) for field in part):
-        if not _FIELD.fullmatch(field.name):
-            hint = "ROS 2 wants lower-case letters, digits and single `_`"
-            bad(report, field.name, "the name of a field", field.origin, help=hint)
-
-
-def parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
-    """The fields of each part of an interface, in the order of its file."""
-    match interface:
-        case Message(fields=fields):
-            return (fields,)
-        case Service(request=request, response=response):
-            return (request, response)
-        case Action(goal=goal, result=result, feedback=feedback):
-            return (goal, result, feedback)
 
 
 def check_callback(

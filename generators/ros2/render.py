@@ -11,13 +11,15 @@ from jinja2 import Environment
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
+from swarmdsl.interface_files import file_name
+from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.templates import environment
 
 from .engine import engine_source
 from .imports import WIDTH
-from .interfaces import InterfacePackage, definition, file_name
 from .launch import configuration
+from .names import TARGET
 from .options import Options
 from .package import manifest
 from .view import MachineView, PackageView, package_view
@@ -38,9 +40,7 @@ def interface_files(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
     """The files of a package of interfaces."""
-    for interface in package.interfaces:
-        text = definition(interface, report)
-        yield OutputFile(f"{package.name}/{file_name(interface)}", text, origin=interface.origin)
+    yield from definitions(package, 2, TARGET, report)
     at = package.interfaces[0].origin
     files = [file_name(interface) for interface in package.interfaces]
     text = _fill("interfaces/CMakeLists.txt", package=package, files=files)

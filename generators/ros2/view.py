@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.python_source import Call, Source, comment_lines, comments, file_name, layout
 from swarmdsl.source import Span
@@ -13,7 +14,6 @@ from swarmdsl.source import Span
 from . import names, package
 from .expressions import default_value, stored
 from .imports import WIDTH, Imports
-from .interfaces import InterfacePackage, interface_packages
 from .launch import Launch, launches
 from .machine import STEP, Function, Row, Table
 from .options import Options
@@ -70,7 +70,8 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         return None
     name = names.package_name(system, options.package, report)
     modules = names.module_names(machines, report)
-    interfaces = interface_packages(system, name, report)
+    interfaces = packages_of((each for each in system.interfaces if not each.external), 2)
+    names.check_interfaces(system, interfaces, name, report)
     sent = {event for machine in machines for event in package.sent_events(machine)}
     callbacks: dict[str, str] = {}
     for machine in machines:

@@ -7,24 +7,15 @@ from typing import cast
 
 from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.graph import cycles
-from swarmdsl.interface_files import Generation, bad_names, depends, parts
-from swarmdsl.ir import Interface, System
+from swarmdsl.interface_files import Generation, bad_names, parts
+from swarmdsl.interface_packages import InterfacePackage, check_order, packages_of
+from swarmdsl.ir import System
 from swarmdsl.naming import is_ros_package_name
 from swarmdsl.source import Span
 
 from .names import is_cpp_word
 from .nodes import TARGET, Node
 from .options import Options
-
-
-@dataclass(frozen=True)
-class InterfacePackage:
-    """A package of interfaces; `depends` are those whose messages are in its fields."""
-
-    name: str
-    interfaces: tuple[Interface, ...]
-    depends: tuple[str, ...]
 
 
 @dataclass(frozen=True)
@@ -50,21 +41,15 @@ def packages(
     will. In ROS 2 a package of nodes cannot hold interfaces, so that the node gives way.
     """
     ros = generation(options)
-    by_name: dict[str, list[Interface]] = {}
-    for interface in system.interfaces:
-        if not interface.external:
-            by_name.setdefault(interface.type.package, []).append(interface)
-    own = set(by_name)
+    interfaces = [interface for interface in system.interfaces if not interface.external]
+    own = {interface.type.package for interface in interfaces}
     functions = {node.package for node in nodes}
-    for interface in system.interfaces:
-        if interface.external and interface.type.package in functions:
-            by_name.setdefault(interface.type.package, []).append(interface)
-    found = {
-        name: InterfacePackage(
-            name, tuple(interfaces), tuple(sorted(depends(interfaces, ros) - {name}))
-        )
-        for name, interfaces in by_name.items()
-    }
+    interfaces += (
+        interface
+        for interface in system.interfaces
+        if interface.external and interface.type.package in functions
+    )
+    found = {package.name: package for package in packages_of(interfaces, ros)}
     placed = []
     for node in nodes:
         _check_described(node, system, report)
@@ -80,7 +65,7 @@ def packages(
     inner = [package for _, package in placed if package is not None]
     for package in (*written, *inner):
         _check(package, options, report)
-    _check_cycles([*written, *inner], report)
+    check_order([*written, *inner], TARGET, report)
     return Packages(tuple(placed), tuple(written))
 
 
@@ -105,26 +90,14 @@ def _check(package: InterfacePackage, options: Options, report: Diagnostics) -> 
     if not is_ros_package_name(package.name):
         _bad(package.name, "the name of a ROS package", package.interfaces[0].origin, report)
     for interface in package.interfaces:
-        for name, use, at in bad_names(interface, generation(options)):
-            _bad(name, use, at, report)
+        for name, use, hint, at in bad_names(interface, generation(options)):
+            _bad(name, use, at, report, hint)
         for field in (field for part in parts(interface) for field in part):
             if options.language == "cpp" and is_cpp_word(field.name):
                 _bad(field.name, "the name of a field in C++", field.origin, report)
 
 
-def _check_cycles(written: Iterable[InterfacePackage], report: Diagnostics) -> None:
-    """A package is built after those it depends on."""
-    known = {package.name: package for package in written}
-    for name, way in cycles(
-        known, lambda name: [(other, other) for other in known[name].depends if other in known]
-    ):
-        report.report(
-            "unsupported-construct",
-            known[name].interfaces[0].origin,
-            target=TARGET,
-            construct=f"packages whose interfaces need each other ({' -> '.join([name, *way])})",
-        )
-
-
-def _bad(name: str, use: str, at: Span | None, report: Diagnostics) -> None:
-    report.report("bad-identifier", at, target=TARGET, name=name, use=use)
+def _bad(
+    name: str, use: str, at: Span | None, report: Diagnostics, hint: str | None = None
+) -> None:
+    report.report("bad-identifier", at, target=TARGET, name=name, use=use, help=hint)

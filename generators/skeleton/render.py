@@ -13,17 +13,17 @@ from jinja2 import Environment
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
-from swarmdsl.interface_files import definition, file_name
+from swarmdsl.interface_files import file_name
+from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
-from swarmdsl.source import Span
 from swarmdsl.templates import environment
 
 from .languages import language
 from .manifest import manifest
 from .nodes import TARGET, Node, nodes
 from .options import Options
-from .packages import InterfacePackage, generation, packages
+from .packages import generation, packages
 from .view import NodeView, node_view
 
 _KINDS = {"msg": "message", "srv": "service", "action": "action"}
@@ -127,7 +127,7 @@ def _node_files(
             origin=node.origin,
         )
     if inside is not None:
-        yield from _definitions(inside, options, report)
+        yield from definitions(inside, generation(options), TARGET, report)
 
 
 @dataclass(frozen=True)
@@ -214,19 +214,7 @@ def _interface_files(
     exports = (("build_type", "ament_cmake"),) if options.ros == 2 else ()
     text = manifest(package.name, f"Interfaces of {package.name}.", tags, options, exports)
     yield OutputFile(f"{package.name}/package.xml", text, origin=at)
-    yield from _definitions(package, options, report)
-
-
-def _definitions(
-    package: InterfacePackage, options: Options, report: Diagnostics
-) -> Iterator[OutputFile]:
-    def complain(construct: str, at: Span | None) -> None:
-        report.report("unsupported-construct", at, target=TARGET, construct=construct)
-
-    for interface in package.interfaces:
-        text = definition(interface, generation(options), complain)
-        path = f"{package.name}/{file_name(interface)}"
-        yield OutputFile(path, text, origin=interface.origin)
+    yield from definitions(package, generation(options), TARGET, report)
 
 
 def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.interface_files import bad_names
+from swarmdsl.interface_packages import InterfacePackage, check_order
 from swarmdsl.ir import (
     Action,
-    Constant,
     Event,
-    Field,
     Interface,
-    Message,
     Param,
     StateMachine,
     System,
@@ -21,7 +19,6 @@ from swarmdsl.ir import (
 from swarmdsl.naming import is_python_name, is_ros_package_name, snake_case
 from swarmdsl.source import Span
 
-from .interfaces import parts
 from .module import TARGET, fresh
 
 # What smach.UserData has as methods cannot be read as a value.
@@ -44,8 +41,6 @@ _OF_AN_ACTION = (
     *("Action", "Goal", "Result", "Feedback"),
     *("ActionGoal", "ActionResult", "ActionFeedback"),
 )
-_FIELD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-_INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
 
 
 def package_name(system: System, option: str, report: Diagnostics) -> str:
@@ -102,50 +97,44 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
                 _bad(report, callback, "the name of a function", activity.origin)
 
 
-def check_interface_package(
-    name: str, interfaces: Sequence[Interface], behavior: str, report: Diagnostics
+def check_interfaces(
+    system: System, packages: Iterable[InterfacePackage], behavior: str, report: Diagnostics
 ) -> None:
-    """Check the name of a package of interfaces, and the names in it."""
-    at = interfaces[0].origin
+    """Check the packages of interfaces beside the package `behavior`, and the names in them."""
+    for package in packages:
+        _check_package(package, behavior, report)
+    # What packages elsewhere define cannot be in one that is generated.
+    generated = {behavior, *(package.name for package in packages)}
+    for interface in system.interfaces:
+        if interface.external and interface.type.package in generated:
+            use = "a package of others: a package of that name is generated"
+            _bad(report, interface.type.package, use, interface.origin)
+    check_order(packages, TARGET, report)
+
+
+def _check_package(package: InterfacePackage, behavior: str, report: Diagnostics) -> None:
+    name, at = package.name, package.interfaces[0].origin
     if not is_ros_package_name(name) or name in _IMPORTED:
         _bad(report, name, "the name of a ROS package", at, help=_PACKAGE_NAMES)
     elif name == behavior:
         use = "the package of its interfaces: the package with the behaviour has that name"
         _bad(report, name, use, at, help="give that one another name with the option `package`")
     owners: dict[str, Interface] = {}
-    for interface in interfaces:
-        _check_interface(interface, report)
-        made = [interface.type.name]
-        if isinstance(interface, Action):
-            made += (interface.type.name + part for part in _OF_AN_ACTION)
-        for name in made:
-            owner = owners.setdefault(name, interface)
+    for interface in package.interfaces:
+        for wrong, use, hint, place in bad_names(interface, 1):
+            _bad(report, wrong, use, place, help=hint)
+        for made in _made_of(interface):
+            owner = owners.setdefault(made, interface)
             if owner is not interface:
                 related = (Label(owner.origin, "the first is here"),) if owner.origin else ()
-                _bad(report, name, "two messages of a package", interface.origin, related=related)
+                _bad(report, made, "two messages of a package", interface.origin, related=related)
 
 
-def check_other_interfaces(
-    system: System, defined: Iterable[str], behavior: str, report: Diagnostics
-) -> None:
-    """What packages elsewhere define cannot be in one that is generated."""
-    generated = {behavior, *defined}
-    for interface in system.interfaces:
-        if interface.external and interface.type.package in generated:
-            use = "a package of others: a package of that name is generated"
-            _bad(report, interface.type.package, use, interface.origin)
-
-
-def _check_interface(interface: Interface, report: Diagnostics) -> None:
-    if not _INTERFACE.fullmatch(interface.type.name):
-        hint = "a ROS interface starts with a capital letter and has letters and digits only"
-        use = "the name of an interface"
-        _bad(report, interface.type.name, use, interface.origin, help=hint)
-    constants = interface.constants if isinstance(interface, Message) else ()
-    items: list[Constant | Field] = [*constants, *(f for part in parts(interface) for f in part)]
-    for item in items:
-        if not _FIELD.fullmatch(item.name):
-            _bad(report, item.name, "the name of a field or constant", item.origin)
+def _made_of(interface: Interface) -> list[str]:
+    """The names of the messages that ROS makes of an interface."""
+    name = interface.type.name
+    suffixes = _OF_AN_ACTION if isinstance(interface, Action) else ()
+    return [name, *(f"{name}{suffix}" for suffix in suffixes)]
 
 
 def event_constants(

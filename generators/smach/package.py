@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from lxml import etree
 
+from swarmdsl.interface_files import named
 from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
-from .interfaces import named
 from .options import Options
 
 

@@ -11,13 +11,14 @@ from jinja2 import Environment
 import swarmdsl
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
+from swarmdsl.interface_files import file_name
+from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.templates import environment
 
-from .interface_packages import InterfacePackage
-from .interfaces import definition, file_name
 from .launch_files import launch_files
+from .module import TARGET
 from .options import Options
 from .package import manifest
 from .view import PackageView, package_view
@@ -38,12 +39,10 @@ def _interfaces(
     """A package of interfaces."""
     by_kind: dict[str, list[str]] = {}
     for interface in package.interfaces:
-        path = file_name(interface)
-        folder, _, file = path.partition("/")
+        folder, _, file = file_name(interface).partition("/")
         kind = {"msg": "message", "srv": "service", "action": "action"}[folder]
         by_kind.setdefault(kind, []).append(file)
-        text = definition(interface, report)
-        yield OutputFile(f"{package.name}/{path}", text, origin=interface.origin)
+    yield from definitions(package, 1, TARGET, report)
     at = package.interfaces[0].origin
     files = list(by_kind.items())
     text = _fill("interfaces/CMakeLists.txt", package=package, interface_files=files)

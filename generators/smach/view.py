@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
 from swarmdsl.ir.types import DURATION, Primitive
 from swarmdsl.python_source import (
@@ -23,7 +24,6 @@ from swarmdsl.source import Span
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
-from .interface_packages import InterfacePackage, interface_packages
 from .launch import world_file
 from .module import TARGET, Container, Function, Module
 from .options import Options
@@ -128,7 +128,8 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         return None
     name = names.package_name(system, options.package, report)
     modules = names.module_names(machines, report)
-    interfaces = interface_packages(system, name, report)
+    interfaces = packages_of((each for each in system.interfaces if not each.external), 1)
+    names.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
     events = _events(system, machines, report)
     constants = names.event_constants(events, (type_.name for type_, _ in used), report)

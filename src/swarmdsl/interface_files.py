@@ -33,8 +33,14 @@ FOLDERS = {Message: "msg", Service: "srv", Action: "action"}
 TIMES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 
 _INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
-_FIELD = {1: re.compile(r"[A-Za-z][A-Za-z0-9_]*"), 2: re.compile(r"[a-z](_?[a-z0-9]+)*")}
-_CONSTANT = {1: _FIELD[1], 2: re.compile(r"[A-Z](_?[A-Z0-9]+)*")}
+_INTERFACE_HINT = "a ROS interface starts with a capital letter and has letters and digits only"
+_FIELD = {1: re.compile(r"[A-Za-z][A-Za-z0-9_]*"), 2: re.compile(r"[a-z](_?[a-z0-9])*")}
+_FIELD_HINT = {
+    1: "ROS wants letters, digits and `_`, and a letter first",
+    2: "ROS 2 wants lower-case letters, digits and single `_`",
+}
+_CONSTANT = {1: _FIELD[1], 2: re.compile(r"[A-Z](_?[A-Z0-9])*")}
+_CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 wants capital letters, digits and single `_`"}
 
 
 def file_name(interface: Interface) -> str:
@@ -54,16 +60,25 @@ def parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
             return (goal, result, feedback)
 
 
-def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str, Span | None]]:
-    """The names in it that ROS does not take: each with what it is, and its place."""
+def named(type_: Type) -> Iterator[Named]:
+    """The message that is in a type, if there is one."""
+    if isinstance(type_, Array):
+        yield from named(type_.element)
+    elif isinstance(type_, Named):
+        yield type_
+
+
+def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str, str, Span | None]]:
+    """The names in it that ROS does not take: each with what it is, what ROS wants, its place."""
     if not _INTERFACE.fullmatch(interface.type.name):
-        yield interface.type.name, "the name of an interface", interface.origin
+        use = "the name of an interface"
+        yield interface.type.name, use, _INTERFACE_HINT, interface.origin
     for value in interface.constants if isinstance(interface, Message) else ():
         if not _CONSTANT[ros].fullmatch(value.name):
-            yield value.name, "the name of a constant", value.origin
+            yield value.name, "the name of a constant", _CONSTANT_HINT[ros], value.origin
     for field in (field for part in parts(interface) for field in part):
         if not _FIELD[ros].fullmatch(field.name):
-            yield field.name, "the name of a field", field.origin
+            yield field.name, "the name of a field", _FIELD_HINT[ros], field.origin
 
 
 def depends(interfaces: Iterable[Interface], ros: Generation) -> set[str]:

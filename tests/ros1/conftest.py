@@ -17,12 +17,12 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from swarmdsl.generators.smach.interfaces import definition, file_name
 from swarmdsl.generators.smach.package import chosen_machines, used_types
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.features import used_features
+from swarmdsl.interface_files import definition, file_name
 from swarmdsl.ir import System
 from swarmdsl.options import parse_options
 from swarmdsl.plugins import load
@@ -135,7 +135,8 @@ class Workspace:
             if not (_DEBIAN / interface.type.package).exists():
                 path = folder / interface.type.package / file_name(interface)
                 path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_text(definition(interface, Diagnostics()), encoding="utf-8")
+                text = definition(interface, 1, lambda construct, at: pytest.fail(construct))
+                path.write_text(text, encoding="utf-8")
         for type_, kind in used_types(system, chosen_machines(system)):
             path = folder / type_.package / kind / f"{type_.name}.{kind}"
             if not path.exists() and not (_DEBIAN / type_.package).exists():

@@ -15,8 +15,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from swarmdsl.generators.ros2.interfaces import InterfacePackage, interface_packages, named
-from swarmdsl.generators.ros2.names import parts
 from swarmdsl.generators.ros2.options import Options
 from swarmdsl.generators.ros2.package import (
     called_functions,
@@ -28,6 +26,8 @@ from swarmdsl.generators.ros2.render import interface_files
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.interface_files import named, parts
+from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
 from swarmdsl.ir.types import STRING
 from swarmdsl.naming import snake_case
@@ -99,21 +99,14 @@ def sources() -> Iterator[tuple[str, str]]:
     for model in MODELS:
         system = compiler.check([model]).system
         assert system is not None, model
-        for package in interface_packages(system, "none", Diagnostics()):
+        for package in packages_of((each for each in system.interfaces if not each.external), 2):
             yield from _texts(package)
         for interface in _external(system):
             known = found.get(interface.type, interface)
             found[interface.type] = _merged(known, interface)
-    by_package: dict[str, list[Interface]] = {}
-    for interface in found.values():
-        if interface.type.package not in _IN_WHEELS:
-            by_package.setdefault(interface.type.package, []).append(interface)
-    for name, interfaces in sorted(by_package.items()):
-        interfaces.sort(key=lambda each: each.type.name)
-        needed = {type_.package for each in interfaces for type_ in _in_fields(each)}
-        if any(isinstance(each, Action) for each in interfaces):
-            needed.add("action_msgs")
-        package = InterfacePackage(name, tuple(interfaces), tuple(sorted(needed - {name})))
+    missing = (each for each in found.values() if each.type.package not in _IN_WHEELS)
+    by_name = sorted(missing, key=lambda each: (each.type.package, each.type.name))
+    for package in packages_of(by_name, 2):
         yield from _texts(package)
 
 

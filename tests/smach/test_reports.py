@@ -56,7 +56,7 @@ def test_unsupported(reported: Reported) -> None:
             f"{_machine(SMALL)}\nstruct S {{ _x : int32 }}",
             "_x",
             "_x",
-            "the name of a field or constant",
+            "the name of a field",
         ),
         (
             f"{_machine(SMALL)}\naction Go {{ }}\nstruct GoGoal {{ x : int32 }}",
