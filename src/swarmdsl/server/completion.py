@@ -19,7 +19,6 @@ from swarmdsl.load import File
 from swarmdsl.parse import parse_piece
 from swarmdsl.peg.machine import mismatch
 from swarmdsl.scopes import FileScope, Scopes, bare, kind_of
-from swarmdsl.server.occurrences import owners
 from swarmdsl.source import Source
 from swarmdsl.statements import statement_at
 from swarmdsl.syntax import (
@@ -58,6 +57,7 @@ from swarmdsl.syntax import (
     walk,
 )
 from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import owners
 
 _TRIAL = "completed_here_"
 _WORD = re.compile(r"\w*")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from swarmdsl.load import File
 from swarmdsl.scopes import bare, kind_of
-from swarmdsl.server.occurrences import occurrence_at
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     ActionType,
@@ -16,6 +15,7 @@ from swarmdsl.syntax import (
     StructType,
 )
 from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import occurrence_at
 
 # Of these all of it is shown, as long as it is short.
 _WHOLE = (StructType, EnumType, MessageType, ServiceType, ActionType)

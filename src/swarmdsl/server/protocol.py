@@ -21,12 +21,12 @@ from swarmdsl.server.completion import completions
 from swarmdsl.server.findings import as_findings, as_range
 from swarmdsl.server.fixes import fix
 from swarmdsl.server.models import Models
-from swarmdsl.server.occurrences import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.server.positions import offset
-from swarmdsl.server.renaming import RefusedError, renamable, rename
 from swarmdsl.server.words import COMPLETION_KINDS, SYMBOL_KINDS
 from swarmdsl.source import Span
 from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import Occurrence, occurrence_at, occurrences_of
+from swarmdsl.workspace.renaming import RefusedError, renamable, rename
 
 Place = tuple[Workspace, File, int]
 

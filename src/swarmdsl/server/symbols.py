@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from swarmdsl.dataclass import dataclass
 from swarmdsl.load import File
 from swarmdsl.scopes import KINDS, bare, kind_of
-from swarmdsl.server.occurrences import owners
 from swarmdsl.source import Span
 from swarmdsl.syntax import Node, Optimization, children
 from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import owners
 
 
 @dataclass(frozen=True)

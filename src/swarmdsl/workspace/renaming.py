@@ -13,11 +13,11 @@ from pathlib import Path
 from swarmdsl.diagnostics import Severity
 from swarmdsl.load import File
 from swarmdsl.scopes import KINDS, kind_of
-from swarmdsl.server.occurrences import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.source import Span
 from swarmdsl.syntax import Field, Node, Parameter
 from swarmdsl.syntax_advice import keywords
 from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import Occurrence, occurrence_at, occurrences_of
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Whatever is called so at another place is found by its type only.
