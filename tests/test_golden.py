@@ -32,12 +32,13 @@ def made(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str
     return make(CASES[case], tmp_path / "out")
 
 
-# What is the same in each package is looked at in one.
+# The engine is that of this project, which tests of the targets compare with it.
+ENGINE = re.compile(r"(smach|ros2)/\w+/(src/\w+/engine/\w+|\w+/engine)\.py")
+# What else is the same in each package is looked at in one.
 SAME_IN_ALL = re.compile(
-    r"smach/\w+_behavior/src/(\w+_behavior/(actions|chart|containers|node|services|states)"
-    r"|\w+_behavior/engine/\w+)\.py"
-    r"|ros2/\w+_behavior/(\w+_behavior/(alarms|engine|functions|host|node|parameters"
-    r"|topics|tracing|values)\.py|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
+    r"smach/\w+/src/\w+/(actions|chart|containers|node|services|states)\.py"
+    r"|ros2/\w+/(\w+/(alarms|functions|host|node|parameters|topics|tracing|values)\.py"
+    r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
 )
 
 
@@ -53,7 +54,7 @@ def make(model: Path, out: Path) -> dict[str, str]:
             texts[f"{target}.diagnostics.txt"] = rendered(result)
     for path in sorted(out.rglob("*")):
         name = path.relative_to(out).as_posix()
-        common = model != SHOWN and SAME_IN_ALL.fullmatch(name)
+        common = ENGINE.fullmatch(name) or (model != SHOWN and SAME_IN_ALL.fullmatch(name))
         if path.is_file() and path.name != ".swarmdsl.json" and not common:
             texts[name] = path.read_text(encoding="utf-8")
     return texts

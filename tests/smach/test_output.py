@@ -325,6 +325,12 @@ def test_python_is_that_of_noetic(folder: Path) -> None:
         ast.parse(text, feature_version=(3, 8))
 
 
+def test_the_engine_is_whole(files: Files) -> None:
+    for file in ENGINE.glob("*.py"):
+        made = files[f"src/lab_behavior/engine/{file.name}"].text
+        assert made.partition("\n")[2] == file.read_text(encoding="utf-8")
+
+
 def test_the_engine_runs_on_the_python_of_noetic(folder: Path) -> None:
     code = "import sys, engine\nif sys.version_info < (3, 9): print(engine.Machine.__name__)"
     package = next(folder.rglob("engine")).parent
