@@ -3,6 +3,7 @@
 import copy
 import dataclasses
 import pickle
+import pprint
 
 import pytest
 
@@ -91,6 +92,7 @@ def known(value):
     """All that can be told of an instance."""
     return (
         repr(value),
+        pprint.pformat(value),
         [
             (part.name, part.type, part.default, part.compare, part.init, part.kw_only)
             for part in dataclasses.fields(value)

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from operator import attrgetter
 from reprlib import recursive_repr
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -61,6 +62,10 @@ def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
     methods: dict[str, Any] = {
         "__parts__": parts,
         "__dataclass_fields__": _FieldsOfPython(),
+        # Asked by what prints values.
+        "__dataclass_params__": SimpleNamespace(
+            init=True, repr=True, eq=eq, order=False, unsafe_hash=False, frozen=frozen
+        ),
         "__match_args__": tuple(
             name for name, about in parts.items() if about.get("init", True) and not _named(about)
         ),

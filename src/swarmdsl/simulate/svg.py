@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import re
 from xml.sax.saxutils import escape, quoteattr
+
+from swarmdsl.exchange.xml import legal
 
 _STYLE = """
 text { font: 11px "DejaVu Sans", Verdana, "Helvetica Neue", Arial, sans-serif; fill: #1f2430 }
@@ -31,8 +32,6 @@ _DEFINITIONS = """<defs>
 <rect width="2" height="6" fill="#c0362c" opacity="0.45"/>
 </pattern>
 </defs>"""
-# What XML cannot hold at all.
-_IMPOSSIBLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 
 
 class Drawing:
@@ -83,7 +82,7 @@ class Drawing:
 
 
 def _text(text: str) -> str:
-    return escape(_IMPOSSIBLE.sub("\N{REPLACEMENT CHARACTER}", text))
+    return escape(legal(text))
 
 
 def _ends(x: float, y: float, to_x: float, to_y: float) -> str:
