@@ -1,9 +1,8 @@
 """ROS 2: an ament_python package whose nodes run the state machines on rclpy."""
 
-from swarmdsl.generator import Generator
+from swarmdsl.generator import Generator, chosen_machines
 
 from .options import Options
-from .package import chosen_machines
 from .render import emit
 
 generator = Generator(

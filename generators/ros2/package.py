@@ -1,22 +1,10 @@
-"""The package around the machines: which those are, what they use, its manifest."""
+"""What machines use, and the packages that they need."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from lxml import etree
-
 from swarmdsl.ir import Array, EventTrigger, Named, Send, StateMachine, System
-
-from .options import Options
-
-
-def chosen_machines(system: System) -> list[StateMachine]:
-    """The machines that get a node: the behaviours there are, or all when there is none."""
-    used = {member.behavior for member in system.members}
-    used |= {component.behavior for component in system.components}
-    used.discard(None)
-    return [machine for machine in system.machines if not used or machine.name in used]
 
 
 def heard_events(machine: StateMachine) -> list[str]:
@@ -62,32 +50,3 @@ def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
             if isinstance(type_, Named):
                 found.add(type_.package)
     return sorted(found)
-
-
-def manifest(
-    name: str,
-    doc: str,
-    depends: Iterable[tuple[str, str]],
-    build_type: str,
-    options: Options,
-    groups: Iterable[str] = (),
-) -> str:
-    """The text of package.xml, format 3 (REP 149); each dependency with its tag."""
-    root = etree.Element("package", format="3")
-    _child(root, "name", name)
-    _child(root, "version", options.version)
-    _child(root, "description", " ".join(doc.split()))
-    _child(root, "maintainer", options.maintainer, email=options.email)
-    _child(root, "license", options.license)
-    for tag, package in depends:
-        _child(root, tag, package)
-    for group in groups:
-        _child(root, "member_of_group", group)
-    _child(etree.SubElement(root, "export"), "build_type", build_type)
-    text = etree.tostring(root, pretty_print=True, encoding="unicode")
-    return f'<?xml version="1.0"?>\n{text}'
-
-
-def _child(parent: etree._Element, tag: str, text: str, **attributes: str) -> None:
-    child = etree.SubElement(parent, tag, attributes)
-    child.text = text

@@ -14,6 +14,7 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
+from swarmdsl.ros_package import manifest
 from swarmdsl.templates import environment
 
 from .engine import engine_source
@@ -21,7 +22,6 @@ from .imports import WIDTH
 from .launch import configuration
 from .names import TARGET
 from .options import Options
-from .package import manifest
 from .view import MachineView, PackageView, package_view
 
 _MODULES = ("alarms", "functions", "host", "node", "parameters", "topics", "tracing", "values")
@@ -50,10 +50,10 @@ def interface_files(
         ("buildtool_depend", "rosidl_default_generators"),
         *(("depend", name) for name in package.depends),
         ("exec_depend", "rosidl_default_runtime"),
+        ("member_of_group", "rosidl_interface_packages"),
     ]
     doc = f"Interfaces of {package.name}."
-    groups = ("rosidl_interface_packages",)
-    text = manifest(package.name, doc, depends, "ament_cmake", options, groups)
+    text = manifest(package.name, doc, depends, options, format_=3, build_type="ament_cmake")
     yield OutputFile(f"{package.name}/package.xml", text, origin=at)
 
 

@@ -6,9 +6,11 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.python_source import Call, Source, comment_lines, comments, file_name, layout
+from swarmdsl.ros_package import manifest
 from swarmdsl.source import Span
 
 from . import names, package
@@ -65,7 +67,7 @@ class PackageView:
 
 def package_view(system: System, options: Options, report: Diagnostics) -> PackageView | None:
     """All that the templates need; None where the system has no machine to make a node of."""
-    machines = package.chosen_machines(system)
+    machines = chosen_machines(system)
     if not machines:
         return None
     name = names.package_name(system, options.package, report)
@@ -98,7 +100,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         callbacks=tuple(callbacks.items()),
         launches=tuple(launched),
         interfaces=interfaces,
-        manifest=package.manifest(name, doc, depends, "ament_python", options),
+        manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
     )
 
 

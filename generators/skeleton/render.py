@@ -17,10 +17,10 @@ from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
+from swarmdsl.ros_package import manifest
 from swarmdsl.templates import environment
 
 from .languages import language
-from .manifest import manifest
 from .nodes import TARGET, Node, nodes
 from .options import Options
 from .packages import generation, packages
@@ -169,9 +169,14 @@ class _Depends:
             tags += (("depend", name) for name in self.run)
             tags += (("exec_depend", name) for name in ("launch", "launch_ros"))
             tags += [("test_depend", "python3-pytest" if python else "ament_cmake_gtest")]
-            exports = (("build_type", type_),)
             return manifest(
-                self.view.package, self.view.summary, tags, self.options, exports, region
+                self.view.package,
+                self.view.summary,
+                tags,
+                self.options,
+                format_=3,
+                build_type=type_,
+                region=region,
             )
         tags = [("buildtool_depend", "catkin")]
         if self.options.language == "python":
@@ -181,7 +186,9 @@ class _Depends:
         tags += (
             ("exec_depend" if name == "message_runtime" else "depend", name) for name in self.run
         )
-        return manifest(self.view.package, self.view.summary, tags, self.options, region=region)
+        return manifest(
+            self.view.package, self.view.summary, tags, self.options, format_=2, region=region
+        )
 
 
 def _interface_files(
@@ -211,8 +218,16 @@ def _interface_files(
             ("exec_depend", "rosidl_default_runtime"),
             ("member_of_group", "rosidl_interface_packages"),
         ]
-    exports = (("build_type", "ament_cmake"),) if options.ros == 2 else ()
-    text = manifest(package.name, f"Interfaces of {package.name}.", tags, options, exports)
+    doc = f"Interfaces of {package.name}."
+    build_type = "ament_cmake" if options.ros == 2 else ""
+    text = manifest(
+        package.name,
+        doc,
+        tags,
+        options,
+        format_=3 if options.ros == 2 else 2,
+        build_type=build_type,
+    )
     yield OutputFile(f"{package.name}/package.xml", text, origin=at)
     yield from definitions(package, generation(options), TARGET, report)
 

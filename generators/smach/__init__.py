@@ -1,10 +1,9 @@
 """ROS 1: a catkin package whose nodes run the state machines with SMACH."""
 
-from swarmdsl.generator import Generator
+from swarmdsl.generator import Generator, chosen_machines
 
 from .mapping import MAPPING
 from .options import Options
-from .package import chosen_machines
 from .render import emit
 
 generator = Generator(

@@ -1,23 +1,11 @@
-"""The package around the machines: which those are, what they use, its manifest."""
+"""What machines use, and the packages that they need."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lxml import etree
-
 from swarmdsl.interface_files import named
 from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
-
-from .options import Options
-
-
-def chosen_machines(system: System) -> list[StateMachine]:
-    """The machines that get a node: the behaviours there are, or all when there is none."""
-    used = {member.behavior for member in system.members}
-    used |= {component.behavior for component in system.components}
-    used.discard(None)
-    return [machine for machine in system.machines if not used or machine.name in used]
 
 
 def used_items(machine: StateMachine) -> Iterator[EventTrigger | Send]:
@@ -64,23 +52,3 @@ def activity_modules(used: Iterable[tuple[Named, str]]) -> list[str]:
     return [
         module for module, kind in (("actions", "action"), ("services", "srv")) if kind in kinds
     ]
-
-
-def manifest(name: str, doc: str, depends: Iterable[tuple[str, str]], options: Options) -> str:
-    """The text of package.xml; each dependency with its tag."""
-    root = etree.Element("package", format="2")
-    _child(root, "name", name)
-    _child(root, "version", options.version)
-    _child(root, "description", " ".join(doc.split()))
-    _child(root, "maintainer", options.maintainer, email=options.email)
-    _child(root, "license", options.license)
-    _child(root, "buildtool_depend", "catkin")
-    for tag, package in depends:
-        _child(root, tag, package)
-    text = etree.tostring(root, pretty_print=True, encoding="unicode")
-    return f'<?xml version="1.0"?>\n{text}'
-
-
-def _child(parent: etree._Element, tag: str, text: str, **attributes: str) -> None:
-    child = etree.SubElement(parent, tag, attributes)
-    child.text = text

@@ -15,12 +15,12 @@ from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
+from swarmdsl.ros_package import manifest
 from swarmdsl.templates import environment
 
 from .launch_files import launch_files
 from .module import TARGET
 from .options import Options
-from .package import manifest
 from .view import PackageView, package_view
 
 
@@ -48,11 +48,13 @@ def _interfaces(
     text = _fill("interfaces/CMakeLists.txt", package=package, interface_files=files)
     yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
     depends = [
+        ("buildtool_depend", "catkin"),
         ("build_depend", "message_generation"),
         *(("depend", name) for name in package.depends),
         ("exec_depend", "message_runtime"),
     ]
-    text = manifest(package.name, f"Interfaces of {package.name}.", depends, options)
+    doc = f"Interfaces of {package.name}."
+    text = manifest(package.name, doc, depends, options, format_=2)
     yield OutputFile(f"{package.name}/package.xml", text, origin=at)
 
 

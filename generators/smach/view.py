@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
 from swarmdsl.ir.types import DURATION, Primitive
@@ -19,6 +20,7 @@ from swarmdsl.python_source import (
     one_line,
     place,
 )
+from swarmdsl.ros_package import manifest
 from swarmdsl.source import Span
 
 from . import names, package
@@ -123,7 +125,7 @@ class PackageView:
 
 def package_view(system: System, options: Options, report: Diagnostics) -> PackageView | None:
     """All that the templates need; None where the system has no machine to make a node of."""
-    machines = package.chosen_machines(system)
+    machines = chosen_machines(system)
     if not machines:
         return None
     name = names.package_name(system, options.package, report)
@@ -146,6 +148,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     event_views = _event_views(events, constants, event_imports)
     made = robots(system, {machine.name for machine in machines})
     depends = [
+        ("buildtool_depend", "catkin"),
         ("buildtool_depend", "python3-setuptools"),
         *(("exec_depend", needed) for needed in package.dependencies(used)),
         *([("exec_depend", "roslaunch"), ("test_depend", "rostest")] if made else []),
@@ -160,7 +163,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         event_imports=tuple(event_imports.lines()),
         callbacks=tuple(callbacks.items()),
         interfaces=interfaces,
-        manifest=package.manifest(name, doc, depends, options),
+        manifest=manifest(name, doc, depends, options, format_=2),
         modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
         timeouts=options.timeouts,
         robots=tuple(made),

@@ -111,6 +111,14 @@ def all_machines(system: System) -> tuple[StateMachine, ...]:
     return system.machines
 
 
+def chosen_machines(system: System) -> list[StateMachine]:
+    """The machines that get a node: the behaviours there are, or all when there is none."""
+    used = {member.behavior for member in system.members}
+    used |= {component.behavior for component in system.components}
+    used.discard(None)
+    return [machine for machine in system.machines if not used or machine.name in used]
+
+
 @dataclass(frozen=True)
 class Generator:
     """One target.

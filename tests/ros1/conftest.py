@@ -17,11 +17,12 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from swarmdsl.generators.smach.package import chosen_machines, used_types
+from swarmdsl.generators.smach.package import used_types
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.features import used_features
+from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_files import definition, file_name
 from swarmdsl.ir import System
 from swarmdsl.options import parse_options

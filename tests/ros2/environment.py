@@ -18,7 +18,6 @@ from pathlib import Path
 from swarmdsl.generators.ros2.options import Options
 from swarmdsl.generators.ros2.package import (
     called_functions,
-    chosen_machines,
     heard_events,
     sent_events,
 )
@@ -26,6 +25,7 @@ from swarmdsl.generators.ros2.render import interface_files
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_files import named, parts
 from swarmdsl.interface_packages import InterfacePackage, packages_of
 from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System

@@ -1,0 +1,84 @@
+"""What every generated package of ROS has: its manifest, and what a person can say about it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from lxml import etree
+
+from swarmdsl.generator import option
+
+# What catkin_pkg demands of them.
+_VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
+_EMAIL = re.compile(r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}")
+
+
+def _version_fault(value: str) -> str | None:
+    if _VERSION.fullmatch(value):
+        return None
+    return f"`{value}` is no version: three numbers, as in `1.2.0`"
+
+
+def _email_fault(value: str) -> str | None:
+    return None if _EMAIL.fullmatch(value) else f"`{value}` is no e-mail address"
+
+
+def _line_fault(name: str) -> Callable[[str], str | None]:
+    fault = f"option `{name}` needs a text on one line"
+    return lambda value: None if value.strip() and value.isprintable() else fault
+
+
+@dataclass(frozen=True)
+class PackageOptions:
+    """The options of every target that writes packages of ROS."""
+
+    version: str = option("0.1.0", "version of the package", check=_version_fault)
+    license: str = option("Apache-2.0", "license of the package", check=_line_fault("license"))
+    maintainer: str = option(
+        "Maintainer", "name of the package's maintainer", check=_line_fault("maintainer")
+    )
+    email: str = option(
+        "maintainer@example.org", "e-mail address of the maintainer", check=_email_fault
+    )
+
+
+def manifest(
+    name: str,
+    doc: str,
+    depends: Iterable[tuple[str, str]],
+    options: PackageOptions,
+    *,
+    format_: Literal[2, 3],
+    build_type: str = "",
+    region: str = "",
+) -> str:
+    """The text of package.xml, of format 2 (REP 140, ROS 1) or 3 (REP 149, ROS 2).
+
+    `depends` are tags with what they name, in their order. Where `region` has a name, it is
+    that of lines that are the user's (`swarmdsl.regions`).
+    """
+    root = etree.Element("package", format=str(format_))
+    if region:
+        root.append(etree.Comment(" Lines between the two marks below are yours. "))
+    _child(root, "name", name)
+    _child(root, "version", options.version)
+    _child(root, "description", " ".join(doc.split()))
+    _child(root, "maintainer", options.maintainer, email=options.email)
+    _child(root, "license", options.license)
+    for tag, package in depends:
+        _child(root, tag, package)
+    if region:
+        root.append(etree.Comment(f" swarmc:begin {region} "))
+        root.append(etree.Comment(f" swarmc:end {region} "))
+    if build_type:
+        _child(etree.SubElement(root, "export"), "build_type", build_type)
+    text = etree.tostring(root, pretty_print=True, encoding="unicode")
+    return f'<?xml version="1.0"?>\n{text}'
+
+
+def _child(parent: etree._Element, tag: str, text: str, **attributes: str) -> None:
+    child = etree.SubElement(parent, tag, attributes)
+    child.text = text
