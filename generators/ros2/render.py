@@ -15,7 +15,8 @@ from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.ros_package import manifest
-from swarmdsl.templates import environment
+from swarmdsl.source_map import MappedText
+from swarmdsl.templates import environment, fill
 
 from .engine import engine_source
 from .imports import WIDTH
@@ -53,8 +54,8 @@ def interface_files(
         ("member_of_group", "rosidl_interface_packages"),
     ]
     doc = f"Interfaces of {package.name}."
-    text = manifest(package.name, doc, depends, options, format_=3, build_type="ament_cmake")
-    yield OutputFile(f"{package.name}/package.xml", text, origin=at)
+    about = manifest(package.name, doc, depends, options, format_=3, build_type="ament_cmake")
+    yield OutputFile(f"{package.name}/package.xml", about, origin=at)
 
 
 def _files(package: PackageView, options: Options) -> Iterator[OutputFile]:
@@ -104,24 +105,20 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
     text = _fill("package/package/machine.py", machine=machine, package=package, header=head)
     return OutputFile(
         f"{package.name}/{package.name}/{machine.module}.py",
-        _within_width(text),
+        text.rewritten(_within_width),
         origin=machine.origin,
     )
 
 
-def _within_width(text: str) -> str:
-    """The text with comments in lines that are not too long; code that is says so."""
-    lines = []
-    for line in text.splitlines():
-        stripped = line.lstrip()
-        indent = line[: len(line) - len(stripped)]
-        if len(line) <= WIDTH:
-            lines.append(line)
-        elif stripped.startswith("#"):
-            lines += [f"{indent}# {part}" for part in wrap(stripped[1:], WIDTH - len(indent) - 2)]
-        else:
-            lines.append(f"{line}  # noqa: E501")
-    return "\n".join([*lines, ""])
+def _within_width(line: str) -> list[str]:
+    """A line, a comment in several that are not too long; code that is says so."""
+    stripped = line.lstrip()
+    indent = line[: len(line) - len(stripped)]
+    if len(line) <= WIDTH:
+        return [line]
+    if stripped.startswith("#"):
+        return [f"{indent}# {part}" for part in wrap(stripped[1:], WIDTH - len(indent) - 2)]
+    return [f"{line}  # noqa: E501"]
 
 
 def _legal(options: Options) -> str:
@@ -136,8 +133,8 @@ _MOST_FILES = 100
 """For how many members of a role there is a file of parameters for each."""
 
 
-def _fill(template: str, **values: object) -> str:
-    return _environment().get_template(f"{template}.j2").render(**values)
+def _fill(template: str, **values: object) -> MappedText:
+    return fill(_environment().get_template(f"{template}.j2"), **values)
 
 
 @cache

@@ -18,7 +18,7 @@ from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
-from swarmdsl.templates import environment
+from swarmdsl.templates import environment, fill
 
 from .languages import language
 from .nodes import TARGET, Node, nodes
@@ -242,7 +242,7 @@ def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:
 
 
 def _fill(template: str, **values: object) -> str:
-    return _environment().get_template(f"{template}.j2").render(**values)
+    return fill(_environment().get_template(f"{template}.j2"), **values)
 
 
 @cache

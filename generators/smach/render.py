@@ -16,7 +16,7 @@ from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
-from swarmdsl.templates import environment
+from swarmdsl.templates import environment, fill
 
 from .launch_files import launch_files
 from .module import TARGET
@@ -97,7 +97,7 @@ def _engine(folder: str, header: str) -> Iterator[OutputFile]:
 
 
 def _fill(template: str, **values: object) -> str:
-    return _environment().get_template(f"{template}.j2").render(**values)
+    return fill(_environment().get_template(f"{template}.j2"), **values)
 
 
 @cache

@@ -76,7 +76,8 @@ class OutputFile:
 
     `path` is relative, with `/` and no `..`. A file with `keep` is the user's once it
     exists: it is written when missing and never again. `origin` is the place in the model
-    that gave the file its name: where a clash of two names is shown.
+    that gave the file its name: where a clash of two names is shown, and where lines come from
+    of which nothing else is known; a `MappedText` knows more (see `swarmdsl.source_map`).
     """
 
     path: str

@@ -1,4 +1,7 @@
-"""The list of generated files in an output folder: it tells them from those of the user."""
+"""The list of generated files in an output folder: it tells them from those of the user.
+
+It also says where their lines come from, see `swarmdsl.map_file`.
+"""
 
 from __future__ import annotations
 
@@ -6,8 +9,9 @@ import json
 from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
-from swarmdsl import regions
+from swarmdsl import map_file, regions
 from swarmdsl.output_path import stays_inside
 
 NAME = ".swarmdsl.json"
@@ -28,12 +32,27 @@ def read(out: Path) -> Hashes:
     of the folder was not put there by swarmc and is ignored.
     """
     try:
-        files = json.loads((out / NAME).read_bytes())["files"]
+        files = _stored(out)["files"]
         return {path: files[path] for path in files if stays_inside(path)}
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+    except (LookupError, TypeError):
         return {}
 
 
-def to_bytes(hashes: Mapping[str, str]) -> bytes:
+def read_maps(out: Path) -> map_file.Maps | None:
+    """Where the lines of its files come from; None where it has no such list."""
+    stored = _stored(out)
+    return map_file.from_json(stored["map"]) if "map" in stored else None
+
+
+def _stored(out: Path) -> dict[str, Any]:
+    try:
+        stored = json.loads((out / NAME).read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return stored if isinstance(stored, dict) else {}
+
+
+def to_bytes(hashes: Mapping[str, str], maps: Mapping[str, map_file.FileMap]) -> bytes:
     """The list as it is stored: the same bytes for the same files."""
-    return (json.dumps({"files": hashes}, indent=2, sort_keys=True) + "\n").encode()
+    stored = {"files": hashes, "map": map_file.to_json(maps)}
+    return (json.dumps(stored, indent=2, sort_keys=True) + "\n").encode()

@@ -10,6 +10,7 @@ import os
 import stat
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 
 from swarmdsl import manifest, regions
@@ -17,6 +18,7 @@ from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.fitting_code import outdated
 from swarmdsl.generator import OutputFile
+from swarmdsl.map_file import Maps, Positions
 from swarmdsl.output_path import clash_key
 from swarmdsl.staging import Staging
 
@@ -49,7 +51,7 @@ def write(
     `force` overwrites what the user wrote or edited, except files that are the user's to
     keep. None when something stands in the way: it is reported and nothing is changed.
     """
-    plan = _Plan(out, manifest.read(out), force, report)
+    plan = _Plan(out, manifest.read(out), manifest.read_maps(out) or {}, force, report)
     for target, files in output.items():
         for file in files:
             plan.add(target, file)
@@ -75,15 +77,17 @@ def write(
 class _Plan:
     """What is to be done; all paths are below `out`.
 
-    `before` is the manifest as it was, `hashes` as it will be; `inside` says of folders
-    whether they are in `out`, whatever links lead there.
+    `before` and `maps_before` are the manifest as it was, `hashes` and `maps` as it will be;
+    `inside` says of folders whether they are in `out`, whatever links lead there.
     """
 
     out: Path
     before: manifest.Hashes
+    maps_before: Maps
     force: bool
     report: Diagnostics
     hashes: manifest.Hashes = field(default_factory=dict)
+    maps: Maps = field(default_factory=dict)
     contents: dict[str, bytes] = field(default_factory=dict)
     executable: set[str] = field(default_factory=set)
     unchanged: list[str] = field(default_factory=list)
@@ -92,8 +96,13 @@ class _Plan:
     left: list[str] = field(default_factory=list)
     inside: dict[Path, bool] = field(default_factory=dict)
 
+    @cached_property
+    def _positions(self) -> Positions:
+        return Positions(self.out)
+
     def add(self, target: str, file: OutputFile) -> None:
         """Decide what happens to a file; what stands in the way is reported."""
+        self.maps[f"{target}/{file.path}"] = self._positions.file_map(file)
         place = self.out / target / file.path
         if not self._leads_inside(place):
             notes = ("a symbolic link on the way leads out of the folder",)
@@ -185,6 +194,9 @@ class _Plan:
                 self.hashes[path] = old
             elif path not in new.values():
                 self._add_stale(path, old, new.get(clash_key(path)))
+        for path, map_ in self.maps_before.items():
+            if path.partition("/")[0] not in targets:
+                self.maps[path] = map_
 
     def _add_stale(self, path: str, old: str, successor: str | None) -> None:
         place = self.out / path
@@ -210,30 +222,31 @@ class _Plan:
 
 def _carry_out(plan: _Plan) -> None:
     list_file = plan.out / manifest.NAME
-    listed = manifest.to_bytes(plan.hashes)
+    listed = manifest.to_bytes(plan.hashes, plan.maps)
+    is_new = (plan.hashes, plan.maps) != (plan.before, plan.maps_before)
     with Staging() as staging:
         for path, content in plan.contents.items():
             staging.add(plan.out / path, content, path in plan.executable)
-        if plan.hashes != plan.before or (plan.hashes and not list_file.exists()):
+        if is_new or (plan.hashes and not list_file.exists()):
             staging.add(list_file, listed)
-        done = dict(plan.before)
+        done, maps = dict(plan.before), dict(plan.maps_before)
         try:
             for place in staging.move_in_place():
                 path = place.relative_to(plan.out).as_posix()
                 if path in plan.hashes:
-                    done[path] = plan.hashes[path]
+                    done[path], maps[path] = plan.hashes[path], plan.maps[path]
             for path in plan.stale:
                 _remove(plan.out / path, plan.out)
         except BaseException:
             if done != plan.before:
-                _save_what_is_done(list_file, done)
+                _save_what_is_done(list_file, manifest.to_bytes(done, maps))
             raise
 
 
-def _save_what_is_done(list_file: Path, done: manifest.Hashes) -> None:
+def _save_what_is_done(list_file: Path, done: bytes) -> None:
     """Keep the list true when only some files could be replaced, as far as that is possible."""
     with suppress(OSError), Staging() as staging:
-        staging.add(list_file, manifest.to_bytes(done))
+        staging.add(list_file, done)
         for _ in staging.move_in_place():
             pass
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.source import Span
+from swarmdsl.source_map import Placed
 
 WIDTH = 100
 _STEP = "    "
@@ -84,7 +85,7 @@ def comment_lines(text: str) -> list[str]:
 
 def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
     """Where something stands in the model and what is said of it there, a comment a line."""
-    where = (place(origin),) if origin is not None else ()
+    where = (Placed(place(origin), origin),) if origin is not None else ()
     return (*where, *comment_lines(doc))
 
 

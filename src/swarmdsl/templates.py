@@ -7,30 +7,62 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemBytecodeCache, FileSystemLoader, StrictUndefined
+from jinja2 import (
+    Environment,
+    FileSystemBytecodeCache,
+    FileSystemLoader,
+    StrictUndefined,
+    Template,
+    pass_context,
+)
 from jinja2.bccache import Bucket
+from jinja2.runtime import Context
 
 from swarmdsl import __version__
+from swarmdsl.source import Span
+from swarmdsl.source_map import MappedText, Placed, at, mapped, marked
+
+_ORIGINS = "places that were printed"
 
 
 def environment(folder: Path) -> Environment:
-    """The templates in a folder: what is undefined is an error, blocks leave no lines behind."""
-    return Environment(
+    """The templates in a folder: what is undefined is an error, blocks leave no lines behind.
+
+    In them, `at(origin)` marks a line as coming from a place in the model.
+    """
+    made = Environment(
         loader=FileSystemLoader(folder),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        finalize=_finalize,
         bytecode_cache=_cache(),
     )
+    made.globals["at"] = at
+    return made
+
+
+def fill(template: Template, **values: object) -> MappedText:
+    """What a template prints, with the places that its lines come from."""
+    origins: list[Span | None] = []
+    return mapped(template.render(values, **{_ORIGINS: origins}), origins)
+
+
+@pass_context
+def _finalize(context: Context, value: object) -> object:
+    if not isinstance(value, Placed):
+        return value
+    origins: list[Span | None] = context[_ORIGINS]
+    return marked(value, origins)
 
 
 class _Cache(FileSystemBytecodeCache):
     """Compiled templates in files, which Jinja replaces at once; nothing where that fails."""
 
     def get_source_checksum(self, source: str) -> str:
-        # Another version may compile the same text in another way.
-        return super().get_source_checksum(f"{__version__} {source}")
+        # Another version may compile the same text in another way, as one without places did.
+        return super().get_source_checksum(f"{__version__} with places {source}")
 
     def dump_bytecode(self, bucket: Bucket) -> None:
         with suppress(OSError):
