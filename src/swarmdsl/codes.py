@@ -46,6 +46,7 @@ CODES: dict[str, Code] = {
     "wrong-value": Code("SW0013", "error", "`{name}` takes {expected}, not {found}"),
     "unknown-diagnostic": Code("SW0014", "error", "there is no diagnostic `{name}`"),
     "not-a-warning": Code("SW0015", "error", "`{name}` is an error, and cannot be allowed"),
+    "outside-workspace": Code("SW0016", "error", "`{path}` is outside of the workspace"),
     # ---- syntax
     "syntax-error": Code("SW0101", "error", "{message}"),
     "unclosed-bracket": Code("SW0102", "error", "this `{bracket}` is never closed"),

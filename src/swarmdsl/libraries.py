@@ -76,20 +76,7 @@ class Libraries:
 
     @cached_property
     def _installed(self) -> list[Path]:
-        # Imported here because it is slow and most models do without.
-        from importlib.metadata import entry_points
-
-        found: dict[Path, None] = {}
-        for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
-            try:
-                folder = _folder_of(point.module)
-            # Whatever goes wrong in the code of others is theirs alone.
-            except (Exception, SystemExit) as error:
-                reason = failure(f"looking for the library {point.name}", error)
-                self._report.report("broken-library", name=point.name, reason=reason)
-                continue
-            found[folder] = None
-        return list(found)
+        return installed_folders(self._report)
 
     def _advice(self, statement: ImportLibrary, package: str, nearby: Path) -> str | None:
         if not package:
@@ -109,6 +96,24 @@ class Libraries:
         if close is None:
             return f"`{library}` has {listed(sorted(inside.values()), 'and')}"
         return f"did you mean `{inside[close]}`?"
+
+
+def installed_folders(report: Diagnostics) -> list[Path]:
+    """The folders of libraries in installed Python packages."""
+    # Imported here because it is slow and most models do without.
+    from importlib.metadata import entry_points
+
+    found: dict[Path, None] = {}
+    for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
+        try:
+            folder = _folder_of(point.module)
+        # Whatever goes wrong in the code of others is theirs alone.
+        except (Exception, SystemExit) as error:
+            reason = failure(f"looking for the library {point.name}", error)
+            report.report("broken-library", name=point.name, reason=reason)
+            continue
+        found[folder] = None
+    return list(found)
 
 
 def _folder_of(module: str) -> Path:

@@ -82,6 +82,10 @@ class Reader:
     def look(self, path: Path) -> None:
         """Hear of a file or folder that was looked for: what it holds decides what is imported."""
 
+    def allows(self, path: Path, at: Span | None, report: Diagnostics) -> bool:
+        """Whether a file or folder may be read; one that may not is reported at `at`."""
+        return True
+
     def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
         """Read and parse a .swarm file."""
         source = read_source(path, at, report)
@@ -189,6 +193,8 @@ class _Loader:
                 yield _Step(_relative(folder, wanted), file, statement)
             case ImportRos(path=wanted):
                 place = _relative(folder, wanted)
+                if not self._reader.allows(place, wanted.span, self._report):
+                    return
                 found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)

@@ -1,3 +1,5 @@
+"""A server for all tests of a module, which its client asks as editors do."""
+
 import sys
 
 import pytest
@@ -5,24 +7,18 @@ import pytest_lsp
 from lsprotocol import types as lsp
 from pytest_lsp import ClientServerConfig, LanguageClient
 
-from .model import MODEL
+from .editor import Editor
+from .model import MODEL, ROVER
 
 SERVER = [sys.executable, "-m", "swarmdsl", "lsp"]
 
 
-@pytest.fixture
-def folder(tmp_path):
-    (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
-    (tmp_path / "patrol.swarm").write_text(MODEL)
-    (tmp_path / "rover.swarm").write_text(
-        'package rover\nimport "patrol.swarm"\nmember Rover { behavior Patrol }\n'
-        "swarm Rovers { rover : Rover[2] }\n"
-    )
-    return tmp_path
-
-
-@pytest_lsp.fixture(config=ClientServerConfig(server_command=SERVER))
-async def client(lsp_client: LanguageClient, folder):
+@pytest_lsp.fixture(
+    scope="module",
+    config=ClientServerConfig(server_command=SERVER),
+)
+async def client(lsp_client: LanguageClient, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("open")
     await lsp_client.initialize_session(
         lsp.InitializeParams(
             capabilities=lsp.ClientCapabilities(),
@@ -31,3 +27,20 @@ async def client(lsp_client: LanguageClient, folder):
     )
     yield
     await lsp_client.shutdown_session()
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """The folder of a project with two files."""
+    (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
+    (tmp_path / "patrol.swarm").write_text(MODEL, encoding="utf-8")
+    (tmp_path / "rover.swarm").write_text(ROVER)
+    return tmp_path
+
+
+@pytest.fixture
+def editor(client):
+    """What a person does in an editor; all files are closed in the end."""
+    editor = Editor(client)
+    yield editor
+    editor.close_all()

@@ -35,3 +35,9 @@ function go_round : abstraction { action "go" : patrol_msgs/GoRound }
   final Home
 }
 """
+ROVER = """\
+package rover
+import "patrol.swarm"
+member Rover { behavior Patrol }
+swarm Rovers { rover : Rover[2] }
+"""

@@ -38,7 +38,7 @@ def test_an_editor_that_dies_takes_the_server_with_it():
     process.stdin.flush()
     assert capabilities(process.stdout)["hoverProvider"]
     _, errors = process.communicate(timeout=20)
-    assert (process.returncode, errors) == (0, b"")
+    assert (process.returncode, errors) == (1, b"")
 
 
 def test_an_editor_is_asked_to_tell_of_changes_on_disk():

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import gc
+import io
 import os
 import signal
+import socket
 
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import OK
 
 _LOOPBACK = "127.0.0.1"
 
@@ -28,19 +29,37 @@ def lsp(stdio: bool, port: int | None) -> int:
     """Serve editors: the Language Server Protocol."""
     if stdio and port is not None:
         raise click.UsageError("`--stdio` and `--tcp` exclude each other")
-    from swarmdsl.server.protocol import make_server
+    from swarmdsl.server.protocol import serve
 
     gc.enable()  # a server runs for days
     if hasattr(signal, "SIGPIPE"):
         # An editor that is gone is noticed where something is written.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
-    server = make_server()
     if port is None:
-        # Files of its own, which it closes when its editor is gone.
-        server.start_io(os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb"))
-    else:
+        with _taken(0, "rb") as reader, _taken(1, "wb") as writer:
+            return serve(reader, writer)
+    with _connected(port) as connection:
+        stream = connection.makefile("rwb", buffering=0)
+        return serve(stream, stream)
+
+
+def _taken(descriptor: int, mode: str) -> io.FileIO:
+    """A standard stream without a buffer; what is printed by mistake does not get into it."""
+    stream = io.FileIO(os.dup(descriptor), mode)
+    null = os.open(os.devnull, os.O_RDWR)
+    os.dup2(null, descriptor)
+    os.close(null)
+    return stream
+
+
+def _connected(port: int) -> socket.socket:
+    """A connection to the first editor that asks for one; another one is refused."""
+    with socket.socket() as listener:
+        if os.name == "posix":
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
-            server.start_tcp(_LOOPBACK, port)
+            listener.bind((_LOOPBACK, port))
         except OSError as error:
             raise click.ClickException(f"port {port}: {error.strerror}") from error
-    return OK
+        listener.listen(1)
+        return listener.accept()[0]

@@ -9,6 +9,7 @@ from pathlib import Path
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.project.settings import FILE_NAME, Settings
 from swarmdsl.reading import read_source
+from swarmdsl.source import Source
 
 
 def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
@@ -17,13 +18,19 @@ def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
     Incomplete when errors were reported.
     """
     path = find_file(paths[0] if paths else Path())
-    if path is None:
-        return Settings()
+    return read_project(path, report) if path is not None else Settings()
+
+
+def read_project(path: Path, report: Diagnostics, source: Source | None = None) -> Settings:
+    """What a project file says, or a `source` in its place.
+
+    Incomplete when errors were reported.
+    """
     # What reads TOML takes a while to import.
     from swarmdsl.project.schema import read_settings
     from swarmdsl.project.toml import parse_toml
 
-    source = read_source(path, None, report)
+    source = source or read_source(path, None, report)
     document = parse_toml(source, report) if source is not None else None
     return read_settings(document, path.parent, report) if document is not None else Settings()
 
@@ -44,4 +51,4 @@ def places(start: Path) -> Iterator[str]:
         yield os.path.join(folder, FILE_NAME)  # noqa: PTH118
 
 
-__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings", "places"]
+__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings", "places", "read_project"]

@@ -2,56 +2,59 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
-
-from lsprotocol import types as lsp
 
 from swarmdsl.diagnostics import Diagnostic, Label, Severity
 from swarmdsl.explain import page_path
+from swarmdsl.server.connection import Json
 from swarmdsl.server.positions import bounds
 from swarmdsl.source import Span
 
-_SEVERITIES = {
-    Severity.ERROR: lsp.DiagnosticSeverity.Error,
-    Severity.WARNING: lsp.DiagnosticSeverity.Warning,
-}
-_START = lsp.Range(start=lsp.Position(line=0, character=0), end=lsp.Position(line=0, character=0))
+_SEVERITIES = {Severity.ERROR: 1, Severity.WARNING: 2}
+_UNNECESSARY = 1
+_START = {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}}
 
 
-def as_range(span: Span, encoding: str) -> lsp.Range:
+def as_range(span: Span, encoding: str) -> Json:
     """Where a span is in its file."""
     (line, character), (end_line, end_character) = bounds(span, encoding)
-    return lsp.Range(
-        start=lsp.Position(line=line, character=character),
-        end=lsp.Position(line=end_line, character=end_character),
-    )
+    return {
+        "start": {"line": line, "character": character},
+        "end": {"line": end_line, "character": end_character},
+    }
 
 
-def as_findings(found: Iterable[Diagnostic], encoding: str) -> list[lsp.Diagnostic]:
-    """Diagnostics of one file for its editor."""
-    return [_finding(each, encoding) for each in found]
+def as_findings(
+    found: Iterable[Diagnostic], encoding: str, uri: Callable[[Path], str]
+) -> list[Json]:
+    """Diagnostics of one file for its editor; `uri` says how that names a file."""
+    return [_finding(each, encoding, uri) for each in found]
 
 
-def _finding(found: Diagnostic, encoding: str) -> lsp.Diagnostic:
+def _finding(found: Diagnostic, encoding: str, uri: Callable[[Path], str]) -> Json:
     label = found.primary.message if found.primary is not None else ""
     lines = [found.message, label, *found.notes, f"help: {found.help}" if found.help else ""]
-    unused = found.name.startswith("unused")
-    return lsp.Diagnostic(
-        range=as_range(found.primary.span, encoding) if found.primary is not None else _START,
-        severity=_SEVERITIES[found.severity],
-        code=found.code,
-        code_description=lsp.CodeDescription(href=page_path(found.code).as_uri()),
-        source="swarmc",
-        message="\n".join(filter(None, lines)),
-        tags=[lsp.DiagnosticTag.Unnecessary] if unused else None,
-        related_information=[_related(each, encoding) for each in found.related] or None,
-    )
+    finding: Json = {
+        "range": as_range(found.primary.span, encoding) if found.primary is not None else _START,
+        "severity": _SEVERITIES[found.severity],
+        "code": found.code,
+        "codeDescription": {"href": page_path(found.code).as_uri()},
+        "source": "swarmc",
+        "message": "\n".join(filter(None, lines)),
+    }
+    if found.name.startswith("unused"):
+        finding["tags"] = [_UNNECESSARY]
+    if found.related:
+        finding["relatedInformation"] = [_related(each, encoding, uri) for each in found.related]
+    return finding
 
 
-def _related(label: Label, encoding: str) -> lsp.DiagnosticRelatedInformation:
-    path = Path(label.span.source.name).absolute()
-    return lsp.DiagnosticRelatedInformation(
-        location=lsp.Location(uri=path.as_uri(), range=as_range(label.span, encoding)),
-        message=label.message or "see here",
-    )
+def _related(label: Label, encoding: str, uri: Callable[[Path], str]) -> Json:
+    return {
+        "location": {
+            "uri": uri(Path(label.span.source.name)),
+            "range": as_range(label.span, encoding),
+        },
+        "message": label.message or "see here",
+    }

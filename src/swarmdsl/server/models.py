@@ -7,65 +7,75 @@ is open in the editor; outside of that it is a model of its own.
 from __future__ import annotations
 
 import gc
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostic, Diagnostics
 from swarmdsl.load import File
-from swarmdsl.project import find_file, find_settings
-from swarmdsl.project.settings import Settings
+from swarmdsl.project import FILE_NAME, Settings, find_file, read_project
+from swarmdsl.server.territory import Territory
+from swarmdsl.source import Source
 from swarmdsl.workspace import Workspace
 
 
+@dataclass
+class _Project:
+    """A project file as it was read last, and what is wrong with it."""
+
+    settings: Settings
+    report: Diagnostics
+
+
 class Models:
-    """The workspaces of all open files; `folders` are those that are open in the editor."""
+    """The workspaces of all open files; `folders` are those that are open in the editor.
+
+    An edit takes effect when something is asked: many keys in a row cost what one does.
+    """
 
     def __init__(self, folders: Sequence[Path] = ()) -> None:
         self.folders = list(folders)
         self._texts: dict[Path, str] = {}
+        # Files whose text is another than their workspaces know; whether it is for the first time.
+        self._changed: dict[Path, bool] = {}
         self._workspaces: dict[tuple[Path, ...], Workspace] = {}
+        self._projects: dict[Path, _Project] = {}
 
-    def __iter__(self) -> Iterator[Workspace]:
-        return iter(self._workspaces.values())
+    @property
+    def waiting(self) -> bool:
+        """Whether there are edits that have not taken effect."""
+        return bool(self._changed)
 
     def edit(self, path: Path, text: str) -> None:
         """Take what an editor shows for the content of a file."""
-        known = path in self._texts
+        self._changed[path] = self._changed.get(path, False) or path not in self._texts
         self._texts[path] = text
-        for workspace in self:
-            if not known or workspace.file(path) is not None:
-                workspace.update({path: text})
-        self._workspace_of(path)
 
     def close(self, path: Path) -> None:
-        """Take what is on disk again; models of which no file is open are forgotten."""
-        if self._texts.pop(path, None) is None:
-            return
-        for workspace in self:
-            workspace.update({path: None})
-        self._workspaces = {
-            sources: workspace
-            for sources, workspace in self._workspaces.items()
-            if any(workspace.file(each) is not None for each in self._texts)
-        }
-        gc.collect()
+        """Take what is on disk again."""
+        if self._texts.pop(path, None) is not None:
+            self._changed[path] = True
 
     def refresh(self, paths: Iterable[Path]) -> None:
         """Read files again that were changed on disk, but for those that are open."""
-        changed: Mapping[Path, str | None] = {
-            path: None for path in paths if path not in self._texts
-        }
-        if any(path.name == "swarm.toml" for path in changed):
-            self._workspaces.clear()
-            for path in self._texts:
-                self._workspace_of(path)
-            return
-        for workspace in self:
-            workspace.update(changed)
+        for path in paths:
+            if path not in self._texts:
+                self._changed[path] = True
+
+    def open_folders(self, folders: Iterable[Path]) -> None:
+        """Take other folders for those that are open in the editor."""
+        self.folders = list(folders)
+        self._forget()
+
+    def all(self) -> list[Workspace]:
+        """The workspaces, after all edits."""
+        self._settle()
+        return list(self._workspaces.values())
 
     def file(self, path: Path) -> tuple[Workspace, File] | None:
         """An open file, with the workspace that it belongs to."""
-        if path not in self._texts:
+        self._settle()
+        if path not in self._texts or path.name == FILE_NAME:
             return None
         workspace = self._workspace_of(path)
         file = workspace.file(path)
@@ -73,34 +83,101 @@ class Models:
 
     def opened(self, workspace: Workspace) -> list[Path]:
         """The open files of a workspace, first those that could not be read."""
-        files = [path for path in self._texts if self._workspace_of(path) is workspace]
+        files = [path for path in self._models() if self._workspace_of(path) is workspace]
         return sorted(files, key=lambda path: workspace.file(path) is not None)
 
+    def diagnostics(self) -> Iterator[tuple[Workspace, str, list[Diagnostic]]]:
+        """What is wrong by workspace and name of the file; of "" what is wrong with no file."""
+        workspaces = self.all()
+        for workspace in workspaces:
+            for name, found in workspace.diagnostics().items():
+                yield workspace, name, found
+        for path, project in self._projects.items():
+            yield from [(each, str(path), list(project.report)) for each in workspaces[:1]]
+
+    def _models(self) -> Iterator[Path]:
+        return (path for path in self._texts if path.name != FILE_NAME)
+
+    def _settle(self) -> None:
+        """Let all edits take effect."""
+        if not self._changed:
+            return
+        changed, self._changed = self._changed, {}
+        try:
+            if any(path.name == FILE_NAME for path in changed):
+                self._workspaces.clear()
+            for workspace in self._workspaces.values():
+                texts = {
+                    path: self._texts.get(path)
+                    for path, fresh in changed.items()
+                    if path.name != FILE_NAME and (fresh or workspace.file(path) is not None)
+                }
+                if texts:
+                    workspace.update(texts)
+            for path in self._models():
+                self._workspace_of(path)
+        except BaseException:
+            self._forget()  # what an update has left half done is of no use
+            raise
+        if not self._texts.keys() >= changed.keys():
+            self._tidy()
+
+    def _tidy(self) -> None:
+        """Forget the models of which no file is open."""
+        used = {id(self._workspace_of(path)) for path in self._models()}
+        kept = {key: each for key, each in self._workspaces.items() if id(each) in used}
+        if len(kept) < len(self._workspaces):
+            self._workspaces = kept
+            homes = {find_file(path) for path in self._models()}
+            self._projects = {path: each for path, each in self._projects.items() if path in homes}
+            gc.unfreeze()
+            gc.collect()
+
+    def _forget(self) -> None:
+        """Make all models anew when they are needed."""
+        self._workspaces.clear()
+        self._changed = dict.fromkeys(self._texts, True)
+        gc.unfreeze()
+
     def _workspace_of(self, path: Path) -> Workspace:
-        for workspace in self:
+        for workspace in self._workspaces.values():
             if workspace.file(path) is not None:
                 return workspace
-        settings = self._settings(path)
+        settings, home = self._settings(path)
         if settings is not None and settings.sources not in self._workspaces:
-            workspace = self._made(settings)
+            workspace = self._made(settings, home)
             if workspace.file(path) is not None:
                 return workspace
             del self._workspaces[settings.sources]
         alone = (path,)
-        return self._workspaces.get(alone) or self._made(Settings(sources=alone))
+        return self._workspaces.get(alone) or self._made(Settings(sources=alone), path.parent)
 
-    def _settings(self, path: Path) -> Settings | None:
-        """What is compiled together with a file; None for that file alone."""
-        if find_file(path) is not None:
-            report = Diagnostics()
-            settings = find_settings([path], report)
-            return None if report.has_errors else settings
+    def _settings(self, path: Path) -> tuple[Settings | None, Path]:
+        """What is compiled together with a file, None for that file alone; and where it is."""
+        project = find_file(path)
+        if project is not None:
+            return self._project(project), project.parent
         folder = next((each for each in self.folders if path.is_relative_to(each)), None)
-        return Settings(sources=(folder,)) if folder is not None else None
+        if folder is not None:
+            return Settings(sources=(folder,)), folder
+        return None, path.parent
 
-    def _made(self, settings: Settings) -> Workspace:
-        workspace = Workspace(settings.sources, settings)
-        workspace.update(self._texts)
+    def _project(self, path: Path) -> Settings:
+        """What a project file says; while it has mistakes, what it said before."""
+        text = self._texts.get(path)
+        source = Source(str(path), text, path) if text is not None else None
+        report = Diagnostics()
+        settings = read_project(path, report, source)
+        if report.has_errors:
+            before = self._projects.get(path)
+            settings = before.settings if before else Settings(sources=(path.parent,))
+        self._projects[path] = _Project(settings, report)
+        return settings
+
+    def _made(self, settings: Settings, home: Path) -> Workspace:
+        territory = Territory([*self.folders, home], settings)
+        models = {path: self._texts[path] for path in self._models()}
+        workspace = Workspace(settings.sources, settings, texts=models, within=territory)
         self._workspaces[settings.sources] = workspace
         gc.collect()
         gc.freeze()

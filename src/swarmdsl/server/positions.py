@@ -17,7 +17,7 @@ def position(source: Source, offset: int, encoding: str = UTF_16) -> Position:
     """Line and character of an offset."""
     line, column = source.line_column(offset)
     start = source.line_starts[line - 1]
-    return line - 1, _units(source.text[start : start + column - 1], encoding)
+    return line - 1, units(source.text[start : start + column - 1], encoding)
 
 
 def bounds(span: Span, encoding: str = UTF_16) -> tuple[Position, Position]:
@@ -41,11 +41,12 @@ def offset(source: Source, at: Position, encoding: str = UTF_16) -> int:
     for index, each in enumerate(text):
         if count >= character:
             return start + index
-        count += _units(each, encoding)
+        count += units(each, encoding)
     return start + len(text)
 
 
-def _units(text: str, encoding: str) -> int:
+def units(text: str, encoding: str) -> int:
+    """How many characters a text has, as an encoding counts them."""
     if encoding == "utf-32" or text.isascii():
         return len(text)
     if encoding == "utf-8":

@@ -8,7 +8,8 @@ comes of it is what `compiler.check` would say of the same texts.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from swarmdsl.diagnostics import MOST_HINTS, Diagnostic, Diagnostics, placed
@@ -35,6 +36,7 @@ from swarmdsl.workspace.sheets import Desk
 from swarmdsl.workspace.units import Unit, with_users
 
 _DEFAULTS = Settings()
+_NO_TEXTS: Mapping[Path, str] = {}
 # What looks for names that may be meant, as long as there are not too many of them.
 _HINTED = ("unresolved-name", "unknown-field")
 
@@ -42,13 +44,23 @@ _HINTED = ("unresolved-name", "unknown-field")
 class Workspace:
     """The files of a model, those they import, and what is wrong with them.
 
-    `paths` are files and folders, as for `compiler.check`.
+    `paths` are files and folders, as for `compiler.check`; `texts` are taken for the contents of
+    files. What does not lie `within` some folders is not read.
     """
 
-    def __init__(self, paths: Sequence[Path], settings: Settings = _DEFAULTS) -> None:
+    def __init__(
+        self,
+        paths: Sequence[Path],
+        settings: Settings = _DEFAULTS,
+        *,
+        texts: Mapping[Path, str] = _NO_TEXTS,
+        within: Container[Path] | None = None,
+    ) -> None:
         self._paths = paths
         self._settings = settings
-        self._desk = Desk(settings.levels)
+        self._desk = Desk(settings.levels, within)
+        for path, text in texts.items():
+            self._desk.edit(path, text)
         self._units: dict[Source, Unit] = {}
         self._loaded = self._collector()
         self._together = self._collector()
@@ -87,6 +99,16 @@ class Workspace:
             if reload or change.heads or (change.shape and self._picks):
                 self._load(change)
             self._apply(change)
+
+    @contextmanager
+    def supposing(self, texts: Mapping[Path, str]) -> Iterator[None]:
+        """Take texts for the contents of files for a while; what was before comes back."""
+        before = {path: self._desk.edited(path) for path in texts}
+        try:
+            self.update(texts)
+            yield
+        finally:
+            self.update(before)
 
     @property
     def files(self) -> int:

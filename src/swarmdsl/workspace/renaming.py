@@ -65,8 +65,8 @@ def _can_be_given(workspace: Workspace, found: Occurrence, spans: list[Span], na
     """Whether a model has no more errors with this name, and it means the same everywhere."""
     before = _errors(workspace)
     texts = _texts(spans)
-    workspace.update({path: _replaced(text, spans, path, name) for path, text in texts.items()})
-    try:
+    tried = {path: _replaced(text, spans, path, name) for path, text in texts.items()}
+    with workspace.supposing(tried):
         if _errors(workspace) - before:
             return False
         path = found.span.source.path
@@ -77,8 +77,6 @@ def _can_be_given(workspace: Workspace, found: Occurrence, spans: list[Span], na
         if again is None:
             return False
         return len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
-    finally:
-        workspace.update(texts)
 
 
 def _errors(workspace: Workspace) -> Counter[str]:

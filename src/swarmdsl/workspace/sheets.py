@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from functools import partial
 from itertools import accumulate, pairwise
 from pathlib import Path
@@ -119,18 +119,33 @@ class Desk(Reader):
 
     `wanted` are the real paths of those that were asked for since it was last emptied, `asked`
     the paths of all, also of those that cannot be read, and of folders that were looked into.
+    What does not lie `within` some folders is not read.
     """
 
-    def __init__(self, levels: Levels) -> None:
+    def __init__(self, levels: Levels, within: Container[Path] | None = None) -> None:
         self.sheets: dict[str, Sheet] = {}
         self.wanted: set[str] = set()
         self.asked: set[Path] = set()
         self._levels = levels
+        self._within = within
         self._edited: dict[str, bytes] = {}
 
     def look(self, path: Path) -> None:
         """Hear of a file or folder that was looked for."""
         self.asked.add(path)
+
+    def allows(self, path: Path, at: Span | None, report: Diagnostics) -> bool:
+        """Whether a file or folder may be read; one that may not is reported at `at`."""
+        if self._within is None or path in self._within:
+            return True
+        report.report(
+            "outside-workspace",
+            at,
+            path=path,
+            help="open its folder in the editor, too, "
+            "or name it in `libraries` of the project file `swarm.toml`",
+        )
+        return False
 
     def edit(self, path: Path, text: str | None) -> None:
         """Take a text for the content of a file; None for what is on disk."""
@@ -139,6 +154,11 @@ class Desk(Reader):
             self._edited.pop(identity, None)
         else:
             self._edited[identity] = text.encode("utf-8", "surrogatepass")
+
+    def edited(self, path: Path) -> str | None:
+        """The text that was taken for the content of a file, None for one that is on disk."""
+        text = self._edited.get(os.path.realpath(path))
+        return text.decode("utf-8", "surrogatepass") if text is not None else None
 
     def sheet(self, path: Path) -> Sheet | None:
         """The sheet of a file, if there is one."""
@@ -162,7 +182,7 @@ class Desk(Reader):
     def source(self, path: Path, at: Span | None, report: Diagnostics) -> Source | None:
         """The text of a file; None for one that cannot be read, which is reported at `at`."""
         content = self._edited.get(os.path.realpath(path))
-        if content is None:
+        if content is None and self.allows(path, at, report):
             content = read_bytes(path, at, report)
         return decoded(path, content, at, report) if content is not None else None
 
