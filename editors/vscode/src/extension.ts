@@ -1,0 +1,59 @@
+// What VS Code calls: the extension begins, with its commands, and ends.
+
+import * as vscode from "vscode";
+
+import { selectInterpreter } from "./interpreter.ts";
+import { newModel } from "./models.ts";
+import { onSelect } from "./python.ts";
+import { Server } from "./server.ts";
+import { simulate, type Subject } from "./simulate.ts";
+import { showStatus } from "./status.ts";
+import { provideTasks } from "./tasks.ts";
+
+let server: Server | undefined;
+
+export function activate(context: vscode.ExtensionContext): void {
+  const log = vscode.window.createOutputChannel("Swarm", { log: true });
+  const started = new Server(context.extensionUri, log);
+  server = started;
+  const refresh = (): void => void started.refresh();
+  context.subscriptions.push(
+    log,
+    started,
+    showStatus(started),
+    provideTasks(started),
+    command("restartServer", () => started.restart()),
+    command("selectInterpreter", selectInterpreter),
+    command("showLog", () => log.show()),
+    command("newModel", () => newModel(context.extensionUri)),
+    command("simulate", (file?: vscode.Uri | string, subject?: Subject) => {
+      const uri = asked(file);
+      return uri && simulate(started, uri, subject);
+    }),
+    vscode.workspace.onDidChangeConfiguration((event) => {
+      if (event.affectsConfiguration("swarmdsl.server")) {
+        refresh();
+      }
+    }),
+    vscode.workspace.onDidGrantWorkspaceTrust(refresh),
+  );
+  void onSelect(refresh).then((listening) => context.subscriptions.push(listening));
+  refresh();
+}
+
+export function deactivate(): Promise<void> | undefined {
+  return server?.stop();
+}
+
+function command(name: string, run: (...args: never[]) => unknown): vscode.Disposable {
+  return vscode.commands.registerCommand(`swarmdsl.${name}`, run);
+}
+
+/** The file that a command is for: the one that is named, or the one in front. */
+function asked(file: vscode.Uri | string | undefined): vscode.Uri | undefined {
+  if (typeof file === "string") {
+    return vscode.Uri.parse(file);
+  }
+  const document = vscode.window.activeTextEditor?.document;
+  return file ?? (document?.languageId === "swarm" ? document.uri : undefined);
+}

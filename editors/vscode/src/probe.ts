@@ -1,0 +1,70 @@
+// Runs programs to learn what they are.
+
+import { execFile } from "node:child_process";
+import { access, constants } from "node:fs/promises";
+import { delimiter, join } from "node:path";
+
+import type { Probe, Python } from "./launch.ts";
+
+const WINDOWS = process.platform === "win32";
+const PATIENCE = 15_000;
+const QUESTION = `
+import sys
+try:
+    import swarmdsl.server
+    found = 1
+except ImportError:
+    found = 0
+print(*sys.version_info[:2], found)
+`;
+
+export const probe: Probe = {
+  async python(interpreter): Promise<Python | undefined> {
+    const answer = await output(interpreter, ["-c", QUESTION]);
+    const numbers = /^(\d+) (\d+) ([01])\s*$/.exec(answer ?? "");
+    return numbers
+      ? { version: [Number(numbers[1]), Number(numbers[2])], hasServer: numbers[3] === "1" }
+      : undefined;
+  },
+  async swarmc(program) {
+    return (await output(program, ["lsp", "--help"])) !== undefined;
+  },
+};
+
+/** What a program prints; undefined if it cannot be run or fails. */
+function output(program: string, args: string[]): Promise<string | undefined> {
+  return new Promise((resolve) => {
+    // Python imports from the folder that it runs in.
+    execFile(program, args, { timeout: PATIENCE, cwd: __dirname }, (error, stdout) => resolve(error ? undefined : stdout));
+  });
+}
+
+/** The interpreter of an environment that lies in a folder; undefined if there is none. */
+export async function interpreterIn(folder: string): Promise<string | undefined> {
+  const path = WINDOWS ? join(folder, "Scripts", "python.exe") : join(folder, "bin", "python");
+  return (await runs(path)) ? path : undefined;
+}
+
+/** Where programs of some names stand on the PATH. */
+export async function onPath(...names: string[]): Promise<string[]> {
+  const found: string[] = [];
+  const folders = (process.env["PATH"] ?? "").split(delimiter).filter((each) => each !== "");
+  for (const name of names) {
+    for (const folder of folders) {
+      const path = join(folder, WINDOWS ? `${name}.exe` : name);
+      if (!found.includes(path) && (await runs(path))) {
+        found.push(path);
+      }
+    }
+  }
+  return found;
+}
+
+async function runs(path: string): Promise<boolean> {
+  try {
+    await access(path, constants.X_OK);
+    return true;
+  } catch {
+    return false;
+  }
+}

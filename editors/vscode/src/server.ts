@@ -1,0 +1,176 @@
+// The language server: finds it, starts it, and starts it again when something else is found.
+
+import { homedir } from "node:os";
+import { join } from "node:path";
+
+import * as vscode from "vscode";
+import { LanguageClient, State, TransportKind } from "vscode-languageclient/node";
+
+import { find, type Found, type Launch, type Places } from "./launch.ts";
+import { interpreterIn, onPath, probe } from "./probe.ts";
+import { selectedInterpreter } from "./python.ts";
+import { tell } from "./missing.ts";
+
+export type Status =
+  | { readonly kind: "starting" | "stopped" }
+  | { readonly kind: "running"; readonly launch: Launch; readonly version: string }
+  | { readonly kind: "missing"; readonly why: string };
+
+export class Server implements vscode.Disposable {
+  private readonly changed = new vscode.EventEmitter<Status>();
+  readonly onChange = this.changed.event;
+  private client: LanguageClient | undefined;
+  private launch: Launch | undefined;
+  // One start or stop at a time, in the order in which they were asked for.
+  private queue: Promise<unknown> = Promise.resolve();
+
+  private readonly extension: vscode.Uri;
+  private readonly log: vscode.LogOutputChannel;
+
+  constructor(extension: vscode.Uri, log: vscode.LogOutputChannel) {
+    this.extension = extension;
+    this.log = log;
+  }
+
+  /** Stop the server if it runs, find it anew and start it. */
+  restart(): Promise<void> {
+    return this.queued(async () => {
+      await this.end();
+      await this.start(await this.search());
+    });
+  }
+
+  /** Start again if something else would be started now. */
+  refresh(): Promise<void> {
+    return this.queued(async () => {
+      const found = await this.search();
+      const launch = "launch" in found ? found.launch : undefined;
+      if (this.client === undefined || JSON.stringify(launch) !== JSON.stringify(this.launch)) {
+        await this.end();
+        await this.start(found);
+      }
+    });
+  }
+
+  /** How to run swarmc; undefined if there is none, which the user is told. */
+  async swarmc(): Promise<Launch | undefined> {
+    await this.queue;
+    if (this.launch) {
+      return this.launch;
+    }
+    const found = await this.search();
+    if ("launch" in found) {
+      return found.launch;
+    }
+    tell(found);
+    return undefined;
+  }
+
+  /** Ask the server something that the protocol has no request for. */
+  async request<Answer>(method: string, parameters: unknown): Promise<Answer | undefined> {
+    await this.queue;
+    return this.client?.sendRequest<Answer>(method, parameters);
+  }
+
+  dispose(): void {
+    this.changed.dispose();
+  }
+
+  stop(): Promise<void> {
+    return this.queued(() => this.end());
+  }
+
+  private queued(work: () => Promise<void>): Promise<void> {
+    const done = this.queue.then(work).catch((error: unknown) => this.log.error(String(error)));
+    this.queue = done;
+    return done;
+  }
+
+  private async search(): Promise<Found> {
+    return find(await places(this.extension), probe, (line) => this.log.info(line));
+  }
+
+  private async start(found: Found): Promise<void> {
+    if (!("launch" in found)) {
+      this.log.error(found.missing);
+      this.changed.fire({ kind: "missing", why: found.missing });
+      tell(found);
+      return;
+    }
+    const { launch } = found;
+    this.launch = launch;
+    this.log.info(`starting swarmc of ${launch.origin}: ${[launch.command, ...launch.args].join(" ")}`);
+    this.changed.fire({ kind: "starting" });
+    const client = new LanguageClient(
+      "swarmdsl",
+      "Swarm",
+      {
+        command: launch.command,
+        args: [...launch.args, "lsp"],
+        transport: TransportKind.stdio,
+        // Python imports from the folder that it runs in.
+        options: { cwd: this.extension.fsPath },
+      },
+      {
+        documentSelector: [{ scheme: "file", language: "swarm" }],
+        // That of the problem matcher, so that a problem is shown once.
+        diagnosticCollectionName: "swarmdsl",
+        outputChannel: this.log,
+      },
+    );
+    client.onDidChangeState(({ newState }) => {
+      if (client === this.client || newState === State.Running) {
+        this.changed.fire(
+          newState === State.Running
+            ? { kind: "running", launch, version: client.initializeResult?.serverInfo?.version ?? "" }
+            : { kind: newState === State.Starting ? "starting" : "stopped" },
+        );
+      }
+    });
+    this.client = client;
+    try {
+      await client.start();
+    } catch (error) {
+      this.log.error(String(error));
+      tell({ missing: `The swarmc of ${launch.origin} did not start.` });
+    }
+  }
+
+  private async end(): Promise<void> {
+    const { client } = this;
+    this.client = undefined;
+    this.launch = undefined;
+    try {
+      await client?.dispose();
+    } catch (error) {
+      this.log.warn(String(error)); // of a server that is gone already
+    }
+  }
+}
+
+async function places(extension: vscode.Uri): Promise<Places> {
+  const folders = vscode.workspace.workspaceFolders ?? [];
+  const settings = vscode.workspace.getConfiguration("swarmdsl.server");
+  const [first] = folders;
+  // What lies in a workspace that is not trusted is not run.
+  const trusted = vscode.workspace.isTrusted;
+  const environments = trusted
+    ? await Promise.all(folders.map((each) => interpreterIn(join(each.uri.fsPath, ".venv"))))
+    : [];
+  return {
+    path: expanded(settings.get("path", ""), first),
+    interpreter: expanded(settings.get("interpreter", ""), first),
+    selected: trusted ? await selectedInterpreter(first?.uri) : undefined,
+    environments: environments.filter((each) => each !== undefined),
+    swarmc: await onPath("swarmc"),
+    pythons: await onPath("python3", "python"),
+    bundle: vscode.Uri.joinPath(extension, "server").fsPath,
+  };
+}
+
+function expanded(path: string, folder: vscode.WorkspaceFolder | undefined): string {
+  return path
+    .trim()
+    .replace(/^~(?=[\\/])/, () => homedir())
+    .replaceAll("${workspaceFolder}", () => folder?.uri.fsPath ?? "");
+}

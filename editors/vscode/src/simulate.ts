@@ -1,0 +1,91 @@
+// The command that runs a model in virtual time, in a terminal.
+
+import { dirname } from "node:path";
+
+import * as vscode from "vscode";
+
+import { tellBundled } from "./missing.ts";
+import type { Server } from "./server.ts";
+import { run } from "./tasks.ts";
+
+/** What of a model runs: a swarm or a state machine, by its name. */
+export interface Subject {
+  readonly kind: "swarm" | "machine";
+  readonly name: string;
+}
+
+interface Scenario extends vscode.QuickPickItem {
+  readonly uri: vscode.Uri | undefined;
+}
+
+/** Simulate `subject` of a file; without it what the user chooses of those in the file. */
+export async function simulate(server: Server, file: vscode.Uri, subject?: Subject): Promise<void> {
+  const launch = await server.swarmc();
+  if (!launch) {
+    return;
+  }
+  if (launch.bundled) {
+    tellBundled("simulate");
+    return;
+  }
+  const chosen = subject ?? (await chooseSubject(file));
+  const scenario = chosen && (await chooseScenario(file));
+  if (!scenario) {
+    return;
+  }
+  // It reads what is on disk.
+  await vscode.workspace.saveAll(false);
+  const args = ["simulate", file.fsPath, `--${chosen.kind}`, chosen.name, "--trace", "text"];
+  if (scenario.uri) {
+    args.push("--scenario", scenario.uri.fsPath);
+  }
+  const task = new vscode.Task(
+    { type: "swarmdsl", command: "simulate" },
+    vscode.workspace.getWorkspaceFolder(file) ?? vscode.TaskScope.Workspace,
+    `simulate ${chosen.name}`,
+    "swarmc",
+    run(launch, args, dirname(file.fsPath)),
+  );
+  await vscode.tasks.executeTask(task);
+}
+
+async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {
+  const outline = await vscode.commands.executeCommand<vscode.DocumentSymbol[] | undefined>(
+    "vscode.executeDocumentSymbolProvider",
+    file,
+  );
+  const found = (outline ?? []).flatMap(({ name, detail }): Subject[] => {
+    const kind = { swarm: "swarm", statemachine: "machine" }[detail.split(" ").at(-1) ?? ""];
+    return kind === "swarm" || kind === "machine" ? [{ kind, name }] : [];
+  });
+  if (found.length <= 1) {
+    if (!found.length) {
+      void vscode.window.showInformationMessage(
+        "This file has no swarm and no state machine to simulate.",
+      );
+    }
+    return found[0];
+  }
+  const items = found.map((each) => ({
+    label: each.name,
+    description: each.kind === "swarm" ? "swarm" : "state machine",
+    each,
+  }));
+  return (await vscode.window.showQuickPick(items, { title: "Simulate" }))?.each;
+}
+
+/** What happens around the swarm: one of the scenarios beside the file, if there are any. */
+async function chooseScenario(file: vscode.Uri): Promise<Scenario | undefined> {
+  const none: Scenario = {
+    label: "No scenario",
+    description: "every function succeeds after a second",
+    uri: undefined,
+  };
+  const pattern = new vscode.RelativePattern(dirname(file.fsPath), "*.toml");
+  const found = (await vscode.workspace.findFiles(pattern))
+    .filter(({ path }) => !/(^|\/)swarm\.toml$|\.swarmtest\.toml$/.test(path))
+    .map((uri): Scenario => ({ label: vscode.workspace.asRelativePath(uri), uri }));
+  return found.length
+    ? vscode.window.showQuickPick([...found, none], { title: "Scenario" })
+    : none;
+}

@@ -1,0 +1,62 @@
+// Tasks of type `swarmdsl`: what swarmc does, with its mistakes in the view of problems.
+
+import * as vscode from "vscode";
+
+import type { Launch } from "./launch.ts";
+import type { Server } from "./server.ts";
+
+interface Definition extends vscode.TaskDefinition {
+  readonly command: string;
+  readonly watch?: boolean;
+  readonly args?: readonly string[];
+}
+
+const OFFERED: readonly Definition[] = [
+  { type: "swarmdsl", command: "build" },
+  { type: "swarmdsl", command: "build", watch: true },
+  { type: "swarmdsl", command: "check" },
+  { type: "swarmdsl", command: "test" },
+];
+
+export function provideTasks(server: Server): vscode.Disposable {
+  return vscode.tasks.registerTaskProvider("swarmdsl", {
+    async provideTasks() {
+      const launch = await server.swarmc();
+      const folders = vscode.workspace.workspaceFolders ?? [];
+      return launch
+        ? folders.flatMap((folder) => OFFERED.map((each) => made(each, folder, launch)))
+        : [];
+    },
+    async resolveTask({ definition, scope }) {
+      const launch = await server.swarmc();
+      const folder = scope && typeof scope === "object" ? scope : vscode.workspace.workspaceFolders?.[0];
+      return launch && folder && made(definition as Definition, folder, launch);
+    },
+  });
+}
+
+function made(definition: Definition, folder: vscode.WorkspaceFolder, launch: Launch): vscode.Task {
+  const { command, watch = false, args = [] } = definition;
+  const line = [command, ...(watch ? ["--watch"] : []), ...args];
+  const reported = command === "check" || command === "build";
+  const task = new vscode.Task(
+    definition,
+    folder,
+    line.join(" "),
+    "swarmc",
+    run(launch, [...line, ...(reported ? ["--format", "concise"] : [])], folder.uri.fsPath),
+    reported ? [watch ? "$swarmc-watch" : "$swarmc"] : [],
+  );
+  task.isBackground = watch;
+  if (command === "test") {
+    task.group = vscode.TaskGroup.Test;
+  } else if (reported) {
+    task.group = vscode.TaskGroup.Build;
+  }
+  return task;
+}
+
+/** How a task runs swarmc. */
+export function run(launch: Launch, args: readonly string[], cwd: string): vscode.ProcessExecution {
+  return new vscode.ProcessExecution(launch.command, [...launch.args, ...args], { cwd });
+}

@@ -1,0 +1,94 @@
+"""The server that the extension brings needs an interpreter of Python and nothing else."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import pytest_lsp
+from lsprotocol import types as lsp
+from pytest_lsp import ClientServerConfig, LanguageClient
+
+ROOT = Path(__file__).resolve().parents[2]
+EXTENSION = ROOT / "editors" / "vscode"
+# Without the packages that are installed here.
+BARE = [sys.executable, "-I", "-S", str(EXTENSION / "server")]
+
+BASE = '/// Begin.\nevent Start : std_msgs/Empty on "start"\n'
+MODEL = """import "base.swarm"
+
+statemachine Patrol {
+  initial Idle
+  state Idle { on Start -> Home }
+    final Hone
+}
+"""
+
+
+@pytest.fixture(scope="module", autouse=True)
+def bundle() -> None:
+    """Make the server as `make vsix` does."""
+    program = [sys.executable, str(EXTENSION / "bundle" / "make.py")]
+    made = subprocess.run(program, capture_output=True, text=True)
+    if "Could not find a version" in made.stderr or "No matching distribution" in made.stderr:
+        pytest.skip("the packages of the server cannot be fetched")
+    assert made.returncode == 0, made.stderr
+
+
+@pytest_lsp.fixture(config=ClientServerConfig(server_command=[*BARE, "lsp"]))
+async def client(lsp_client: LanguageClient, tmp_path: Path):
+    (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\nsources = ["."]\n')
+    (tmp_path / "base.swarm").write_text(BASE)
+    (tmp_path / "patrol.swarm").write_text(MODEL)
+    await lsp_client.initialize_session(
+        lsp.InitializeParams(
+            capabilities=lsp.ClientCapabilities(),
+            workspace_folders=[lsp.WorkspaceFolder(uri=tmp_path.as_uri(), name="models")],
+        )
+    )
+    yield
+    await lsp_client.shutdown_session()
+
+
+@pytest.mark.asyncio
+async def test_it_serves_an_editor(client: LanguageClient, tmp_path: Path) -> None:
+    uri = (tmp_path / "patrol.swarm").as_uri()
+    client.text_document_did_open(
+        lsp.DidOpenTextDocumentParams(
+            text_document=lsp.TextDocumentItem(uri=uri, language_id="swarm", version=1, text=MODEL)
+        )
+    )
+    await client.wait_for_notification(lsp.TEXT_DOCUMENT_PUBLISH_DIAGNOSTICS)
+    [found] = [each for each in client.diagnostics[uri] if "Home" in each.message]
+    document = lsp.TextDocumentIdentifier(uri=uri)
+    event = {"text_document": document, "position": lsp.Position(line=4, character=19)}
+    hover = await client.text_document_hover_async(lsp.HoverParams(**event))
+    assert hover
+    assert "Begin." in hover.contents.value
+    place = await client.text_document_definition_async(lsp.DefinitionParams(**event))
+    assert isinstance(place, lsp.Location)
+    assert place.uri.endswith("base.swarm")
+    completed = await client.text_document_completion_async(lsp.CompletionParams(**event))
+    assert completed
+    renamed = await client.text_document_rename_async(lsp.RenameParams(new_name="Go", **event))
+    assert renamed
+    assert len(renamed.changes or {}) == 2
+    [action] = await client.text_document_code_action_async(
+        lsp.CodeActionParams(document, found.range, lsp.CodeActionContext([found]))
+    )
+    assert "Hone" in action.title
+    symbols = await client.text_document_document_symbol_async(lsp.DocumentSymbolParams(document))
+    assert [each.name for each in symbols or []] == ["Patrol"]
+    options = lsp.FormattingOptions(tab_size=2, insert_spaces=True)
+    edits = await client.text_document_formatting_async(
+        lsp.DocumentFormattingParams(document, options)
+    )
+    assert edits
+
+
+def test_it_says_that_it_builds_nothing() -> None:
+    ran = subprocess.run([*BARE, "build", "."], capture_output=True, text=True)
+    assert ran.returncode == 1
+    assert "install the Python package swarmdsl" in ran.stderr
