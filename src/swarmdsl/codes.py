@@ -9,7 +9,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     03xx  swarm composition      07xx  expressions
     08xx  SCXML documents        09xx  generators and output
     10xx  simulation             11xx  tests
-    12xx  import
+    12xx  import                 13xx  diagrams
 """
 
 from __future__ import annotations
@@ -243,4 +243,7 @@ CODES: dict[str, Code] = {
         "`{event}` is sent here: it comes after the events that wait already",
     ),
     "too-large": Code("SW1217", "error", "`{path}` has more than {most} MB"),
+    # ---- diagrams
+    "nothing-to-draw": Code("SW1301", "error", "the model has nothing for {what}"),
+    "unclear-diagram": Code("SW1302", "error", "{count} diagrams do not go to standard output"),
 }

@@ -1,0 +1,67 @@
+"""`swarmc diagram`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import exit_code
+
+
+@click.command(
+    epilog="Example: swarmc diagram examples/search_and_rescue --kind statechart -o pictures"
+)
+@options.files
+@click.option(
+    "--kind",
+    type=click.Choice(("composition", "internal", "statechart", "all")),
+    default="all",
+    show_default=True,
+    help="Swarms with their members; members with their parts and connectors; state machines.",
+)
+@click.option(
+    "--name",
+    "names",
+    metavar="NAME",
+    multiple=True,
+    help="Draw this swarm, member or state machine; may be repeated.",
+)
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(("mermaid", "dot", "plantuml")),
+    default="mermaid",
+    show_default=True,
+    help="What is written.",
+)
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="FILE|FOLDER",
+    type=click.Path(path_type=Path),
+    help="Write there; several diagrams need a folder.  [default: standard output]",
+)
+@options.debug
+def diagram(
+    paths: tuple[Path, ...], kind: str, names: tuple[str, ...], format_: str, out: Path | None
+) -> int:
+    """Draw a model.
+
+    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
+    names, or for the current folder. Nothing is drawn of a model with errors.
+    """
+    from swarmdsl.diagram.command import draw
+    from swarmdsl.render import render, summary
+
+    drawn = draw(paths, kind, names, format_, out)
+    render(drawn.report, "text", sys.stderr)
+    if drawn.text is not None:
+        click.echo(drawn.text, nl=False)
+    for path in drawn.written:
+        click.echo(path.as_posix(), err=True)
+    click.echo(summary(drawn.report, drawn.files), err=True)
+    return exit_code(drawn.report)
