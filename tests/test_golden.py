@@ -37,7 +37,7 @@ ENGINE = re.compile(r"(smach|ros2)/\w+/(src/\w+/engine/\w+|\w+/engine)\.py")
 # What else is the same in each package is looked at in one.
 SAME_IN_ALL = re.compile(
     r"smach/\w+/src/\w+/(actions|chart|containers|node|services|states)\.py"
-    r"|ros2/\w+/(\w+/(alarms|functions|host|node|parameters|topics|tracing|values)\.py"
+    r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|node|parameters|topics|tracing|values)\.py"
     r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
 )
 

@@ -2,6 +2,7 @@
 
 from swarmdsl.generator import Generator, chosen_machines
 
+from .mapping import MAPPING
 from .options import Options
 from .render import emit
 
@@ -11,4 +12,5 @@ generator = Generator(
     emit=emit,
     options_type=Options,
     machines=chosen_machines,
+    mapping=MAPPING,
 )

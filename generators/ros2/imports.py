@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from swarmdsl.ir import Named
 
@@ -13,8 +13,8 @@ WIDTH = 99
 class Imports:
     """Gathers what one module needs; interfaces are called by their modules."""
 
-    def __init__(self, package: str) -> None:
-        self._package = package
+    def __init__(self, messages_of_actions: Mapping[Named, str]) -> None:
+        self.messages_of_actions = messages_of_actions
         self._modules: set[str] = set()
         self._names: dict[str, set[str]] = {}
 
@@ -33,6 +33,9 @@ class Imports:
 
     def interface(self, type_: Named, kind: str) -> str:
         """Need an interface, a `msg`, `srv` or `action`; return how to write it."""
+        if type_ in self.messages_of_actions:
+            self.module(f"{type_.package}.action")
+            return self.messages_of_actions[type_]
         self.module(f"{type_.package}.{kind}")
         return f"{type_.package}.{kind}.{type_.name}"
 

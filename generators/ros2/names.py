@@ -22,7 +22,7 @@ from swarmdsl.source import Span
 
 TARGET = "ros2"
 MODULES = (
-    *("alarms", "callbacks", "engine", "functions", "host", "node", "parameters"),
+    *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "node", "parameters"),
     *("topics", "tracing", "values"),
 )
 # A package of such a name would hide what the nodes import.

@@ -37,7 +37,8 @@ def called_functions(machine: StateMachine) -> list[str]:
 
 def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
     """The packages that the nodes need."""
-    found = {"action_msgs", "builtin_interfaces", "rcl_interfaces", "rclpy", "std_msgs"}
+    found = {"action_msgs", "builtin_interfaces", "diagnostic_msgs", "rcl_interfaces", "rclpy"}
+    found.add("std_msgs")
     for machine in machines:
         for variable in machine.variables:
             element = variable.type.element if isinstance(variable.type, Array) else variable.type

@@ -25,7 +25,17 @@ from .names import TARGET
 from .options import Options
 from .view import MachineView, PackageView, package_view
 
-_MODULES = ("alarms", "functions", "host", "node", "parameters", "topics", "tracing", "values")
+_MODULES = (
+    "alarms",
+    "diagnostics",
+    "functions",
+    "host",
+    "node",
+    "parameters",
+    "topics",
+    "tracing",
+    "values",
+)
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:

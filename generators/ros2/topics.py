@@ -9,6 +9,7 @@ from swarmdsl.ir import Event, Named, StateMachine, System
 from swarmdsl.naming import incoming_topic
 from swarmdsl.python_source import Call, Source
 
+from .actions import feedback_topic
 from .imports import Imports
 from .names import check_topic
 from .package import heard_events, sent_events
@@ -30,13 +31,17 @@ def topics(
         event = system.event(name)
         assert isinstance(event.type, Named)
         topic, of_swarm = _place(event, name in sent)
+        is_feedback = event.type in imports.messages_of_actions
+        if is_feedback:
+            topic = feedback_topic(event, name in sent, report)
         check_topic(topic, event.origin, report, of_swarm=of_swarm)
         arguments = (name, Source(imports.interface(event.type, "msg")), topic)
         keywords: list[tuple[str, object]] = []
         keywords += [("swarm", True)] if of_swarm else []
         keywords += [("heard", True)] if name in heard else []
         keywords += [("sent", True)] if name in sent else []
-        if not of_swarm and name not in sent_by_any:
+        # The feedback of each server is reliable.
+        if not of_swarm and name not in sent_by_any and not is_feedback:
             keywords.append(("reliable", False))
         if event.swarm and name in sent and _is_heard_here(event, system):
             keywords.append(("local", event.topic))

@@ -14,6 +14,7 @@ from swarmdsl.ros_package import manifest
 from swarmdsl.source import Span
 
 from . import names, package
+from .actions import messages_of_actions
 from .expressions import default_value, stored
 from .imports import WIDTH, Imports
 from .launch import Launch, launches
@@ -81,7 +82,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     if report.has_errors:
         return None
     views = tuple(
-        _machine_view(system, machine, modules[machine.name], sent, name, callbacks, report)
+        _machine_view(system, machine, modules[machine.name], sent, callbacks, report)
         for machine in machines
     )
     doc = system.doc or f"Behaviour of {system.name}."
@@ -116,11 +117,10 @@ def _machine_view(
     machine: StateMachine,
     module: str,
     sent: Iterable[str],
-    name: str,
     callbacks: dict[str, str],
     report: Diagnostics,
 ) -> MachineView:
-    imports = Imports(name)
+    imports = Imports(messages_of_actions(system))
     for own in ("Behavior", "tree"):
         imports.own("host", own)
     imports.own("engine", "Machine")

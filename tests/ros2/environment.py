@@ -15,6 +15,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from swarmdsl.generators.ros2.actions import messages_of_actions
 from swarmdsl.generators.ros2.options import Options
 from swarmdsl.generators.ros2.package import (
     called_functions,
@@ -119,6 +120,7 @@ def _texts(package: InterfacePackage) -> Iterator[tuple[str, str]]:
 def _external(system: System) -> Iterator[Interface]:
     """What nodes use of the interfaces of others, described or only named."""
     described = {interface.type: interface for interface in system.interfaces}
+    of_actions = messages_of_actions(system)
     used: dict[Named, Interface] = {}
     for machine in chosen_machines(system):
         for variable in machine.variables:
@@ -139,7 +141,7 @@ def _external(system: System) -> Iterator[Interface]:
                 waiting.append(inner)
     for type_ in waiting:
         interface = described.get(type_, used[type_])
-        if interface.external:
+        if interface.external and type_ not in of_actions:
             yield interface
 
 

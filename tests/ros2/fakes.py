@@ -60,8 +60,8 @@ class Fakes(Node):
         def execute(handle):
             plan = plans[-1]
             result = fill(made.Result(), plan.get("result", {}))
-            for _ in range(plan.get("feedback", 0)):
-                handle.publish_feedback(made.Feedback())
+            for values in plan.get("feedback", ()):
+                handle.publish_feedback(fill(made.Feedback(), values))
             end = time.monotonic() + plan.get("after", 0.0)
             while plan["outcome"] == "never" or time.monotonic() < end:
                 if handle.is_cancel_requested:

@@ -12,6 +12,7 @@ HEAD = """
 package lab
 function go : abstraction { service "go" : std_srvs/Empty }
 """
+ACTION = "action Fly { goal { x : float64 } feedback { x : float64 } }"
 MACHINE = """
 statemachine Work {
   initial A
@@ -75,6 +76,26 @@ statemachine Work {
             MACHINE.replace("Work", "Engine"),
             "bad-identifier",
             "`engine` as a module name",
+            "",
+        ),
+        (
+            ACTION + MACHINE.replace("-> B", '-> B  monitor "fly/goal" : lab/FlyActionGoal -> B'),
+            "unsupported-construct",
+            "an event of `lab/FlyActionGoal` that is heard",
+            "",
+        ),
+        (
+            ACTION + MACHINE.replace("-> B", '-> B  monitor "fly" : lab/FlyActionFeedback -> B'),
+            "unsupported-construct",
+            "`lab/FlyActionFeedback` on a topic other than `<action>/feedback`, `fly`",
+            "",
+        ),
+        (
+            ACTION
+            + 'event Far : lab/FlyActionFeedback on "fly/feedback"\n'
+            + MACHINE.replace("-> B", "/ send Far -> B"),
+            "unsupported-construct",
+            "an event of `lab/FlyActionFeedback` that is sent",
             "",
         ),
         (

@@ -11,7 +11,9 @@ from swarmdsl.syntax import (
     Activity,
     Branch,
     Choice,
+    Communication,
     DoneTrigger,
+    Function,
     OutcomeTrigger,
     Parallel,
     Region,
@@ -35,6 +37,7 @@ def check_transitions(machine: StateMachine, context: Context) -> None:
                 _check_trigger(trigger, state, context)
         if isinstance(state, State):
             _check_outcomes(state, transitions, context)
+            _check_preempted(state, transitions, context)
     _check_targets(machine, context)
 
 
@@ -110,6 +113,31 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
             help=f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
             f"to state `{state.name}`",
         )
+
+
+def _check_preempted(state: State, transitions: Sequence[Transition], context: Context) -> None:
+    """What calls a service is never preempted: a request cannot be taken back, by no side."""
+    calls = [call for each in _activities(state) if (call := _call_of(each)) is not None]
+    if not calls or calls[0].paradigm != "service":
+        return
+    for transition in transitions:
+        if transition.triggers and all(
+            isinstance(trigger, OutcomeTrigger) and trigger.outcome == "preempted"
+            for trigger in transition.triggers
+        ):
+            context.report.report(
+                "transition-never-fires",
+                transition.span,
+                related=(Label(calls[0].span, "a service ends as `succeeded` or `aborted`"),),
+                help="remove it: only what calls an action can be preempted",
+            )
+
+
+def _call_of(activity: Activity) -> Communication | None:
+    """How the function that is called is reached; None for what is not known or an operation."""
+    function = activity.function.target
+    items = function.items if isinstance(function, Function) else ()
+    return next((item for item in items if isinstance(item, Communication)), None)
 
 
 def _check_targets(machine: StateMachine, context: Context) -> None:

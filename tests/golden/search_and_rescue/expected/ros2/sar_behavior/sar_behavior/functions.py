@@ -65,12 +65,30 @@ class _Call:
         self._over = False
         self._missing_since = None
 
+    def __str__(self):
+        """Return which function it calls, and where."""
+        activity = self._run.activity
+        return f'{activity.name} on {activity.server}'
+
+    @property
+    def is_waiting(self):
+        """Whether its server is not there."""
+        return self._missing_since is not None
+
+    @property
+    def progress(self):
+        """How far it is, for people."""
+        if self._cancelled:
+            return 'is cancelled'
+        return 'works' if self._sent else 'waits for its server'
+
     def begin(self):
         """Send it, as soon as there is a server."""
         if self._over:
             return
         if self._is_ready():
             self._sent = True
+            self._missing_since = None
             self._send()
             self._host.later(_WATCH, self._watch)
         elif not self._is_missing_for_long():
@@ -135,8 +153,7 @@ class _Call:
         self._run.end('preempted' if self._cancelled else outcome, result)
 
     def _warn(self, what):
-        activity = self._run.activity
-        self._host.logger.warning(f'{activity.name} on {activity.server} {what}')
+        self._host.warn(f'{self} {what}')
 
 
 class _ActionCall(_Call):
@@ -168,7 +185,7 @@ class _ActionCall(_Call):
         if handle is None:
             return
         if not handle.accepted:
-            self._host.logger.warning(f'{self._run.activity.name} was rejected')
+            self._warn('was rejected')
             self._end('aborted')
             return
         self._handle = handle

@@ -15,6 +15,7 @@ from std_msgs.msg import String
 
 from . import engine, parameters
 from .alarms import Alarms
+from .diagnostics import Diagnostics
 from .engine import Event, ExecutionError, Instance, LoopError, Machine, Servers
 from .parameters import Parameter, StartError
 from .topics import Topics
@@ -29,6 +30,7 @@ _SETTINGS = (
     Parameter('swarm', 'string', '', 'Namespace of the swarm; empty for the one around the own.'),
     Parameter('timeouts.server', 'duration', 5.0, 'How long a server may be missing, in s.'),
     Parameter('timeouts.cancel', 'duration', 5.0, 'How long a server may take to stop, in s.'),
+    Parameter('diagnostics.period', 'duration', 1.0, 'Time between diagnostics, in s; 0: none.'),
     Parameter('trace.file', 'string', '', 'Where the trace is written to, as lines of JSON.'),
     Parameter('debug.inject', 'bool', False, 'Whether events are taken from `~/events`.'),
 )
@@ -136,12 +138,16 @@ class Host:
                 String, '~/events', self._inject, _DEPTH, callback_group=self._group
             )
         self._servers = Servers()
+        self._period = settings['diagnostics.period']
+        self._diagnostics = Diagnostics(node, behavior.machine.name, self._member)
         if settings['trace.file']:
             try:
                 self._file = open(settings['trace.file'], 'w', encoding='utf-8')
             except OSError as error:
                 raise StartError(f'the trace cannot be written: {error}') from None
         self._is_configured = True
+        if self._period > 0:
+            self.later(self._period, self._tell_in_intervals)
 
     def begin(self):
         """Start the machine from its beginning."""
@@ -166,6 +172,7 @@ class Host:
         self._topics.release()
         if self._injected is not None:
             self._node.destroy_subscription(self._injected)
+        self._diagnostics.release()
         self._node.destroy_publisher(self._state)
         self._node.destroy_publisher(self._transitions)
         if self._file is not None:
@@ -182,6 +189,11 @@ class Host:
     def later(self, delay, action):
         """Call an action in so many nanoseconds of that clock."""
         self._alarms.schedule(delay, action)
+
+    def warn(self, what):
+        """Say what has gone wrong while the machine goes on."""
+        self.logger.warning(what)
+        self._diagnostics.warn(what)
 
     def post(self, action):
         """Run an action now or, where another one is in the middle of something, after it."""
@@ -225,7 +237,7 @@ class Host:
 
     def failed(self, instance, error):
         """Say that a guard, an effect or a goal has no value."""
-        self.logger.warning(f'no value: {error}')
+        self.warn(f'no value: {error}')
 
     # ---- inside
 
@@ -275,9 +287,21 @@ class Host:
         self.logger.fatal(what)
         if self._instance is not None:
             self._instance.running = False
+        self._diagnostics.fail(what)
+        self._tell_how_it_is()
         for call in list(self._calls.values()):
             call.cancel()
         self._on_end(True)
+
+    def _tell_in_intervals(self):
+        self._tell_how_it_is()
+        self.later(self._period, self._tell_in_intervals)
+
+    def _tell_how_it_is(self):
+        instance = self._instance
+        if self._period > 0 and instance is not None:
+            states = [instance.final] if instance.final else instance.configuration.innermost
+            self._diagnostics.tell(states, instance.running, list(self._calls.values()))
 
     def _receive(self, event):
         self.post(lambda: self._deliver(event))

@@ -1,0 +1,59 @@
+"""Messages that belong to actions: what a model calls as ROS 1 does is inside of a class in ROS 2.
+
+A topic of such messages, `fly/feedback` of `uav_msgs/FlyActionFeedback`, is a hidden one there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.ir import Action, Event, Message, Named, System
+
+from .names import TARGET
+
+_PARTS = {
+    "Goal": "Goal",
+    "Result": "Result",
+    "Feedback": "Feedback",
+    "ActionFeedback": "Impl.FeedbackMessage",
+    # Services in ROS 2, of which nobody else hears.
+    "ActionGoal": "Impl.SendGoalService",
+    "ActionResult": "Impl.GetResultService",
+}
+_FEEDBACK = "ActionFeedback"
+_TOPIC = "/feedback"
+_HIDDEN = "/_action/feedback"
+
+
+def messages_of_actions(system: System) -> Mapping[Named, str]:
+    """How Python writes the messages that belong to actions, by their names in a model."""
+    calls = (function.communication for function in system.functions)
+    actions = {call.type for call in calls if call.paradigm == "action"}
+    actions |= {each.type for each in system.interfaces if isinstance(each, Action)}
+    described = {each.type for each in system.interfaces if isinstance(each, Message)}
+    return {
+        made: f"{action.package}.action.{action.name}.{part}"
+        for action in sorted(actions, key=str)
+        for end, part in _PARTS.items()
+        if (made := Named(action.package, action.name + end)) not in described
+    }
+
+
+def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
+    """The topic of an event whose message belongs to an action: that has to be its feedback."""
+    assert isinstance(event.type, Named)
+    if is_sent or not event.type.name.endswith(_FEEDBACK):
+        way = "sent" if is_sent else "heard"
+        _unsupported(f"an event of `{event.type}` that is {way}", event, report)
+    elif not event.topic.endswith(_TOPIC):
+        _unsupported(
+            f"`{event.type}` on a topic other than `<action>{_TOPIC}`, `{event.topic}`",
+            event,
+            report,
+        )
+    return f"{event.topic.removesuffix(_TOPIC)}{_HIDDEN}"
+
+
+def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:
+    report.report("unsupported-construct", event.origin, target=TARGET, construct=construct)

@@ -1,0 +1,62 @@
+"""What becomes of each construct of a model, for `swarmc targets ros2`.
+
+What stands between backticks is found in the generated module.
+"""
+
+from __future__ import annotations
+
+from swarmdsl.generator import Mapped, Support
+
+_EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
+
+MAPPING = tuple(
+    Mapped(*each)
+    for each in (
+        ("state with an action", _EXACT, "`State(` with an `Activity(`; client `Action(`"),
+        ("state with a service", _EXACT, "`State(` with an `Activity(`; client `Service(`"),
+        ("state without activity", _EXACT, "row of the table, a `State(`"),
+        ("composite state, submachine", _EXACT, "row with `initial=`; those inside follow it"),
+        ("parallel state", _EXACT, "row that is `Kind.PARALLEL`; its regions follow it"),
+        ("final state", _EXACT, "row that is `Kind.FINAL`"),
+        ("transition on an outcome", _EXACT, "`Transition(` on `'do."),
+        ("transition on an event", _EXACT, "`Transition(` on the event; a `Topic(` is heard"),
+        ("transition on a completion", _EXACT, "`Transition(` on `'done.state."),
+        ("transition on a certain final state", _EXACT, "the state tells: `machine.raise_event(`"),
+        ("transition after a time", _EXACT, "timer on the node's clock: `machine.send_after(`"),
+        ("transition without a trigger", _EXACT, "`Transition((),`"),
+        ("choice", _EXACT, "row whose transitions have no trigger: `Transition((),`"),
+        ("guard", _EXACT, "function of the module: `guard=`"),
+        ("effect", _EXACT, "function of the module: `effect=`"),
+        ("transition with several triggers", _EXACT, "a `Transition(` on `('Go', 'Stop')`"),
+        ("transition out of states", _EXACT, "a `Transition(` with its target"),
+        ("transition into a state", _EXACT, "a `Transition(` with its target"),
+        ("initial state inside a state", _EXACT, "path of the state, in `Machine(`"),
+        ("history", _EXACT, "row that is `Kind.HISTORY`"),
+        ("deep history", _EXACT, "row that is `Kind.DEEP_HISTORY`"),
+        ("internal transition", _EXACT, "`internal=True`"),
+        ("transition without a target", _EXACT, "`Transition(` to `()`"),
+        ("entry, exit", _EXACT, "functions of the module: `entry=`, `exit=`"),
+        ("constant goal or request", _EXACT, "function of the module: `goal=`"),
+        ("goal or request of values", _EXACT, "function of the module: `goal=`"),
+        ("callback for a goal or request", _EXACT, "`by_user(callbacks.`, in `goal=`"),
+        ("callback for a result or response", _EXACT, "`by_user(callbacks.`, in `finalize=`"),
+        ("stored result or response", _EXACT, "function of the module: `finalize=`"),
+        ("variable", _EXACT, "attribute of `class Data`"),
+        (
+            "param",
+            _EXACT,
+            "parameter of the node, a `Parameter(`, and an attribute of `class Data`",
+        ),
+        ("param that is a message", _REJECTED, "ROS 2 has no such parameters (SW0903)"),
+        ("sent event", _EXACT, "published: `machine.emit(`, with `sent=True`"),
+        ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
+        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
+        ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
+        ("monitored topic", _EXACT, "subscription: `Topic(` with `reliable=False`"),
+        (
+            "monitored feedback of an action",
+            _EXACT,
+            "subscription to a hidden topic: `.Impl.FeedbackMessage` on `/_action/feedback`",
+        ),
+    )
+)

@@ -1,0 +1,69 @@
+"""The table that `swarmc targets ros2` prints says what the generator does."""
+
+import importlib.util
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.codes import CODES
+from swarmdsl.generator import OutputFile, Support
+from swarmdsl.plugins import load
+
+
+def _constructs() -> tuple[str, dict[str, str]]:
+    """The models that the table of target `smach` is tested with: a model for each construct."""
+    path = Path(__file__).parents[1] / "smach" / "test_mapping.py"
+    spec = importlib.util.spec_from_file_location("smach_mapping", path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.HEADER, module.MODELS
+
+
+HEADER, _COMMON = _constructs()
+MODELS = {
+    **_COMMON,
+    "swarm event": "state A { on Call -> End }",
+    "monitored topic": 'state A { monitor "seen" : Note [event.level > 1] -> End }',
+    "monitored feedback of an action": """
+        var last : float64
+        state A {
+          do move(x = 1.0)
+          on succeeded, aborted -> End
+          monitor "move/feedback" : lab/MoveActionFeedback [event.feedback.x > last]
+            / last = event.feedback.x
+        }""",
+}
+
+
+def test_every_construct_has_a_model() -> None:
+    assert [each.construct for each in load("ros2").mapping] == list(MODELS)
+
+
+@pytest.mark.parametrize("number", range(len(MODELS)), ids=list(MODELS))
+def test_the_table_is_true(
+    number: int,
+    generate: Callable[..., dict[str, OutputFile]],
+    reported: Callable[..., list[tuple[str, str, str]]],
+) -> None:
+    mapped = load("ros2").mapping[number]
+    body = MODELS[mapped.construct]
+    end = "" if body == "final A" else "final End"
+    head = f"{HEADER}swarm event Call : Note\n"
+    model = f"{head}statemachine Work {{ initial A {body} {end} }}"
+    if mapped.support is Support.REJECTED:
+        (code,) = re.findall(r"\((SW\d{4})\)", mapped.means)
+        assert [CODES[name].code for name, _, _ in reported(model)] == [code]
+        return
+    (text,) = [
+        file.text for path, file in generate(model).items() if path.endswith("behavior/work.py")
+    ]
+    # Without what is imported, and in one line.
+    built = " ".join(text[text.index("class Data") :].split())
+    words = re.findall("`([^`]*)`", mapped.means)
+    assert words
+    for word in words:
+        assert word in built, word
