@@ -6,8 +6,9 @@ import re
 from collections.abc import Collection, Iterable, Mapping
 
 from swarmdsl.ir.types import Named
+from swarmdsl.libraries import SUFFIX
 from swarmdsl.link_types import interface_name, written_type
-from swarmdsl.load import File
+from swarmdsl.load import File, Project
 from swarmdsl.ros import standard
 from swarmdsl.ros.interface_file import Kind
 from swarmdsl.suggest import closest
@@ -30,6 +31,20 @@ _MADE = re.compile(r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|
 _KINDS: dict[type[Interface], Kind] = {ServiceType: "srv", ActionType: "action"}
 
 
+def only_retells(file: File) -> bool:
+    """Whether it is a model in a library: what it says of others' interfaces counts least."""
+    return file.library and file.source.name.endswith(SUFFIX)
+
+
+def own_interfaces(project: Project) -> set[Named]:
+    """The interfaces that a project describes itself, or by the files of ROS packages."""
+    return {
+        interface_name(file, node.name)
+        for file, node in project.declarations()
+        if isinstance(node, Interface) and not only_retells(file)
+    }
+
+
 class Interfaces:
     """The interfaces of a project, and behind them those that ROS comes with."""
 
@@ -42,7 +57,7 @@ class Interfaces:
         self._read = read or {}
         self.declared: dict[Named, Interface] = {}
         self._packages: dict[str, list[str]] = {}
-        for file, node in declarations:
+        for file, node in sorted(declarations, key=lambda pair: only_retells(pair[0])):
             if isinstance(
                 node, (StructType, EnumType, AliasType, MessageType, ServiceType, ActionType)
             ):

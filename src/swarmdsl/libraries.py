@@ -1,6 +1,6 @@
 """Where packages of models lie: `import cpswarm.uav.*`.
 
-A package `a.b` is the file `a/b.swarm` or the .swarm files in the folder `a/b` of a library.
+A package `a.b` is the file `a/b.swarm` of a library, or all .swarm files below its folder `a/b`.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Libraries:
             self._look(place)
             if file.is_file():
                 return [file]
-            if place.is_dir() and (files := sorted(place.glob(f"*{SUFFIX}"))):
+            if place.is_dir() and (files := sorted(place.rglob(f"*{SUFFIX}"))):
                 return files
         return []
 
@@ -82,9 +82,10 @@ class Libraries:
         if not package:
             return f"write `import {statement.name}.*` for all that a package declares"
         names = {
-            ".".join(path.relative_to(library).with_suffix("").parts)
+            ".".join(path.relative_to(library).with_suffix("").parts[:2])
             for library in self._search_path(nearby)
-            for path in (*library.glob(f"*/*{SUFFIX}"), *library.glob(f"*{SUFFIX}"))
+            for depth in ("", "*/", "*/*/")
+            for path in library.glob(f"{depth}*{SUFFIX}")
         }
         library, _, last = package.partition(".")
         inside = {

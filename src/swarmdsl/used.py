@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.dataclass import dataclass
+from swarmdsl.interfaces import only_retells, own_interfaces
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
@@ -52,10 +53,13 @@ def used_declarations(
     uses = uses if uses is not None else UsesOfAll()
     by_type: dict[Named, Declaration] = {}
     owners: dict[Node, Declaration] = {}
+    own = own_interfaces(project)
     for file, declaration in pairs:
         if not file.library:
             continue
-        by_type[interface_name(file, declaration.name)] = declaration
+        name = interface_name(file, declaration.name)
+        if not (only_retells(file) and name in own):
+            by_type[name] = declaration
         owners[declaration] = declaration
         if isinstance(declaration, Component):
             operations = (item for item in declaration.items if isinstance(item, Operation))

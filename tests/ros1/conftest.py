@@ -32,7 +32,7 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 STAND_IN = HERE.parent / "smach" / "stand_in"
 # Interfaces that models name and may leave to others to describe.
-_LIBRARY = ROOT / "src" / "swarmdsl" / "library" / "cpswarm" / "interfaces.swarm"
+_LIBRARY = ROOT / "src" / "swarmdsl" / "library" / "cpswarm"
 _DEBIAN = Path("/usr/lib/python3/dist-packages")
 
 

@@ -88,18 +88,18 @@ def test_worker(world: World) -> None:
     bid = worker.wait_for("task_allocation_bid")
     assert (bid["auctioneer"], bid["task_id"]) == ("scout", "b1")
     worker.end("task_allocation_bid", task_pose=_pose(x=2.0))
-    assert _place(worker.wait_for("move_to")) == (2.0, 0.0, 0.0)
-    worker.end("move_to")
-    assert _place(worker.wait_for("move_to")) == (5.0, 0.0, 1.0)
-    worker.end("move_to")
+    assert _place(worker.wait_for("moveto")) == (2.0, 0.0, 0.0)
+    worker.end("moveto")
+    assert _place(worker.wait_for("moveto")) == (5.0, 0.0, 1.0)
+    worker.end("moveto")
     done = worker.wait_for("target_done")
     assert (done["id"], done["pose"]["pose"]["position"]["x"]) == (1, 2.0)
     worker.end("target_done", "aborted")
-    assert _place(worker.wait_for("move_to")) == (0.0, -4.0, 1.0)
+    assert _place(worker.wait_for("moveto")) == (0.0, -4.0, 1.0)
     worker.publish("GoHome")
-    worker.cancelled("move_to")
-    assert _place(worker.wait_for("move_to")) == (0.0, -4.0, 1.0)
-    worker.end("move_to")
+    worker.cancelled("moveto")
+    assert _place(worker.wait_for("moveto")) == (0.0, -4.0, 1.0)
+    worker.end("moveto")
     assert node.ended() == 0
 
 
@@ -142,22 +142,22 @@ def test_carts(world: World) -> None:
     summit.end("clear_costmaps")
     assert _place(summit.wait_for("move_base"))[0] == 1.0
     summit.end("move_base")
-    assert summit.wait_for("elevator") == {"action": {"action": -1}}
-    summit.end("elevator")
+    assert summit.wait_for("ugv_elevator") == {"action": {"action": -1}}
+    summit.end("ugv_elevator")
     docking = summit.wait_for("dock")
     assert docking["dock_frame"] == "robot_0_cart"
     assert docking["dock_offset"]["x"] == pytest.approx(-0.1)
     summit.end("dock")
     assert summit.wait_for("drive")["goal"]["theta"] == pytest.approx(3.14)
     summit.end("drive")
-    assert summit.wait_for("elevator") == {"action": {"action": 1}}
-    summit.end("elevator")
+    assert summit.wait_for("ugv_elevator") == {"action": {"action": 1}}
+    summit.end("ugv_elevator")
     for function in ("global_footprint", "local_footprint", "clear_costmaps"):
         summit.end(function)
     assert summit.sent("CpsState", 2)["state"] == "placing"
     goal = summit.wait_for("move_base")
     assert (_place(goal)[0], goal["target_pose"]["header"]["frame_id"]) == (6.0, "hall")
-    for function in ("move_base", "elevator", "drive", "global_footprint", "local_footprint"):
+    for function in ("move_base", "ugv_elevator", "drive", "global_footprint", "local_footprint"):
         summit.end(function)
     assert summit.sent("CpsState", 3)["state"] == "placed"
     node.wait_in("Waiting")

@@ -152,12 +152,12 @@ def test_flock_goes_on_as_it_was_before_a_danger(world: World) -> None:
     bird.publish("Scatter")
     bird.cancelled("uav_flocking")
     bird.wait_for("uav_random_walk")
-    bird.publish("Danger", magnitude=0.1)
+    bird.publish("Danger", vector={"magnitude": 0.1})
     bird.cancelled("uav_random_walk")
     assert bird.wait_for("hold") == {"data": True}
     bird.end("hold")
     node.wait_in("Hover")
-    bird.publish("Danger", magnitude=100.0)
+    bird.publish("Danger", vector={"magnitude": 100.0})
     assert bird.wait_for("hold") == {"data": False}
     bird.end("hold")
     bird.wait_for("uav_random_walk")

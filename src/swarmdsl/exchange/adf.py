@@ -67,15 +67,16 @@ def _function(function: Function, system: System, report: Diagnostics) -> dict[s
         name=function.name,
         description=function.doc,
         category=_CATEGORIES[function.category],
-        param_list=[_param(param, report) for param in function.params],
+        param_list=[_param(param, function, report) for param in function.params],
         api=api(function, system, D5_4, report),
     )
 
 
-def _param(param: Param, report: Diagnostics) -> dict[str, Any]:
+def _param(param: Param, function: Function, report: Diagnostics) -> dict[str, Any]:
     class_ = value_class(param.type)
     described: dict[str, Any] = {"class": class_, "name": param.name}
-    if param.default is not None:
+    # The node of a function in a library knows its defaults: a file that can be read is worth more.
+    if param.default is not None and (class_ == "number" or not function.in_library):
         described |= value(param.default, report)
         if class_ != "number":
             report.report("value-not-a-number", param.origin, item=f"param `{param.name}`")

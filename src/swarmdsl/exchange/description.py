@@ -76,8 +76,8 @@ def api(
 def by_schema(
     function: Function, system: System, target: str, report: Diagnostics
 ) -> dict[str, Any]:
-    """A function as the schemas have it: without params, which is reported."""
-    for param in function.params:
+    """A function as the schemas have it: without params, which is reported of one's own."""
+    for param in () if function.in_library else function.params:
         what = f"param `{param.name}` of a function"
         report.report("no-place", param.origin, target=target, what=what)
     return {

@@ -149,6 +149,6 @@ def _components(
 
 def library_functions() -> dict[str, Function]:
     """The functions in the library that comes with swarmdsl, by their names."""
-    system = compiler.check([resources.library()]).system
+    system = compiler.check([resources.library() / "cpswarm"]).system
     assert system is not None
     return {function.name: function for function in system.functions}

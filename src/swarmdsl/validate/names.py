@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.draft import stands_for_nothing
 from swarmdsl.inheritance import all_items, lineage
+from swarmdsl.interfaces import only_retells, own_interfaces
 from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.link_types import interface_name
@@ -70,8 +71,12 @@ RESERVED_EVENTS = ("error",)
 
 
 def check_names(project: Project, report: Diagnostics) -> None:
-    """Check top-level names across files."""
+    """Check top-level names across files.
+
+    An interface of ROS that a library describes is the project's own where that does so too.
+    """
     top_level: dict[Hashable, Declaration] = {}
+    own = own_interfaces(project)
     for file in project.files:
         package = file.package
         for declaration in file.model.declarations:
@@ -79,7 +84,9 @@ def check_names(project: Project, report: Diagnostics) -> None:
             _check_first((package, name), declaration, top_level, report)
             if isinstance(declaration, Interface):
                 # `Pose` of package `geo` and `geo/Pose` are one interface.
-                _check_first(interface_name(file, name), declaration, top_level, report)
+                described = interface_name(file, name)
+                if not (only_retells(file) and described in own):
+                    _check_first(described, declaration, top_level, report)
 
 
 def check_names_inside(

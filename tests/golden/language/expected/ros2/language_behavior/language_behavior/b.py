@@ -190,7 +190,7 @@ TOPICS = (
     Topic('F', std_msgs.msg.Empty, 'f', heard=True, reliable=False),
     # model.swarm:39
     Topic('X', language.msg.M, 'x', swarm=True, heard=True, sent=True),
-    # events.swarm:10
+    # events.swarm:16
     # The mission is called off.
     Topic('MissionAbort', swarmros.msg.SimpleEvent, 'mission_abort', swarm=True, heard=True),
 )

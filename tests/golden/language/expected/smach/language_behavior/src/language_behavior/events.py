@@ -20,6 +20,6 @@ BATTERY = Event('Battery', Level, 'battery', 'battery')
 # model.swarm:41
 F = Event('F', Empty, 'f', 'f')
 
-# events.swarm:10
+# events.swarm:16
 # The mission is called off.
 MISSION_ABORT = Event('MissionAbort', SimpleEvent, 'bridge/events/mission_abort', 'mission_abort')
