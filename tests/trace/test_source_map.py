@@ -116,12 +116,13 @@ def test_a_place_in_a_piece_of_a_file_is_one_in_the_file(tmp_path: Path, place: 
 
 
 def test_libraries_of_swarmdsl_lie_wherever_it_is_installed() -> None:
-    path = next(map_file.resources.library().rglob("*.swarm"))
+    library = map_file.resources.library()
+    path = min(library.rglob("*.swarm"))
     origin = Span(Source("x", path.read_text(encoding="utf-8"), path), 0, 1)
     position = Positions(Path()).file_map(OutputFile("x", "", origin=origin)).origin
 
     assert position is not None
-    assert position.model.path == f"swarmdsl:cpswarm/{path.name}"
+    assert position.model.path == f"swarmdsl:{path.relative_to(library).as_posix()}"
     assert position.model.place(Path("anywhere")) == path
 
 
