@@ -10,6 +10,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     08xx  SCXML documents        09xx  generators and output
     10xx  simulation             11xx  tests
     12xx  import                 13xx  diagrams
+    14xx  comparison
 """
 
 from __future__ import annotations
@@ -246,4 +247,6 @@ CODES: dict[str, Code] = {
     # ---- diagrams
     "nothing-to-draw": Code("SW1301", "error", "the model has nothing for {what}"),
     "unclear-diagram": Code("SW1302", "error", "{count} diagrams do not go to standard output"),
+    # ---- comparison
+    "no-revision": Code("SW1401", "error", "cannot compare with `{name}`: {reason}"),
 }

@@ -23,8 +23,8 @@ from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
 COMMANDS = (
-    *("build", "check", "codegen", "diagram", "explain", "fmt", "import", "lsp", "simulate"),
-    *("targets", "test"),
+    *("build", "check", "codegen", "diagram", "diff", "explain", "fmt", "import", "lsp"),
+    *("simulate", "targets", "test"),
 )
 # Those whose options are plain data: a command line in the plainest form is read without Click.
 PLAIN = ("build", "check")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import isfinite
 
 from swarmdsl.expressions import UNITS
@@ -11,9 +12,9 @@ from swarmdsl.printer.layout import UnprintableError, quoted
 from swarmdsl.translate import Dialect, translate
 
 
-def expression(value: Expression) -> str:
-    """An expression with the parentheses that it needs."""
-    return translate(value, _DIALECT)
+def expression(value: Expression, named: Callable[[str], str] = str) -> str:
+    """An expression with the parentheses that it needs; `named` writes variables and params."""
+    return translate(value, Dialect(_literal, named, named, "event", {}, {}))
 
 
 def delay(value: Expression) -> str:
@@ -52,10 +53,3 @@ def _duration(nanoseconds: int) -> str:
             return f"{nanoseconds // length} {unit}"
     whole, rest = divmod(nanoseconds, UNITS["us"])
     return f"{whole}.{rest:03}".rstrip("0") + " us"
-
-
-def _name(name: str) -> str:
-    return name
-
-
-_DIALECT = Dialect(_literal, _name, _name, "event", {}, {})

@@ -1,0 +1,166 @@
+"""`swarmc diff`."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import OK
+from swarmdsl.compare.rules import RULES
+
+if TYPE_CHECKING:
+    from swarmdsl.compare.revisions import Revision
+    from swarmdsl.ir import System
+    from swarmdsl.source import Span
+
+# As diff(1) has it: 1 for a difference, 2 where it cannot be told.
+DIFFERENT, TROUBLE = 1, 2
+
+
+def _rule(word: str) -> str:
+    """A rule by its name, in which small letters count as capital ones."""
+    rule = word.upper()
+    if rule not in RULES:
+        from swarmdsl.suggest import did_you_mean
+
+        hint = did_you_mean(rule, RULES) or "`swarmc diff --rules` lists all"
+        raise click.BadParameter(f"there is no rule `{word}`: {hint}")
+    return rule
+
+
+def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        width = max(map(len, RULES))
+        for rule, about in RULES.items():
+            click.echo(f"{rule:<{width}}  {about}")
+        context.exit()
+
+
+@click.command(epilog="Example: swarmc diff --against main --breaking examples/search_and_rescue")
+@click.argument("models", metavar="[BEFORE] AFTER", nargs=-1, required=True)
+@click.option(
+    "--against",
+    metavar="REVISION",
+    help="Compare with what git has: `main`, `v1.0`, `HEAD~2`, `.git#branch=main`.",
+)
+@click.option("--breaking", is_flag=True, help="Only what breaks what others build on the model.")
+@click.option(
+    "--allow",
+    metavar="RULE",
+    multiple=True,
+    callback=lambda _context, _param, words: tuple(map(_rule, words)),
+    help="With --breaking: a rule that does not count; may be repeated.",
+)
+@click.option(
+    "--rules",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_show_rules,
+    help="List the rules of --breaking, and end.",
+)
+@click.option(
+    "--format",
+    "format_",
+    type=click.Choice(("text", "markdown", "json")),
+    default="text",
+    show_default=True,
+    help="How differences are printed; JSON is a line for each.",
+)
+@options.debug
+def diff(
+    models: tuple[str, ...],
+    against: str | None,
+    breaking: bool,
+    allow: tuple[str, ...],
+    format_: str,
+) -> int:
+    """Show in words of the model what is different.
+
+    A model is a file, a folder or, as git writes it, REVISION:PATH. The exit code is 0 where
+    nothing is different (with --breaking: nothing breaks), 1 where something is, and 2 where a
+    model cannot be read.
+    """
+    from swarmdsl.compare import report
+    from swarmdsl.compare.comparison import compare
+    from swarmdsl.compare.revisions import against as revision
+    from swarmdsl.compare.revisions import named
+
+    if len(models) != (1 if against is not None else 2):
+        raise click.UsageError("give two models, or one and `--against`")
+    if allow and not breaking:
+        raise click.UsageError("`--allow` goes with `--breaking`")
+    after = named(models[-1])
+    before = named(models[0]) if against is None else revision(against, Path(models[0]))
+    with ExitStack() as stack:
+        shown = _Shown()
+        systems = [_system(each, shown, stack) for each in (before, after)]
+        old, new = systems
+        if old is None or new is None:
+            return TROUBLE
+        changes, breaches = compare(old, new)
+        if breaking:
+            breaches = [each for each in breaches if each.rule not in allow]
+            lines = report.breaking(breaches, format_, shown.place)
+        else:
+            lines = report.differences(changes, breaches, format_, shown.place)
+        found = list(lines)
+    for line in found:
+        click.echo(line)
+    return DIFFERENT if found else OK
+
+
+class _Shown:
+    """How files are called that are in a folder for the time being."""
+
+    def __init__(self) -> None:
+        self._revisions: dict[str, str] = {}
+
+    def add(self, folder: Path, revision: str) -> None:
+        self._revisions[f"{folder}/"] = f"{revision}:"
+
+    def name(self, name: str) -> str:
+        for folder, revision in self._revisions.items():
+            if name.startswith(folder):
+                return f"{revision}{name.removeprefix(folder)}"
+        return name
+
+    def place(self, span: Span) -> str:
+        return f"{self.name(span.absolute.source.name)}:{span.line}"
+
+
+def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System | None:
+    """The model; None, and told, where it has errors."""
+    from swarmdsl import compiler
+    from swarmdsl.compare.revisions import take_out
+    from swarmdsl.diagnostics import Diagnostics, Severity
+    from swarmdsl.project.command_line import run_settings
+    from swarmdsl.render import render
+
+    report = Diagnostics()
+    path: Path | None
+    if isinstance(model, Path):
+        path = model
+    else:
+        folder = Path(stack.enter_context(TemporaryDirectory())).resolve()
+        shown.add(folder, model.revision)
+        path = take_out(model, folder, report)
+    if path is not None:
+        settings = run_settings((path,), {}, report)
+        if not report.has_errors:
+            result = compiler.check(settings.sources, settings)
+            if result.system is not None:
+                return result.system
+            report = result.report
+    errors = [found for found in report if found.severity is Severity.ERROR]
+    spans = {label.span for each in errors for label in (each.primary, *each.related) if label}
+    for source in {span.absolute.source for span in spans}:
+        source.name = shown.name(source.name)
+    render(errors, "concise", sys.stderr)
+    return None

@@ -1,0 +1,317 @@
+"""What is said of the difference between two models."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, Phase, given, settings
+
+from swarmdsl import compiler
+from swarmdsl.compare.architecture import system_element
+from swarmdsl.compare.changes import Action, called
+from swarmdsl.compare.comparison import compare
+from swarmdsl.compare.report import breaking, differences
+from swarmdsl.compare.rules import RULES
+from swarmdsl.ir import System
+
+from ..printer.systems import systems
+
+MODEL = """package lab
+
+enum Mode {
+  SLOW = 0
+  FAST = 1
+}
+struct Spot {
+  x : float64
+  y : float64
+}
+swarm event Alarm : Spot
+event Reset : std_msgs/Empty on "reset"
+action Look {
+  goal {
+    range : float32
+    mode  : uint8
+  }
+  result { seen : bool }
+}
+function look : abstraction {
+  action "look" : Look
+  in "scan" : sensor_msgs/LaserScan
+  param rate : float64 = 10.0
+}
+sensor Eye {
+  out spot : Spot on "spot"
+  param gain : float64 = 1.0
+}
+controller Brain { in spot : Spot on "spot" }
+statemachine Watch {
+  param range : float32 = 2.0
+  var seen : bool
+  var tries : int32
+  initial Idle
+  state Idle { on Alarm [event.x > 1.0] / tries = 0 -> Search }
+  state Search {
+    initial Look
+    state Look {
+      do look(range = range, mode = 1) gives (seen => seen)
+      on succeeded [seen] / send Alarm(x = 1.0) -> Found
+      on succeeded -> Pause
+      on aborted -> Pause
+    }
+    state Pause { after 5 s / tries = tries + 1 -> Look }
+    on Reset -> Idle
+  }
+  final Found
+}
+member Robot {
+  behavior Watch
+  param range : float32 = 3.0
+  eye : Eye
+  brain : Brain
+  connect eye.spot -> brain.spot
+}
+swarm Lab {
+  robot : Robot[2..6]
+}
+"""
+
+CHANGES = {
+    "layout": ("state Pause {", "state   Pause\n  {", []),
+    "the order of declarations": (
+        'event Reset : std_msgs/Empty on "reset"\naction',
+        "action",
+        ["- event Reset [EVENT_REMOVED]"],
+    ),
+    "an event renamed": (
+        "Alarm",
+        "Panic",
+        [
+            "~ event Panic",
+            "    ~ was called `Alarm` [EVENT_REMOVED]",
+            "    ~ topic is `panic`, was `alarm` [EVENT_TOPIC]",
+        ],
+    ),
+    "a field added": (
+        "  y : float64",
+        "  y : float64\n  z : float64",
+        ["~ message lab/Spot", "    + field `z` [FIELD_ADDED]"],
+    ),
+    "fields in another order": (
+        "  x : float64\n  y : float64",
+        "  y : float64\n  x : float64",
+        ["~ message lab/Spot", "    ~ fields are in another order [FIELD_ORDER]"],
+    ),
+    "a field retyped": (
+        "range : float32\n    mode",
+        "range : float64\n    mode",
+        [
+            "~ action lab/Look",
+            "    ~ goal field `range`: type is `float64`, was `float32` [FIELD_TYPE]",
+        ],
+    ),
+    "a constant": (
+        "FAST = 1",
+        "FAST = 2",
+        ["~ message lab/Mode", "    ~ constant `FAST`: value is `2`, was `1` [CONSTANT_VALUE]"],
+    ),
+    "a server": (
+        'action "look"',
+        'action "cmd/look"',
+        ["~ function look", "    ~ server is `cmd/look`, was `look` [FUNCTION_SERVER]"],
+    ),
+    "a default gone": (
+        "rate : float64 = 10.0",
+        "rate : float64",
+        [
+            "~ function look",
+            "    ~ param `rate`: default `10.0` is not said any more [PARAM_REQUIRED]",
+        ],
+    ),
+    "a default": (
+        "gain : float64 = 1.0",
+        "gain : float64 = 2.0",
+        ["~ component Eye", "    ~ param `gain`: default is `2.0`, was `1.0`"],
+    ),
+    "a port on another topic": (
+        'out spot : Spot on "spot"',
+        'out spot : Spot on "eye/spot"',
+        ["~ component Eye", "    ~ port `spot`: topic is `eye/spot`, was `spot` [PORT_TOPIC]"],
+    ),
+    "a state renamed": (
+        "Pause",
+        "Rest",
+        ["~ statemachine Watch", "    ~ state `Search.Rest`: was called `Pause`"],
+    ),
+    "a state with its inside renamed": (
+        "Search",
+        "Hunt",
+        ["~ statemachine Watch", "    ~ state `Hunt`: was called `Search`"],
+    ),
+    "a transition retargeted": (
+        "on aborted -> Pause",
+        "on aborted -> Look",
+        [
+            "~ statemachine Watch",
+            (
+                "    ~ transition `on aborted` of state `Search.Look`: "
+                "target is `Search.Look`, was `Search.Pause`"
+            ),
+        ],
+    ),
+    "one of two transitions on the same": (
+        "on succeeded -> Pause",
+        "on succeeded -> Look",
+        [
+            "~ statemachine Watch",
+            (
+                "    ~ transition `on succeeded` of state `Search.Look`: "
+                "target is `Search.Look`, was `Search.Pause`"
+            ),
+        ],
+    ),
+    "a guard": (
+        "[event.x > 1.0]",
+        "[event.x > 2.0]",
+        [
+            "~ statemachine Watch",
+            (
+                "    ~ transition `on Alarm` of state `Idle`: "
+                "guard is `event.x > 2.0`, was `event.x > 1.0`"
+            ),
+        ],
+    ),
+    "a variable renamed": (
+        "tries",
+        "count",
+        ["~ statemachine Watch", "    ~ variable `count`: was called `tries`"],
+    ),
+    "an event that nothing handles": (
+        "    on Reset -> Idle\n",
+        "",
+        ["~ statemachine Watch", "    - transition `on Reset` of state `Search`"],
+    ),
+    "fewer robots": (
+        "Robot[2..6]",
+        "Robot[2..4]",
+        ["~ swarm Lab", "    ~ role `robot`: number is `2..4`, was `2..6` [ROLE_NUMBER]"],
+    ),
+    "more robots": (
+        "Robot[2..6]",
+        "Robot[1..*]",
+        ["~ swarm Lab", "    ~ role `robot`: number is `1..*`, was `2..6`"],
+    ),
+    "a connector gone": (
+        "  connect eye.spot -> brain.spot\n",
+        "",
+        ["~ member Robot", "    - connector `eye.spot -> brain.spot`"],
+    ),
+    "a final state renamed": (
+        "Found",
+        "Done",
+        ["~ statemachine Watch", "    ~ state `Done`: was called `Found` [OUTCOME_LOST]"],
+    ),
+    "a comment": (
+        "statemachine Watch {",
+        "/// Looks out.\nstatemachine Watch {",
+        ["~ statemachine Watch", "    ~ documentation is `Looks out.`, was not said"],
+    ),
+    "a state moved out": (
+        "    state Pause { after 5 s / tries = tries + 1 -> Look }\n    on Reset -> Idle\n  }",
+        "    on Reset -> Idle\n  }\n  state Pause { after 5 s / tries = tries + 1 -> Search.Look }",
+        ["~ statemachine Watch", "    > state `Pause`: moved from `Search` to the machine"],
+    ),
+}
+
+
+def system(text: str, folder: Path) -> System:
+    path = folder / "lab.swarm"
+    path.write_text(text, encoding="utf-8")
+    result = compiler.check([path])
+    assert result.system is not None, [found.message for found in result.report]
+    return result.system
+
+
+def said(before: System, after: System) -> list[str]:
+    changes, breaches = compare(before, after)
+    lines = differences(changes, breaches, "text", lambda _: "")
+    return [line.removesuffix(" ()") for line in lines]
+
+
+@pytest.mark.parametrize("case", CHANGES)
+def test_changes(case: str, tmp_path: Path) -> None:
+    old, new, expected = CHANGES[case]
+    assert old in MODEL
+    text = MODEL.replace(old, new)
+    if case == "the order of declarations":
+        text = text.replace("    on Reset -> Idle\n", "")
+    before, after = system(MODEL, tmp_path), system(text, tmp_path)
+
+    found = said(before, after)
+    if case == "the order of declarations":
+        found = found[-1:]
+    assert found == expected
+    assert bool(said(after, before)) == bool(expected)
+
+
+def test_what_a_machine_no_longer_does(tmp_path: Path) -> None:
+    text = MODEL.replace("    on Reset -> Idle\n", "").replace(" / send Alarm(x = 1.0)", "")
+    _, breaches = compare(system(MODEL, tmp_path), system(text, tmp_path))
+
+    assert list(breaking(breaches, "text", lambda span: f"{span.line}")) == [
+        "30: statemachine `Watch` handles `Reset` no more [EVENT_UNHANDLED]",
+        "30: statemachine `Watch` sends `Alarm` no more [EVENT_UNSENT]",
+    ]
+
+
+def test_what_is_inherited_is_told_once(tmp_path: Path) -> None:
+    model = MODEL + "member Big extends Robot { }\nsensor BigEye extends Eye { }\n"
+    before = system(model, tmp_path)
+    after = system(model.replace("gain : float64 = 1.0", "gain : float64 = 2.0"), tmp_path)
+
+    assert said(before, after) == [
+        "~ component Eye",
+        "    ~ param `gain`: default is `2.0`, was `1.0`",
+    ]
+
+
+def test_a_submachine_is_compared_where_it_is_declared(tmp_path: Path) -> None:
+    model = MODEL + "statemachine Twice { initial A state A = Watch { on done -> B } final B }\n"
+    before = system(model, tmp_path)
+    after = system(model.replace("after 5 s", "after 7 s"), tmp_path)
+
+    assert said(before, after) == [
+        "~ statemachine Watch",
+        "    ~ transition `after 7 s` of state `Search.Pause`: was `after 5 s`",
+    ]
+
+
+def test_every_rule_is_explained() -> None:
+    assert all(rule == rule.upper() and about for rule, about in RULES.items())
+
+
+@settings(
+    max_examples=60,
+    derandomize=True,
+    database=None,
+    deadline=None,
+    phases=[Phase.generate],
+    suppress_health_check=[HealthCheck.too_slow],
+)
+@given(systems(), systems())
+def test_any_two(before: System, after: System) -> None:
+    """Nothing is different from itself, and all that has a new name is told."""
+    assert compare(before, before) == ([], [])
+    changes, _ = compare(before, after)
+    whole = replace(before, doc="", name=after.name) == replace(after, doc="", name=after.name)
+    assert bool(changes) or whole
+    named = {(each.kind, called(each)) for each in system_element(before).children}
+    told = {
+        (each.kind, called(each.element))
+        for each in changes
+        if each.element is each.top and each.action in (Action.ADDED, Action.RENAMED)
+    }
+    new = {(each.kind, called(each)) for each in system_element(after).children} - named
+    assert {name for name in new if name[0] != "optimization"} <= told
