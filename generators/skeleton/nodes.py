@@ -111,12 +111,18 @@ class Node:
         return tuple(server for server in self.servers if server.paradigm == "service")
 
     @property
-    def types(self) -> list[tuple[Named, str]]:
-        """The interfaces that it uses, as `msg`, `srv` or `action`, each once."""
+    def uses(self) -> Iterator[tuple[Named, str, Span | None]]:
+        """The interfaces that it uses, as `msg`, `srv` or `action`, and where."""
         kinds = {"action": "action", "service": "srv"}
-        found = [(server.type, kinds[server.paradigm]) for server in self.servers]
-        found += ((topic.type, "msg") for topic in (*self.inputs, *self.outputs))
-        return list(dict.fromkeys(found))
+        for server in self.servers:
+            yield server.type, kinds[server.paradigm], server.origin
+        for topic in (*self.inputs, *self.outputs):
+            yield topic.type, "msg", topic.origin
+
+    @property
+    def types(self) -> list[tuple[Named, str]]:
+        """The interfaces that it uses, each once."""
+        return list(dict.fromkeys((type_, kind) for type_, kind, _ in self.uses))
 
 
 def nodes(system: System, options: Options, report: Diagnostics) -> list[Node]:

@@ -200,6 +200,7 @@ CODES: dict[str, Code] = {
     "outdated-code": Code(
         "SW0917", "warning", "`{path}` is written for another state of the model"
     ),
+    "no-source-map": Code("SW0930", "error", "no source map in `{path}`: {reason}"),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

@@ -85,7 +85,7 @@ def comment_lines(text: str) -> list[str]:
 
 def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
     """Where something stands in the model and what is said of it there, a comment a line."""
-    where = (Placed(place(origin), origin),) if origin is not None else ()
+    where = (Placed(place(origin), origin, holds=True),) if origin is not None else ()
     return (*where, *comment_lines(doc))
 
 

@@ -1,9 +1,11 @@
 """Which place in a model each line of a generated file comes from.
 
-While a file is made, its text carries places: `comments` of `swarmdsl.python_source` says one,
-templates mark others with `at`. Printed, a place holds for its line and all that follow with
-the same indentation or more, until another place is as deep; what is not marked belongs to
-what stands around it, and in the end to nothing but the `origin` of the file.
+While a file is made, its text carries places: names of what the model declares are printed as
+`Placed`, templates mark other lines with `at`. Such a place holds for its line and for deeper
+ones right below. A comment that says where something comes from, as `comments` of
+`swarmdsl.python_source` makes them, holds for all that is as deep as it, until another place is
+as deep. What is not marked belongs to what stands around it, and in the end to nothing but the
+`origin` of the file.
 """
 
 from __future__ import annotations
@@ -26,15 +28,20 @@ class Entry(NamedTuple):
 
 
 class Placed(str):
-    """A piece of a generated text that comes from a place in the model."""
+    """A piece of a generated text that comes from a place in the model.
 
-    __slots__ = ("origin",)
+    `holds` says that what follows does so too.
+    """
+
+    __slots__ = ("holds", "origin")
     origin: Span | None
+    holds: bool
 
-    def __new__(cls, text: str, origin: Span | None) -> Placed:
-        """The text with its place; None ends what was said for lines as deep as this one."""
+    def __new__(cls, text: str, origin: Span | None, *, holds: bool = False) -> Placed:
+        """The text with its place; None ends what holds for lines as deep as this one."""
         made = super().__new__(cls, text)
         made.origin = origin
+        made.holds = holds
         return made
 
 
@@ -69,17 +76,18 @@ class MappedText(str):
         return MappedText("\n".join([*lines, ""]), entries)
 
 
-def marked(value: Placed, origins: list[Span | None]) -> str:
-    """A text as a template prints it: its place leaves a mark behind, and goes to `origins`."""
-    origins.append(value.origin)
-    return f"{value}\ufdd0{len(origins) - 1}\ufdd1"
+def marked(text: Placed, printed: list[Placed]) -> str:
+    """A text as a template prints it: its place leaves a mark behind, and goes to `printed`."""
+    printed.append(text)
+    return f"{text}\ufdd0{len(printed) - 1}\ufdd1"
 
 
-def mapped(text: str, origins: Sequence[Span | None]) -> MappedText:
+def mapped(text: str, printed: Sequence[Placed]) -> MappedText:
     """A text that was printed with marks, without them."""
-    if not origins:
+    if not printed:
         return MappedText(text)
     entries: list[Entry] = []
+    # Places, from the outermost on, each with the least depth of the lines that it holds for.
     around: list[tuple[int, Span]] = []
     lines = []
     for number, line in enumerate(text.split("\n"), 1):
@@ -91,11 +99,13 @@ def mapped(text: str, origins: Sequence[Span | None]) -> MappedText:
         while around and around[-1][0] > depth:
             around.pop()
         for mark in _MARK.finditer(line):
-            while around and around[-1][0] >= depth:
+            place = printed[int(mark[1])]
+            least = depth if place.holds or place.origin is None else depth + 1
+            while around and around[-1][0] >= least:
                 around.pop()
-            if (origin := origins[int(mark[1])]) is not None:
-                around.append((depth, origin))
-        holds = around[-1][1] if around else None
-        if holds is not (entries[-1].origin if entries else None):
-            entries.append(Entry(number, holds))
+            if place.origin is not None:
+                around.append((least, place.origin))
+        origin = around[-1][1] if around else None
+        if origin is not (entries[-1].origin if entries else None):
+            entries.append(Entry(number, origin))
     return MappedText("\n".join(lines), entries)

@@ -19,10 +19,9 @@ from jinja2.bccache import Bucket
 from jinja2.runtime import Context
 
 from swarmdsl import __version__
-from swarmdsl.source import Span
 from swarmdsl.source_map import MappedText, Placed, at, mapped, marked
 
-_ORIGINS = "places that were printed"
+_PRINTED = "places that were printed"
 
 
 def environment(folder: Path) -> Environment:
@@ -45,16 +44,16 @@ def environment(folder: Path) -> Environment:
 
 def fill(template: Template, **values: object) -> MappedText:
     """What a template prints, with the places that its lines come from."""
-    origins: list[Span | None] = []
-    return mapped(template.render(values, **{_ORIGINS: origins}), origins)
+    printed: list[Placed] = []
+    return mapped(template.render(values, **{_PRINTED: printed}), printed)
 
 
 @pass_context
 def _finalize(context: Context, value: object) -> object:
     if not isinstance(value, Placed):
         return value
-    origins: list[Span | None] = context[_ORIGINS]
-    return marked(value, origins)
+    printed: list[Placed] = context[_PRINTED]
+    return marked(value, printed)
 
 
 class _Cache(FileSystemBytecodeCache):

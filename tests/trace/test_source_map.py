@@ -50,14 +50,25 @@ def test_what_is_less_deep_goes_on_after_what_is_deeper(tmp_path: Path) -> None:
     one
     two{{ at(b) }}
       three
-    four{{ at() }}
+    four
+    # {{ comment }}
     five
-end{{ at() }}
+      six{{ at(a) }}
+      seven
+    eight{{ at() }}
+    nine
+end
 """
-    text = printed(tmp_path, template, a=A, b=B)
+    text = printed(tmp_path, template, a=A, b=B, comment=Placed("b", B, holds=True))
 
-    assert text == "class X:\n    one\n    two\n      three\n    four\n    five\nend\n"
-    assert text.entries == (Entry(1, A), Entry(3, B), Entry(5, A), Entry(7, None))
+    assert text == (
+        "class X:\n    one\n    two\n      three\n    four\n    # b\n    five\n"
+        "      six\n      seven\n    eight\n    nine\nend\n"
+    )
+    assert text.entries == tuple(
+        Entry(line, origin)
+        for line, origin in [(1, A), (3, B), (5, A), (6, B), (8, A), (9, B), (10, A), (12, None)]
+    )
 
 
 def test_a_text_that_comes_from_a_place_marks_its_line_in_what_is_included(tmp_path: Path) -> None:

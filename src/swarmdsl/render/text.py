@@ -44,11 +44,11 @@ def _drawn(diagnostic: Diagnostic) -> Iterator[Piece]:
     yield f"{diagnostic.severity.value}[{diagnostic.code}]", style
     yield f": {printable(diagnostic.message)}\n", "bold"
     if diagnostic.primary is not None:
-        yield from _place(diagnostic.primary, gutter, "^", style, diagnostic.primary.message)
+        yield from place(diagnostic.primary, gutter, "^", style, diagnostic.primary.message)
     for label in diagnostic.related:
         yield "note", _RELATED
         yield f": {printable(label.message)}\n", ""
-        yield from _place(label, gutter, "-", _RELATED, "")
+        yield from place(label, gutter, "-", _RELATED, "")
     for kind, text in _remarks(diagnostic):
         yield f"{'':{gutter}} = " if gutter else "  = ", _FRAME
         yield kind, "bold"
@@ -62,7 +62,8 @@ def _remarks(diagnostic: Diagnostic) -> list[tuple[str, str]]:
     return remarks
 
 
-def _place(label: Label, gutter: int, mark: str, style: str, message: str) -> Iterator[Piece]:
+def place(label: Label, gutter: int, mark: str, style: str, message: str) -> Iterator[Piece]:
+    """A place: where it is, its line, and marks under it; `gutter` is the width of line numbers."""
     source = label.span.source
     line, column = source.line_column(label.span.start)
     shown = excerpt(label.span)

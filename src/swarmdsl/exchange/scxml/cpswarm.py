@@ -25,7 +25,7 @@ from swarmdsl.exchange.scxml.threads import (
 )
 from swarmdsl.exchange.scxml.userdata import missing
 from swarmdsl.exchange.scxml.xml import SCXML, add, add_text, root
-from swarmdsl.exchange.xml import add_comment
+from swarmdsl.exchange.xml import Places, add_comment
 from swarmdsl.features import used_features
 from swarmdsl.generator import Feature
 from swarmdsl.ir import Activity, Event, Named, Policy, State, StateMachine, System
@@ -48,22 +48,29 @@ _UNSUPPORTED = {
 }
 
 
-def cpswarm(machine: StateMachine, system: System, report: Diagnostics) -> etree._Element | None:
-    """The document of a machine; None when the dialect cannot express it, which is reported."""
+def cpswarm(
+    machine: StateMachine, system: System, report: Diagnostics, places: Places
+) -> etree._Element | None:
+    """The document of a machine; None when the dialect cannot express it, which is reported.
+
+    `places` gets those that its elements come from.
+    """
     found = Diagnostics()
     written = without_first_values(machine)
     for feature, origin in used_features(replace(system, machines=(written,))):
         if feature in _UNSUPPORTED:
             _refuse(found, feature.value, origin)
     if not found.has_errors:
-        document = _document(machine, system, found)
+        document = _document(machine, system, found, places)
     report.include(in_profile(machine, found))
     return None if found.has_errors else document
 
 
-def _document(machine: StateMachine, system: System, report: Diagnostics) -> etree._Element:
+def _document(
+    machine: StateMachine, system: System, report: Diagnostics, places: Places
+) -> etree._Element:
     shaped = shape(machine, report)
-    writer = _Writer(machine, system, shaped, report)
+    writer = _Writer(machine, system, shaped, report, places)
     # SMACH starts with the first state; so does the list of elements.
     document = root(
         {None: SCXML, "cpswarm": CPSWARM},
@@ -107,8 +114,10 @@ class _Writer:
         system: System,
         shaped: Iterable[Vertex],
         report: Diagnostics,
+        places: Places,
     ) -> None:
         self.machine = machine
+        self.places = places
         self.system = system
         self.report = report
         self.ids = _Ids()
@@ -133,6 +142,7 @@ class _Writer:
             "parallel" if vertex.parallel else "state",
             id=self.own[state.id, vertex.suffix],
         )
+        self.places[element] = state.origin
         if self.own[state.id, vertex.suffix] == self.entries[state.id]:
             add_comment(element, state.doc)
         if not vertex.children and state.activity is not None:
@@ -151,6 +161,7 @@ class _Writer:
         name = event.name[0].upper() + event.name[1:]
         identifier = self.ids.new(f"{name}Monitoring", f"{monitor.state.name}{name}Monitoring")
         element = add(parent, "state", id=identifier)
+        self.places[element] = event.origin
         invoked = add(add(element, "datamodel"), "data", id="invoke")
         body = add(invoked, "rosmonitor")
         add_text(body, "topic", self._quotable(event.incoming_topic, "a topic", event.origin))

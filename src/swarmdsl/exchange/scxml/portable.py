@@ -19,7 +19,7 @@ from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.inward import inward, region_entered
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
-from swarmdsl.exchange.xml import add_comment
+from swarmdsl.exchange.xml import Places, add_comment
 from swarmdsl.ir import (
     Assignment,
     Effect,
@@ -45,8 +45,9 @@ _TAGS = {
 }
 
 
-def portable(machine: StateMachine, system: System) -> etree._Element:
-    """The document of a machine."""
+def portable(machine: StateMachine, system: System, places: Places | None = None) -> etree._Element:
+    """The document of a machine; `places` gets those that its elements come from."""
+    places = {} if places is None else places
     data = data_ids(machine)
     ids = state_ids(machine, set(data.values()))
     document = root(
@@ -57,15 +58,19 @@ def portable(machine: StateMachine, system: System) -> etree._Element:
         initial=ids[machine.initial],
     )
     describe_machine(document, machine, system, data)
-    _add_data(document, machine, system, data)
-    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids))
+    _add_data(document, machine, system, data, places)
+    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids), places)
     for state in machine.states:
         writer.add_state(document, state)
     return document
 
 
 def _add_data(
-    document: etree._Element, machine: StateMachine, system: System, data: Mapping[str, str]
+    document: etree._Element,
+    machine: StateMachine,
+    system: System,
+    data: Mapping[str, str],
+    places: Places,
 ) -> None:
     if not data:
         return
@@ -73,13 +78,13 @@ def _add_data(
     values = dialect(data)
     for param in machine.params:
         given = translate(param.default, values) if param.default is not None else None
-        add(model, "data", id=data[param.name], expr=given)
+        places[add(model, "data", id=data[param.name], expr=given)] = param.origin
     for variable in machine.variables:
         if variable.initial is not None:
             first = translate(variable.initial, values)
         else:
             first = first_value(variable.type, system)
-        add(model, "data", id=data[variable.name], expr=first)
+        places[add(model, "data", id=data[variable.name], expr=first)] = variable.origin
 
 
 @dataclass(frozen=True)
@@ -88,6 +93,7 @@ class _StateWriter:
     ids: Mapping[str, str]
     dialect: Dialect
     events: Events
+    places: Places
 
     def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
         """Add a state and what is in it."""
@@ -99,6 +105,7 @@ class _StateWriter:
             initial=self.ids[state.initial] if state.initial is not None else None,
             type=depth,
         )
+        self.places[element] = state.origin
         describe_state(element, state, self.machine, self.dialect)
         if (
             state.kind is StateKind.FINAL
@@ -158,11 +165,13 @@ class _StateWriter:
             add_comment(element, transition.doc)
             if region_entered(transition, state) is not None:
                 # What it does stands in the region. Here it keeps those after it from being taken.
-                self._add_transition(element, events, transition.guard)
+                kept = self._add_transition(element, events, transition.guard)
+                self.places[kept] = transition.origin
                 continue
             added = self._add_transition(
                 element, events, transition.guard, transition.internal, transition.target
             )
+            self.places[added] = transition.origin
             if results and not first and end in transition.triggers:
                 self._add_results(added, state)
             self._add_effects(added, transition.effects)
@@ -175,6 +184,7 @@ class _StateWriter:
         for event, guard, transition in inward(region, around, self.events):
             events = [event] if event else []
             added = self._add_transition(element, events, guard, True, transition.target)
+            self.places[added] = transition.origin
             self._add_effects(added, transition.effects)
 
     def _add_transition(
