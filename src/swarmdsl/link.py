@@ -6,7 +6,6 @@ mean is reported and stays None; later phases pass over it without a word.
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
@@ -102,6 +101,11 @@ class Linker:
         self._params = _params_of_members(runners)
         self._parts = _parts_of_members(runners)
 
+    def replace(self, machine: StateMachine, other: StateMachine) -> None:
+        """Let another machine name what one can that members run."""
+        self._params = {**self._params, other: self._params.get(machine, {})}
+        self._parts = {**self._parts, other: self._parts.get(machine, {})}
+
     def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
         """Resolve the names of what is inside of a declaration, and of what it leads to."""
         scope = self._scopes[file]
@@ -109,9 +113,9 @@ class Linker:
         match owner:
             case StateMachine():
                 link_machine(owner, scope, report)
-                _link_activities(owner, self._parts[owner], scope, report)
+                _link_activities(owner, self._parts.get(owner, {}), scope, report)
                 values = {
-                    **self._params[owner],
+                    **self._params.get(owner, {}),
                     **_named(owner.items, Param),
                     **_named(owner.items, Variable),
                 }
@@ -148,7 +152,7 @@ def _params_of_members(
             if use.machine.target is not None:
                 common = found.setdefault(use.machine.target, params)
                 found[use.machine.target] = {k: v for k, v in common.items() if k in params}
-    return defaultdict(dict, found)
+    return found
 
 
 def _parts_of_members(
@@ -161,7 +165,7 @@ def _parts_of_members(
         for machine in machines_of(owner):
             common = found.setdefault(machine, {name: [] for name in parts})
             found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
-    return defaultdict(dict, found)
+    return found
 
 
 def machines_of(runner: Member | Component) -> list[StateMachine]:

@@ -19,12 +19,13 @@ SERVER = [sys.executable, "-m", "swarmdsl", "lsp"]
 )
 async def client(lsp_client: LanguageClient, tmp_path_factory):
     folder = tmp_path_factory.mktemp("open")
-    await lsp_client.initialize_session(
+    answer = await lsp_client.initialize_session(
         lsp.InitializeParams(
             capabilities=lsp.ClientCapabilities(),
             workspace_folders=[lsp.WorkspaceFolder(uri=folder.as_uri(), name="models")],
         )
     )
+    lsp_client.offered = answer.capabilities
     yield
     await lsp_client.shutdown_session()
 

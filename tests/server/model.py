@@ -1,5 +1,9 @@
 """The model that editors have open in these tests."""
 
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.format import formatted
+from swarmdsl.source import Source
+
 MODEL = """\
 /// Robots that go round. 🤖
 package patrol
@@ -35,6 +39,9 @@ function go_round : abstraction { action "go" : patrol_msgs/GoRound }
   final Home
 }
 """
+# As `swarmc fmt` lays it out.
+LAID_OUT = formatted(Source("patrol.swarm", MODEL), Diagnostics())
+assert LAID_OUT != MODEL
 ROVER = """\
 package rover
 import "patrol.swarm"

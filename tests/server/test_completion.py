@@ -30,6 +30,34 @@ statemachine Other {
   final End
 }
 """
+WORK = """\
+action here_msgs/Sweep {
+  goal { speed : float64 area : geometry_msgs/Pose }
+  result { found : bool place : geometry_msgs/Point }
+}
+message here_msgs/Seen { id : string place : geometry_msgs/Point }
+struct Spot { x : float64 y : float64 }
+event Seen : here_msgs/Seen
+function sweep : abstraction { action "sweep" : here_msgs/Sweep }
+actuator Arm {
+  param force : float64
+  param reach : float64
+  operation grip(in width : float64, out held : bool)
+}
+member Robot { arm : Arm behavior Worker }
+statemachine Worker {
+  var spot : Spot
+  var seen : bool
+  initial Work
+  state Work {
+    do sweep(speed = 1.0, area = nothing)
+    on succeeded [seen] -> Over
+    on aborted -> Over
+    HERE
+  }
+  final Over
+}
+"""
 STATES = """\
 statemachine Machine {
   param limit : int32 = 3
@@ -58,7 +86,40 @@ def state(line):
     return HEAD + STATES.replace("HERE", line)
 
 
+def work(line, instead="HERE"):
+    return HEAD + WORK.replace(instead, line).replace("HERE", "")
+
+
+DO = "do sweep(speed = 1.0, area = nothing)"
 PLACES = {
+    "field of a goal": (work("do sweep(|)", DO), {"speed", "area", "by"}, {"found", "spot"}),
+    "field that is left": (work("do sweep(speed = 1.0, |", DO), {"area"}, {"speed", "found"}),
+    "half a field": (work("do sweep(sp|)", DO), {"speed", "area"}, {"found"}),
+    "value of a field": (work("do sweep(speed = |)", DO), {"spot", "seen"}, {"area", "sweep"}),
+    "field of a result": (work("do sweep gives (|)", DO), {"found", "place"}, {"speed", "spot"}),
+    "where a result goes": (work("do sweep gives (found => |)", DO), {"seen"}, {"found", "place"}),
+    "operation of a part": (work("do arm.|", DO), {"grip"}, {"sweep", "arm", "force"}),
+    "parameter of an operation": (work("do arm.grip(|)", DO), {"width"}, {"held", "force"}),
+    "function or part": (work("do |", DO), {"go", "sweep", "arm"}, {"grip", "Work"}),
+    "outcomes that are left": (work("on |"), {"succeeded", "preempted", "Low"}, {"aborted"}),
+    "field of an event": (work("on Seen [event.|"), {"id", "place"}, {"spot", "x"}),
+    "field of a field": (work("on Seen [event.place.|] -> Over"), {"x", "y", "z"}, {"id"}),
+    "field of a struct": (work("on Low / spot.|"), {"x", "y"}, {"z", "id"}),
+    "field of a sent event": (work("on Low / send Seen(|)"), {"id", "place"}, {"spot"}),
+    "param of a machine": (
+        HEAD + STATES.replace("HERE", "state Sub = Other(|)"), {"speed"}, {"Low"},
+    ),
+    "param of a part": (
+        HEAD + WORK.replace("arm : Arm", "arm : Arm { | }"), {"force", "reach"}, {"Arm"},
+    ),
+    "param that is left": (
+        HEAD + WORK.replace("arm : Arm", "arm : Arm { force = 1.0 | }"), {"reach"}, {"force"},
+    ),
+    "action": (
+        HEAD + 'function f : swarm { action "x" : |', {"tf2_msgs/LookupTransform"}, {"Mode"},
+    ),
+    "type of a package": (HEAD + "event E : geometry_msgs/|", {"Pose", "Twist"}, {"Mode", "int32"}),
+    "type of ROS": (HEAD + "event E : |", {"geometry_msgs/Pose", "Mode"}, {"std_srvs/Empty"}),
     "nothing": ("|", {"package", "import", *DECLARATIONS}, {"on"}),
     "half a declaration": ("sta|", {"statemachine"}, {"on"}),
     "below the package": ("package p\n|", {"import", *DECLARATIONS}, set()),
@@ -93,7 +154,7 @@ PLACES = {
     "initial": (HEAD + STATES.replace("initial First", "initial |"), {"First", "Both"}, {"Inner"}),
     "in a state": (state("|"), ITEMS, {"param", "Low"}),
     "half a keyword": (state("o|"), {"on"}, {"Low"}),
-    "trigger": (state("on |"), {"Low", "High", "done", "succeeded"}, {"on", "go", "First"}),
+    "trigger": (state("on |"), {"Low", "High", "done"}, {"on", "go", "First", "succeeded"}),
     "half a trigger": (state("on Lo|"), {"Low"}, {"First"}),
     "behind a trigger": (state("on Low |"), set(), {"Low", "First"}),
     "second trigger": (state("on Low, |"), {"High", "done"}, {"First"}),

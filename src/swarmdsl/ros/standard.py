@@ -51,9 +51,13 @@ def packages() -> list[str]:
     return sorted(_texts())
 
 
-def names(package: str) -> list[str]:
-    """The names of a package's interfaces, sorted; none for a package that is not known."""
-    return sorted({name for _, name in _texts().get(package, ())})
+def names(package: str, kind: Kind | None = None) -> list[str]:
+    """The names of a package's interfaces, or those of a kind, sorted.
+
+    There are none of a package that is not known.
+    """
+    known = _texts().get(package, ())
+    return sorted({name for of, name in known if kind is None or of == kind})
 
 
 @cache

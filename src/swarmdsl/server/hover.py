@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from swarmdsl.load import File
 from swarmdsl.scopes import bare, kind_of
+from swarmdsl.server.support import support
 from swarmdsl.source import Span
 from swarmdsl.syntax import (
     ActionType,
     Documented,
     EnumType,
     MessageType,
+    Multiplicity,
     Node,
+    Parallel,
+    Role,
     ServiceType,
+    State,
+    StateMachine,
     StructType,
+    TypeRef,
+    nodes_of,
 )
 from swarmdsl.workspace import Workspace
 from swarmdsl.workspace.occurrences import occurrence_at
@@ -25,15 +35,48 @@ _MOST_LINES = 20
 def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | None:
     """The name at an offset, and what to show of it as Markdown; None where nothing is known."""
     found = occurrence_at(workspace, file, offset)
-    return (found.span, described(found.node)) if found is not None else None
+    if found is None:
+        return None
+    targets = "\n".join(f"- {line}" for line in support(found.node))
+    text = described(found.node)
+    return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text
 
 
 def described(node: Node) -> str:
     """How something is declared, what it is, and its documentation, as Markdown."""
-    parts = [f"```swarm\n{declaration(node)}\n```", bare(kind_of(node))]
+    parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([bare(kind_of(node)), *_more(node)])]
     if isinstance(node, Documented) and node.doc:
         parts.append(node.doc)
     return "\n\n".join(parts)
+
+
+def _more(node: Node) -> Iterator[str]:
+    """What follows from how something is declared."""
+    match node:
+        case Role(multiplicity=None):
+            yield "one member"
+        case Role(multiplicity=Multiplicity(lower=lower, upper=upper)):
+            yield _multiplicity(lower, upper)
+        case StateMachine():
+            states = [*nodes_of(node, State), *nodes_of(node, Parallel)]
+            yield f"{len(states)} state{'s' * (len(states) != 1)}"
+        case EnumType() | StructType() | MessageType() | ServiceType() | ActionType():
+            pass
+        case _:
+            type_ = getattr(node, "type", None)
+            if isinstance(type_, TypeRef) and str(type_.type or "") not in ("", type_.span.text):
+                yield f"of type `{type_.type}`"
+
+
+def _multiplicity(lower: str, upper: str) -> str:
+    """How many members a role has, in words."""
+    if lower == "*" or (lower == "0" and upper == "*"):
+        return "any number of members"
+    if upper == "*":
+        return f"at least {lower} members"
+    if upper and upper != lower:
+        return f"{lower} to {upper} members"
+    return "one member" if lower == "1" else f"{lower} members"
 
 
 def declaration(node: Node) -> str:

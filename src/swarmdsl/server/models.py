@@ -119,11 +119,11 @@ class Models:
         except BaseException:
             self._forget()  # what an update has left half done is of no use
             raise
-        if not self._texts.keys() >= changed.keys():
+        if any(changed.values()):
             self._tidy()
 
     def _tidy(self) -> None:
-        """Forget the models of which no file is open."""
+        """Forget the models of which no file is open, or only such as others have too."""
         used = {id(self._workspace_of(path)) for path in self._models()}
         kept = {key: each for key, each in self._workspaces.items() if id(each) in used}
         if len(kept) < len(self._workspaces):
@@ -140,9 +140,10 @@ class Models:
         gc.unfreeze()
 
     def _workspace_of(self, path: Path) -> Workspace:
-        for workspace in self._workspaces.values():
-            if workspace.file(path) is not None:
-                return workspace
+        found = [each for each in self._workspaces.values() if each.file(path) is not None]
+        if found:
+            # Who imports a file belongs to the picture.
+            return max(found, key=lambda workspace: workspace.files)
         settings, home = self._settings(path)
         if settings is not None and settings.sources not in self._workspaces:
             workspace = self._made(settings, home)

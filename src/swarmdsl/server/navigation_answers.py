@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
+from swarmdsl.scopes import bare, kind_of
 from swarmdsl.server import symbols
-from swarmdsl.server.connection import Json
+from swarmdsl.server.connection import INVALID_PARAMS, Json, RequestError
+from swarmdsl.server.reach import REACHED, ways_from, ways_to
 from swarmdsl.server.session import Session
 from swarmdsl.server.words import SYMBOL_KINDS, SYMBOL_OBJECT
+from swarmdsl.syntax import Node, Optimization
 from swarmdsl.workspace.occurrences import Occurrence, occurrence_at, occurrences_of
 
 _READ, _WRITE = 2, 3
@@ -17,6 +20,7 @@ CAPABILITIES: Json = {
     "referencesProvider": True,
     "documentHighlightProvider": True,
     "workspaceSymbolProvider": True,
+    "callHierarchyProvider": True,
 }
 
 
@@ -65,9 +69,64 @@ def _workspace_symbols(session: Session, params: Json) -> list[Json]:
     return found
 
 
+def _prepare_calls(session: Session, params: Json) -> list[Json] | None:
+    place = session.place(params)
+    found = occurrence_at(*place) if place is not None else None
+    if found is None or not isinstance(found.node, REACHED):
+        return None
+    item = _as_item(session, found.node)
+    return [item] if item is not None else None
+
+
+def _as_item(session: Session, node: Node) -> Json | None:
+    """A state or the like for the list of those that reach each other."""
+    if isinstance(node, Optimization):
+        return None
+    name = node.name.span  # type: ignore[attr-defined]
+    whole, location = session.location(node.span), session.location(name)
+    if whole is None or location is None:
+        return None
+    return {
+        "name": name.text,
+        "kind": SYMBOL_KINDS.get(type(node), SYMBOL_OBJECT),
+        "detail": bare(kind_of(node)),
+        "uri": location["uri"],
+        "range": whole["range"],
+        "selectionRange": location["range"],
+    }
+
+
+def _ways(session: Session, params: Json, *, to: bool) -> list[Json]:
+    item = params.get("item")
+    if not isinstance(item, dict) or not isinstance(item.get("selectionRange"), dict):
+        raise RequestError(INVALID_PARAMS, "the item is missing")
+    place = session.place_on_disk(item.get("uri"), item["selectionRange"].get("start"))
+    found = occurrence_at(*place) if place is not None else None
+    if place is None or found is None:
+        return []
+    ways = (ways_to if to else ways_from)(place[0], found.node)
+    end = "from" if to else "to"
+    return [
+        {end: item, "fromRanges": [session.range(span.absolute) for span in spans]}
+        for node, spans in ways.items()
+        if (item := _as_item(session, node)) is not None
+    ]
+
+
+def _ways_to(session: Session, params: Json) -> list[Json]:
+    return _ways(session, params, to=True)
+
+
+def _ways_from(session: Session, params: Json) -> list[Json]:
+    return _ways(session, params, to=False)
+
+
 REQUESTS: Mapping[str, Callable[[Session, Json], Any]] = {
     "textDocument/definition": _definition,
     "textDocument/references": _references,
     "textDocument/documentHighlight": _highlights,
     "workspace/symbol": _workspace_symbols,
+    "textDocument/prepareCallHierarchy": _prepare_calls,
+    "callHierarchy/incomingCalls": _ways_to,
+    "callHierarchy/outgoingCalls": _ways_from,
 }

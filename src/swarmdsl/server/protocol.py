@@ -131,6 +131,7 @@ class Server:
             raise RequestError(rpc.INVALID_REQUEST, "the server is initialized already")
         self._initialized = True
         encoding = self._session.agree(params.get("capabilities"))
+        self._session.take_options(params.get("initializationOptions"))
         process = params.get("processId")
         self._client = process if isinstance(process, int) and process > 0 else None
         lifecycle.open_folders(self._session, params)

@@ -16,6 +16,7 @@ from swarmdsl.server.documents import Document
 from swarmdsl.server.findings import as_findings, as_range
 from swarmdsl.server.models import Models
 from swarmdsl.server.positions import offset
+from swarmdsl.server.tokens import Painter
 from swarmdsl.source import Span
 from swarmdsl.workspace import Workspace
 
@@ -34,7 +35,10 @@ class Session:
         self.models = Models()
         self.encoding = "utf-16"
         self.capabilities: Json = {}
+        # The commands of its own that the client offers to be named.
+        self.commands: frozenset[str] = frozenset()
         self.documents: dict[Path, Document] = {}
+        self.painter = Painter()
         self._uris: dict[Path, str] = {}
         self._told: dict[str, list[Diagnostic]] = {}
         self._requests = 0
@@ -46,6 +50,12 @@ class Session:
         wanted = offered if isinstance(offered, list) else []
         self.encoding = next((each for each in _ENCODINGS if each in wanted), "utf-16")
         return self.encoding
+
+    def take_options(self, options: Any) -> None:
+        """Take what a client says of itself beyond the protocol."""
+        commands = options.get("commands") if isinstance(options, dict) else None
+        known = commands if isinstance(commands, list) else []
+        self.commands = frozenset(each for each in known if isinstance(each, str))
 
     def offers(self, *names: str) -> Any:
         """What the client says of one of its capabilities; None where it says nothing."""
@@ -88,6 +98,7 @@ class Session:
         self._uris.pop(path, None)
         if self.documents.pop(path, None) is not None:
             self.models.close(path)
+            self.painter.forget(str(path))
 
     def file(self, params: Json) -> tuple[Workspace, File] | None:
         """The open file that a request is about, and the model that it belongs to."""
@@ -103,6 +114,15 @@ class Session:
         at = params.get("position")
         where = self.offset(found[1] if found is not None else None, at)
         return (*found, where) if found is not None else None
+
+    def place_on_disk(self, uri: Any, at: Any) -> Place | None:
+        """A position in a file that need not be open, if a model has it."""
+        path = self.path(uri)
+        for workspace in self.models.all() if path is not None else ():
+            file = workspace.file(path) if path is not None else None
+            if file is not None:
+                return workspace, file, self.offset(file, at)
+        return None
 
     def offset(self, file: File | None, at: Any) -> int:
         """The offset of a position in a file."""

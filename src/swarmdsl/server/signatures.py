@@ -1,0 +1,69 @@
+"""What a call takes: shown while its arguments are written."""
+
+from __future__ import annotations
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.load import File
+from swarmdsl.server.completion import word_at
+from swarmdsl.server.fields import Given, Slots, is_name_on_trial, slots
+from swarmdsl.server.trial import ARGUMENT, NAME, WORD, owner_around, tried
+from swarmdsl.syntax import Argument, PartValue, ResultMapping, TopLevel, nodes_of
+from swarmdsl.workspace import Workspace
+
+
+@dataclass(frozen=True)
+class Signature:
+    """A call: how it is written, where in that each parameter is, which is being written."""
+
+    label: str
+    parameters: list[tuple[int, int, str]]
+    active: int | None
+
+
+def signature(workspace: Workspace, file: File, offset: int) -> Signature | None:
+    """The call whose arguments an offset is in; None outside of one."""
+    text = file.source.text
+    start, end = word_at(text, offset)
+    _, first, last = workspace.piece(file, start)
+    around = text[first:start], text[end : max(last, end)]
+    words = (*ARGUMENT, *NAME)
+    for owner in tried(workspace, file, around, owner_around(file, start), words):
+        found = slots(owner, workspace.project)
+        if found is not None and found.fields:
+            return _signature(found, owner, text[start:end])
+    return None
+
+
+def _signature(found: Slots, owner: TopLevel, written: str) -> Signature:
+    label = f"{found.of}("
+    parameters = []
+    for index, field in enumerate(found.fields):
+        label += ", " if index else ""
+        words = f"{field.name} : {field.type.span.text}"
+        parameters.append((len(label), len(label) + len(words), field.doc))
+        label += words
+    active = _active(found, owner, written)
+    return Signature(f"{label})", parameters, active)
+
+
+def _active(found: Slots, owner: TopLevel, written: str) -> int | None:
+    """The parameter whose name or value stands at the place, else the first that is missing."""
+    names = [str(field.name) for field in found.fields]
+    name = written if is_name_on_trial(owner) else _given(owner)
+    left: list[Given] = found.left
+    if name in names:
+        return names.index(name)
+    begins = [str(each.name) for each in left if str(each.name).startswith(written)]
+    return names.index(begins[0]) if begins else None
+
+
+def _given(owner: TopLevel) -> str:
+    """The name to which the word on trial gives a value."""
+    values: list[Argument | PartValue] = [*nodes_of(owner, Argument), *nodes_of(owner, PartValue)]
+    for argument in values:
+        if WORD in argument.value.span.text:
+            return str(argument.name)
+    for result in nodes_of(owner, ResultMapping):
+        if WORD in result.target.span.text:
+            return str(result.field)
+    return ""
