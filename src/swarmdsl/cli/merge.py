@@ -1,0 +1,68 @@
+"""`swarmc merge`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import OK
+
+if TYPE_CHECKING:
+    from swarmdsl.diagnostics import Diagnostics
+
+# As git wants it of a merge driver: 1 for conflicts, more where there is no result.
+CONFLICTS, TROUBLE = 1, 2
+_FILE = click.Path(path_type=Path)
+
+
+@click.command(epilog="Example: swarmc merge base.swarm ours.swarm theirs.swarm -o ours.swarm")
+@click.argument("base", type=_FILE)
+@click.argument("ours", type=_FILE)
+@click.argument("theirs", type=_FILE)
+@click.option("-o", "--out", type=_FILE, metavar="FILE", help="Write there, not to the terminal.")
+@options.debug
+def merge(base: Path, ours: Path, theirs: Path, out: Path | None) -> int:
+    """Merge two versions of a file that both come from BASE, by what they declare.
+
+    What one side changed is taken; what both changed, and not in the same way, is marked as git
+    does it. Where a file has syntax errors, git merges line by line. The exit code is 0 for a
+    clean merge, 1 where there are conflicts, and 2 where a file cannot be read.
+    """
+    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.merging.files import merge_files
+    from swarmdsl.render import render
+
+    report = Diagnostics()
+    merged = merge_files(base, ours, theirs, report)
+    if merged is not None and out is not None:
+        _write(out, merged.content, report)
+    if report.has_errors:
+        render(report, "concise", sys.stderr)
+    if merged is None or any(found.name == "cannot-write" for found in report):
+        return TROUBLE
+    if out is None:
+        sys.stdout.flush()
+        sys.stdout.buffer.write(merged.content)
+    if merged.by_lines:
+        click.echo("merged line by line, as git does it", err=True)
+    if merged.conflicts:
+        conflicts = "conflict" if merged.conflicts == 1 else "conflicts"
+        click.echo(f"{merged.conflicts} {conflicts} in {out or ours}", err=True)
+    return CONFLICTS if merged.conflicts else OK
+
+
+def _write(out: Path, content: bytes, report: Diagnostics) -> None:
+    from swarmdsl.staging import Staging
+
+    try:
+        with Staging() as staging:
+            staging.add(out, content)
+            for _ in staging.move_in_place():
+                pass
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        report.report("cannot-write", path=error.filename or out, reason=reason)
