@@ -10,7 +10,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     08xx  SCXML documents        09xx  generators and output
     10xx  simulation             11xx  tests
     12xx  import                 13xx  diagrams
-    14xx  comparison
+    14xx  comparison             15xx  new projects, changes of models
 """
 
 from __future__ import annotations
@@ -250,4 +250,7 @@ CODES: dict[str, Code] = {
     "unclear-diagram": Code("SW1302", "error", "{count} diagrams do not go to standard output"),
     # ---- comparison
     "no-revision": Code("SW1401", "error", "cannot compare with `{name}`: {reason}"),
+    # ---- new projects, changes of models
+    "bad-name": Code("SW1501", "error", "`{name}` cannot be {what}"),
+    "already-there": Code("SW1502", "error", "`{path}` is there already, and has something in it"),
 }

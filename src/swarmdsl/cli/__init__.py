@@ -24,7 +24,7 @@ from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 # Python has a `_` there.
 COMMANDS = (
     *("build", "check", "codegen", "diagram", "diff", "explain", "fmt", "import", "lsp"),
-    *("merge", "simulate", "targets", "test", "trace"),
+    *("merge", "new", "simulate", "targets", "test", "trace"),
 )
 # Those whose options are plain data: a command line in the plainest form is read without Click.
 PLAIN = ("build", "check")

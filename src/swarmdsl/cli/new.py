@@ -1,0 +1,106 @@
+"""`swarmc new`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import exit_code
+
+if TYPE_CHECKING:
+    from swarmdsl.scaffold.plan import Plan
+
+
+@click.command(epilog="Example: swarmc new rescue --member Uav=3 --member Rover=1..5")
+@click.argument("name", required=False)
+@click.option(
+    "--folder",
+    metavar="FOLDER",
+    type=click.Path(path_type=Path),
+    help="Where the project goes.  [default: a folder of its name]",
+)
+@click.option("--description", metavar="TEXT", default="", help="What it is for.")
+@click.option("--swarm", metavar="NAME", default="", help="Name of the swarm.")
+@click.option(
+    "--member",
+    "members",
+    metavar="NAME[=NUMBER]",
+    multiple=True,
+    help="A type of robot, and how many: 3, 1..5, 2..*; may be repeated.  [default: Robot=3]",
+)
+@click.option("--sensor", metavar="NAME", default="Camera", show_default=True)
+@click.option("--controller", metavar="NAME", default="Pilot", show_default=True)
+@click.option("--actuator", metavar="NAME", default="Wheels", show_default=True)
+@click.option(
+    "-t",
+    "--target",
+    "targets",
+    type=click.Choice(("ros2", "smach")),
+    multiple=True,
+    help="What it is built for; may be repeated.  [default: ros2]",
+)
+@click.option("-i", "--interactive", is_flag=True, help="Ask for all of this.")
+@click.option("--dry-run", is_flag=True, help="List the files, write nothing.")
+@options.diagnostics_format
+@options.debug
+def new(
+    name: str | None,
+    folder: Path | None,
+    description: str,
+    swarm: str,
+    members: tuple[str, ...],
+    sensor: str,
+    controller: str,
+    actuator: str,
+    targets: tuple[str, ...],
+    interactive: bool,
+    dry_run: bool,
+    format_: str,
+) -> int:
+    """Make a project: a swarm of robots with a sensor, a controller and an actuator.
+
+    It has a behaviour, an environment, a fitness, tests and a scenario, and can be checked,
+    simulated, tested and built as it is. Without NAME, on a terminal, you are asked. A
+    folder that has something in it is left alone.
+    """
+    from swarmdsl.render import render
+    from swarmdsl.scaffold.new import create
+    from swarmdsl.scaffold.plan import Plan, Robots
+
+    robots = [Robots(*each.split("=", 1)) for each in members]
+    plan = Plan(
+        name or "",
+        description,
+        swarm,
+        tuple(robots) or (Robots("Robot"),),
+        sensor,
+        controller,
+        actuator,
+        tuple(dict.fromkeys(targets)) or ("ros2",),
+    )
+    if interactive or name is None:
+        if not (sys.stdin.isatty() and sys.stderr.isatty()):
+            raise click.UsageError("NAME is missing; on a terminal you would be asked for it")
+        plan = _asked(plan)
+    created = create(plan, folder or Path(plan.name), dry_run=dry_run)
+    render(created.report, format_, sys.stderr)
+    for path in created.written:
+        click.echo(path.as_posix())
+    if created.written and not dry_run:
+        click.echo(f"\nNext: cd {created.folder.as_posix()}, and see README.md", err=True)
+    return exit_code(created.report)
+
+
+def _asked(plan: Plan) -> Plan:
+    from rich.console import Console
+
+    from swarmdsl.scaffold.wizard import ask
+
+    try:
+        return ask(plan, Console(stderr=True))
+    except EOFError:
+        raise click.Abort from None

@@ -1,0 +1,93 @@
+"""The questions that `swarmc new` asks on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from rich.console import Console
+from rich.prompt import Confirm, Prompt
+
+from swarmdsl.dataclass import replace
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.scaffold.plan import TARGETS, Plan, Robots, check_plan
+
+_Check = Callable[[str], Plan]
+
+
+def ask(start: Plan, console: Console) -> Plan:
+    """A plan made of answers, those of `start` offered; raises EOFError at the end of input."""
+    plan = start
+    console.print("A new project. Enter takes what stands in parentheses.\n")
+    plan = _asked(console, "Name of the project", plan, plan.name, lambda name: _named(plan, name))
+    plan = replace(plan, description=_text(console, "What it is for", plan.description))
+    plan = _robots(console, plan)
+    for kind in ("sensor", "controller", "actuator"):
+        question = f"Name of a {kind}" if kind != "actuator" else "Name of an actuator"
+        plan = _asked(console, question, plan, getattr(plan, kind), _with(plan, kind))
+    plan = _asked(console, "Name of the swarm", plan, plan.swarm_name, _with(plan, "swarm"))
+    targets = [each for each in TARGETS if _wants(console, each, plan)]
+    return replace(plan, targets=tuple(targets) or plan.targets)
+
+
+def _robots(console: Console, plan: Plan) -> Plan:
+    robots: tuple[Robots, ...] = ()
+    offered = plan.robots[0]
+    while True:
+        kind = f"Name of {'another' if robots else 'a'} type of robot"
+        made = _with_member(plan, robots)
+        plan = _asked(console, kind, plan, offered.member if not robots else None, made)
+        plan = _asked(console, "How many (3, 1..5, 2..*)", plan, offered.count, _with_count(plan))
+        robots = plan.robots
+        if not Confirm.ask("Another type of robot?", console=console, default=False):
+            return plan
+
+
+def _named(plan: Plan, name: str) -> Plan:
+    return replace(plan, name=name)
+
+
+def _with(plan: Plan, field: str) -> _Check:
+    def made(name: str) -> Plan:
+        changes: dict[str, Any] = {field: name}
+        return replace(plan, **changes)
+
+    return made
+
+
+def _with_member(plan: Plan, robots: tuple[Robots, ...]) -> _Check:
+    return lambda name: replace(plan, robots=(*robots, Robots(name)))
+
+
+def _with_count(plan: Plan) -> _Check:
+    *before, last = plan.robots
+    return lambda count: replace(plan, robots=(*before, Robots(last.member, count)))
+
+
+def _asked(console: Console, question: str, plan: Plan, offered: str | None, with_: _Check) -> Plan:
+    """Ask until the answer makes a plan without another mistake."""
+    known = _mistakes(plan)
+    while True:
+        answer = _text(console, question, offered or "")
+        made = with_(answer)
+        wrong = [each for each in _mistakes(made) if answer in each or each not in known]
+        if not wrong:
+            return made
+        console.print(wrong[0], style="red", highlight=False, markup=False)
+
+
+def _mistakes(plan: Plan) -> list[str]:
+    report = Diagnostics()
+    check_plan(plan, report)
+    return [f"{each.message}: {each.help}" for each in report]
+
+
+def _text(console: Console, question: str, offered: str) -> str:
+    if not offered:
+        return Prompt.ask(question, console=console, default="", show_default=False).strip()
+    return Prompt.ask(question, console=console, default=offered).strip()
+
+
+def _wants(console: Console, target: str, plan: Plan) -> bool:
+    question = {"ros2": "Packages for ROS 2?", "smach": "Packages for ROS 1 (SMACH)?"}[target]
+    return Confirm.ask(question, console=console, default=target in plan.targets)

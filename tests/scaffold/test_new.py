@@ -1,0 +1,205 @@
+"""`swarmc new`: projects that work as they are."""
+
+from __future__ import annotations
+
+import os
+import pty
+import re
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.project import find_settings
+
+WAYS = {
+    "plain": ["rescue"],
+    "one": ["one-robot", "--member", "Rover=1"],
+    "many": ["many", "--member", "Uav=3", "--member", "Rover=1..5", "--member", "Bird=*"],
+    "names": [
+        *("names", "--swarm", "Crowd", "--sensor", "Eye", "--controller", "Brain"),
+        *("--actuator", "Legs", "--description", "Walks {{ about }} // and /* sees"),
+    ],
+    "swarm called like a member": ["robot"],
+    "both": ["both", "-t", "ros2", "-t", "smach"],
+}
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_project_works_as_it_is(way: str, swarmc, folder, monkeypatch) -> None:
+    made = swarmc("new", *WAYS[way])
+    assert (made.code, made.err.splitlines()[0]) == (0, ""), made.err
+    project = folder / WAYS[way][0]
+    assert sorted(made.out.splitlines()) == sorted(
+        path.relative_to(folder).as_posix() for path in project.rglob("*") if path.is_file()
+    )
+
+    monkeypatch.chdir(project)
+    assert (swarmc("check", "--deny", "warnings").out) == ""
+    assert swarmc("fmt", "--check").code == 0
+    tested = swarmc("test")
+    assert (tested.code, "4 passed" in tested.err + tested.out) == (0, True)
+    ran = swarmc("simulate", "--scenario", "scenarios/mission.toml", "--trace", "none")
+    assert ran.code == 0
+    assert "TargetFound" in ran.out + ran.err
+    assert swarmc("build").code == 0
+    assert (project / "generated" / "skeleton" / "explore" / "package.xml").is_file()
+    for target in ("ros2", "smach"):
+        assert (project / "generated" / target).is_dir() == (target in _targets(WAYS[way]))
+
+
+def _targets(arguments: list[str]) -> set[str]:
+    named = {each for each in arguments if each in ("ros2", "smach")}
+    return named or {"ros2"}
+
+
+def test_the_swarm_has_what_the_command_line_says(swarmc, folder) -> None:
+    swarmc("new", "rescue", "--member", "Uav=3", "--member", "Rover=2..*", "--sensor", "Eye")
+    settings = find_settings([folder / "rescue"], Diagnostics())
+    system = compiler.check(settings.sources, settings).system
+
+    assert system is not None
+    (swarm,) = system.swarms
+    assert [
+        (role.name, role.member, role.multiplicity.lower, role.multiplicity.upper)
+        for role in swarm.roles
+    ] == [
+        ("uav", "Uav", 3, 3),
+        ("rover", "Rover", 2, None),
+    ]
+    assert system.optimizations[0].swarm == swarm.name == "Rescue"
+    kinds = [(each.kind, each.name) for each in system.components]
+    assert kinds == [("sensor", "Eye"), ("controller", "Pilot"), ("actuator", "Wheels")]
+    assert all(len(member.connectors) == 2 for member in system.members)
+
+
+def test_nothing_is_overwritten(swarmc, folder) -> None:
+    (folder / "rescue").mkdir()
+    assert swarmc("new", "rescue").code == 0
+    (folder / "rescue" / "swarm.toml").write_text("# mine\n")
+    again = swarmc("new", "rescue")
+
+    assert (again.code, again.out) == (1, "")
+    assert again.err.startswith("error[SW1502]: `rescue` is there already")
+    assert (folder / "rescue" / "swarm.toml").read_text() == "# mine\n"
+    (folder / "file").write_text("")
+    assert swarmc("new", "file").code == 1
+    assert swarmc("new", "rescue", "--folder", "other").code == 0
+    assert (folder / "other" / "swarm.toml").is_file()
+
+
+def test_a_dry_run_writes_nothing(swarmc, folder) -> None:
+    ran = swarmc("new", "rescue", "--dry-run")
+
+    assert "rescue/models/rescue.swarm" in ran.out
+    assert list(folder.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["Rescue"], ["`Rescue` cannot be the name of a project: call it `rescue`"]),
+        (["on"], ["`on` cannot be the name of a project: write it `like_this`"]),
+        (["2fast"], ["`2fast` cannot be the name of a project: write it `like_this`"]),
+        (["../up"], ["`../up` cannot be the name of a project: call it `up`"]),
+        (["members"], ["`members` cannot be the name of a project: what is made has"]),
+        (
+            ["x", "--member", "uav=0", "--sensor", "State", "--actuator", "Pilot"],
+            [
+                "`uav` cannot be the name of a member: call it `Uav`",
+                "`0` cannot be the number of `uav`: write `3`",
+                "`State` cannot be the name of a sensor: `state` is a word of the language",
+                "`Pilot` cannot be the name of 2 things: each member",
+            ],
+        ),
+        (["x", "--member", "Uav=5..1"], ["`5..1` cannot be the number of `Uav`: write `3`"]),
+        (["x", "--swarm", "Field"], ["`Field` cannot be the name of a swarm: what is made has"]),
+        (["x", "--sensor", "Speed"], ["`Speed` cannot be the name of a sensor: what is made"]),
+    ],
+)
+def test_names_that_no_model_can_have(arguments, said, swarmc, folder) -> None:
+    ran = swarmc("new", *arguments)
+    found = re.findall(r"^error\[SW1501\]: (.*)$", ran.err, re.MULTILINE)
+    ways = re.findall(r"^  = help: (.*)$", ran.err, re.MULTILINE)
+    told = sorted(f"{each}: {way}" for each, way in zip(found, ways, strict=True))
+
+    assert ran.code == 1
+    assert list(folder.iterdir()) == []
+    assert [each[: len(wanted)] for each, wanted in zip(told, sorted(said), strict=True)] == (
+        sorted(said)
+    )
+
+
+def test_a_folder_that_cannot_be_written(swarmc, folder) -> None:
+    (folder / "file").write_text("")
+    ran = swarmc("new", "rescue", "--folder", "file/below")
+
+    assert ran.code == 1
+    assert "SW0909" in ran.err
+
+
+def test_without_a_terminal_nobody_is_asked(swarmc) -> None:
+    ran = swarmc("new")
+
+    assert ran.code == 2
+    assert "NAME is missing" in ran.err
+
+
+@pytest.fixture
+def terminal(folder: Path) -> Callable[[list[str], str], tuple[int, str]]:
+    """Run `swarmc` on a terminal, with something typed."""
+
+    def typed(arguments: list[str], keys: str) -> tuple[int, str]:
+        ours, its = pty.openpty()
+        command = [sys.executable, "-m", "swarmdsl", *arguments]
+        environment = {**os.environ, "TERM": "dumb", "COLUMNS": "100"}
+        with subprocess.Popen(
+            command, stdin=its, stdout=its, stderr=its, cwd=folder, env=environment
+        ) as process:
+            os.close(its)
+            os.write(ours, keys.encode())
+            shown = b""
+            while True:
+                try:
+                    read = os.read(ours, 4096)
+                except OSError:  # the other end is closed
+                    break
+                if not read:
+                    break
+                shown += read
+        os.close(ours)
+        return process.returncode, shown.decode()
+
+    return typed
+
+
+def test_on_a_terminal_one_is_asked(terminal, folder, swarmc, monkeypatch) -> None:
+    answers = [
+        *("Rescue", "rescue", "Finds people.", "uav", "Uav", "0", "2", "y", "Rover", "1..5", "n"),
+        *("Eye", "Uav", "Brain", "", "", "y", "n"),
+    ]
+    code, shown = terminal(["new"], "".join(f"{each}\n" for each in answers))
+
+    assert code == 0, shown
+    assert "call it `rescue`" in shown
+    assert "call it `Uav`" in shown
+    main = (folder / "rescue" / "models" / "rescue.swarm").read_text()
+    assert "/// Finds people.\n" in main
+    assert "  uav   : Uav[2]\n  rover : Rover[1..5]\n" in main
+    members = (folder / "rescue" / "models" / "members.swarm").read_text()
+    assert "sensor Eye {" in members
+    assert "controller Brain {" in members
+    assert "actuator Wheels {" in members
+    monkeypatch.chdir(folder / "rescue")
+    assert swarmc("check", "--deny", "warnings").code == 0
+
+
+def test_who_leaves_the_questions_leaves_nothing(terminal, folder) -> None:
+    code, _ = terminal(["new", "rescue", "-i"], "\x04")
+
+    assert code == 130
+    assert list(folder.iterdir()) == []
