@@ -30,6 +30,8 @@ NO_MODEL = {
     *("unreadable-file", "not-text", "nothing-to-compile", "control-character"),
     *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
     *("cannot-write", "target-left-out", "generator-failed", "outdated-code"),
+    *("edited-output", "merge-conflict", "stale-output", "parked-code", "renamed-element"),
+    *("bad-rename", "old-name"),
     *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
     *("not-a-warning", "outside-workspace", "no-source-map"),
 }

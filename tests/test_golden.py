@@ -55,7 +55,7 @@ def make(model: Path, out: Path) -> dict[str, str]:
     for path in sorted(out.rglob("*")):
         name = path.relative_to(out).as_posix()
         common = ENGINE.fullmatch(name) or (model != SHOWN and SAME_IN_ALL.fullmatch(name))
-        if path.is_file() and path.name != ".swarmdsl.json" and not common:
+        if path.is_file() and not path.name.startswith(".swarmdsl") and not common:
             texts[name] = path.read_text(encoding="utf-8")
     return texts
 

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from functools import cache
-from hashlib import sha256
 from pathlib import Path
 
 from jinja2 import Environment
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
@@ -94,11 +93,10 @@ def _node_files(
     view = node_view(node, system, language(options.language, generation(options)))
     depends = _Depends(view, inside, options)
     variant = f"ros{options.ros}_{options.language}"
-    relies = view.relies
-    stamp = f"swarmc:fits {sha256(chr(10).join(relies).encode()).hexdigest()[:8]}"
+    facts = view.relies
     values = {
         "node": view,
-        "stamp": stamp,
+        "stamp": fits(facts),
         "guard": f"{node.package}_{node.package}".upper(),
         "refused": f"{node.model} is not implemented",
         "refused_literal": json.dumps(f"{node.model} is not implemented"),
@@ -124,6 +122,8 @@ def _node_files(
             _fill(template, **values),
             executable=path.startswith("scripts/"),
             keep=keep,
+            owner=node.model,
+            facts=facts if keep else (),
             origin=node.origin,
         )
     if inside is not None:

@@ -20,7 +20,7 @@ from swarmdsl.importing.text import checked, text_of
 from swarmdsl.ir import Environment, Member, Multiplicity, Role, Swarm, System
 from swarmdsl.lower import lower
 from swarmdsl.naming import snake_case
-from swarmdsl.output import write
+from swarmdsl.output import How, write
 from swarmdsl.source import Source
 
 PACKAGE = "fsm_behaviour"
@@ -35,15 +35,14 @@ def codegen(
     *,
     language: str,
     simulation: bool,
-    force: bool,
+    how: How,
 ) -> Result:
     """Make the packages of a state machine below `out`; `described` is an ADF file.
 
     States name functions of that whose skeletons they want (D5.4, section 5.3), in `language`.
     In a simulation, functions are not written anew, so that there are none.
 
-    A package that is there already is brought up to date: files in it that somebody has edited
-    are overwritten by `force` only.
+    A package that is there already is brought up to date, as `how` says.
     """
     report = Diagnostics()
     name = package_of(scxml)
@@ -68,7 +67,7 @@ def codegen(
     packages = _by_package(made, report)
     if report.has_errors:
         return Result(report, files)
-    return Result(report, files, written=write(packages, out, report, force=force))
+    return Result(report, files, written=write(packages, out, report, how))
 
 
 def _wanted(

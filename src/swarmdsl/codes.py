@@ -200,6 +200,17 @@ CODES: dict[str, Code] = {
     "outdated-code": Code(
         "SW0917", "warning", "`{path}` is written for another state of the model"
     ),
+    "edited-output": Code("SW0918", "warning", "`{path}` is generated, and has been edited"),
+    "merge-conflict": Code(
+        "SW0919", "error", "`{path}` has been edited where what is generated changes"
+    ),
+    "stale-output": Code("SW0920", "error", "`{path}` {fault}: {way}"),
+    "parked-code": Code(
+        "SW0921", "warning", "`{path}` is put aside: nothing is generated for it any more"
+    ),
+    "renamed-element": Code("SW0922", "warning", "`{new}` looks like `{old}` under another name"),
+    "bad-rename": Code("SW0923", "error", "`{old}` cannot be renamed to `{new}`: {fault}"),
+    "old-name": Code("SW0924", "warning", "`{path}` may still mean `{name}` here"),
     "no-source-map": Code("SW0930", "error", "no source map in `{path}`: {reason}"),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),

@@ -18,7 +18,7 @@ from swarmdsl.validate import validate
 if TYPE_CHECKING:
     from swarmdsl.emit import Request
     from swarmdsl.ir import System
-    from swarmdsl.output import Written
+    from swarmdsl.output import How, Written
 
 _DEFAULTS = Settings()
 
@@ -62,19 +62,18 @@ def build(
     requests: Sequence[Request],
     out: Path,
     settings: Settings = _DEFAULTS,
-    *,
-    force: bool = False,
+    how: How | None = None,
 ) -> Result:
     """Check the model and write what the requested targets make of it below `out`."""
-    return generate(check(paths, settings), requests, out, force=force)
+    return generate(check(paths, settings), requests, out, how)
 
 
 def generate(
-    checked: Result, requests: Sequence[Request], out: Path, *, force: bool = False
+    checked: Result, requests: Sequence[Request], out: Path, how: How | None = None
 ) -> Result:
     """Write what the requested targets make of a checked model below `out`, if it is valid."""
     from swarmdsl.emit import emit
-    from swarmdsl.output import write
+    from swarmdsl.output import How, write
 
     if checked.system is None:
         return checked
@@ -84,4 +83,4 @@ def generate(
     report.include(placed(one, lambda span: span.absolute) for one in found)
     if report.has_errors:
         return checked
-    return replace(checked, written=write(files, out, report, force=force))
+    return replace(checked, written=write(files, out, report, how or How()))

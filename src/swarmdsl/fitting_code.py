@@ -7,13 +7,36 @@ that its code builds on. The person who has adapted the code writes the new mark
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from hashlib import sha256
 
 _MARK = re.compile(rb"swarmc:fits ([0-9a-f]{8})\b")
 
 
+def mark_of(facts: Iterable[str]) -> str:
+    """The mark that stands for what code builds on, a fact a line."""
+    return sha256("\n".join(facts).encode()).hexdigest()[:8]
+
+
+def fits(facts: Iterable[str]) -> str:
+    """What a file to fill in says of what code in it builds on: a line with the mark."""
+    return f"swarmc:fits {mark_of(facts)}"
+
+
+def mark_in(content: bytes) -> str | None:
+    """The mark in a file, None where it has none."""
+    found = _MARK.search(content)
+    return found[1].decode() if found is not None else None
+
+
 def outdated(of_user: bytes, generated: bytes) -> tuple[str, str] | None:
     """The mark in the user's file and the one it should have; None where it fits or has none."""
-    written, wanted = _MARK.search(of_user), _MARK.search(generated)
-    if written is None or wanted is None or written[1] == wanted[1]:
+    written, wanted = mark_in(of_user), mark_in(generated)
+    if written is None or wanted is None or written == wanted:
         return None
-    return written[1].decode(), wanted[1].decode()
+    return written, wanted
+
+
+def marked(content: bytes, mark: str) -> bytes:
+    """The file with another mark."""
+    return _MARK.sub(f"swarmc:fits {mark}".encode(), content, count=1)

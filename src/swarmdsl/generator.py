@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.fitting_code import fits
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.source import Span
 
@@ -74,16 +75,20 @@ class Mapped:
 class OutputFile:
     """A file to be written below the target's output folder.
 
-    `path` is relative, with `/` and no `..`. A file with `keep` is the user's once it
-    exists: it is written when missing and never again. `origin` is the place in the model
-    that gave the file its name: where a clash of two names is shown, and where lines come from
-    of which nothing else is known; a `MappedText` knows more (see `swarmdsl.source_map`).
+    `path` is relative, with `/` and no `..`. A file with `keep` is there to be filled in: once
+    somebody has written in it, it is left as it is. `owner` is the element of the model that it
+    is for, whose name is in its path. `facts` are what code in it builds on, a fact a line; the
+    mark of them (`fits`) is in the text. `origin` is the place in the model that gave the file
+    its name: where a clash of two names is shown, and where lines come from of which nothing
+    else is known; a `MappedText` knows more (see `swarmdsl.source_map`).
     """
 
     path: str
     text: str
     executable: bool = False
     keep: bool = False
+    owner: str = ""
+    facts: tuple[str, ...] = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
 
 
@@ -151,5 +156,6 @@ __all__ = [
     "NoOptions",
     "OutputFile",
     "Support",
+    "fits",
     "option",
 ]

@@ -10,6 +10,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
+Texts = Mapping[str, bytes]
+"""What the user has written in each region."""
+
 _MARK = re.compile(rb"swarmc:(begin|end) ([A-Za-z0-9_.]+)")
 
 
@@ -30,6 +33,11 @@ def kept(content: bytes) -> dict[str, bytes]:
     """What the user has written in each region; blank ones are left out. Raises RegionError."""
     found = {id_: b"".join(lines) for id_, lines in _pieces(content) if id_ is not None}
     return {id_: text for id_, text in found.items() if text.strip()}
+
+
+def ids(content: bytes) -> set[str]:
+    """The regions of a file. Raises RegionError."""
+    return {id_ for id_, _ in _pieces(content) if id_ is not None}
 
 
 def filled(content: bytes, of_user: Mapping[str, bytes]) -> tuple[bytes, list[str]]:

@@ -86,6 +86,7 @@ def _generator(target: str, description: str) -> GeneratorDesc:
     ) -> None:
         from swarmdsl import compiler
         from swarmdsl.emit import Request
+        from swarmdsl.output import How
 
         if model is None:
             raise TextXError("give a .swarm file to generate from")
@@ -96,7 +97,7 @@ def _generator(target: str, description: str) -> GeneratorDesc:
         settings = _settings(path)
         options = {**settings.targets.get(target, {}), **texts}
         request = Request(target, options)
-        result = compiler.build([path], [request], out, settings, force=overwrite)
+        result = compiler.build([path], [request], out, settings, How(force=overwrite))
         _raise_errors(result.report)
 
     return GeneratorDesc("swarm", target, description, generate)

@@ -44,22 +44,24 @@ def test_a_model_with_errors_makes_nothing(swarmc, bad, tmp_path):
     assert not (tmp_path / "made").exists()
 
 
-def test_an_edited_file_stops_the_build_until_forced(swarmc, good, tmp_path):
+def test_an_edited_file_is_told_until_the_edit_is_given_up(swarmc, good, tmp_path):
     arguments = ("build", good, "-t", "scxml", "-o", tmp_path / "made")
     swarmc(*arguments)
     edited = next((tmp_path / "made" / "scxml").glob("*.scxml"))
     made = edited.read_text()
     edited.write_text("mine")
     ran = swarmc(*arguments)
-    assert ran.code == 1
-    assert "error[SW0908]" in ran.out
+    assert ran.code == 0
+    assert "warning[SW0918]" in ran.out
     assert "--force" in ran.out
     assert edited.read_text() == "mine"
-    assert swarmc(*arguments, "--force").code == 0
+    ran = swarmc(*arguments, "--force")
+    assert (ran.code, ran.out) == (0, "")
+    assert f"note: `{edited}` was not as swarmc had written it, and is overwritten" in ran.err
     assert edited.read_text() == made
 
 
-def test_what_was_edited_and_is_no_longer_made_is_told(swarmc, good, tmp_path):
+def test_what_was_edited_and_is_no_longer_made_is_put_aside(swarmc, good, tmp_path):
     arguments = ("build", good, "-t", "scxml", "-o", tmp_path / "made")
     swarmc(*arguments)
     edited = next((tmp_path / "made" / "scxml").glob("*.scxml"))
@@ -67,7 +69,12 @@ def test_what_was_edited_and_is_no_longer_made_is_told(swarmc, good, tmp_path):
     good.write_text(good.read_text().replace("Blinking", "Flashing"))
     ran = swarmc(*arguments)
     assert ran.code == 0
-    assert f"note: `{edited}` is no longer generated; it was edited, so it stays" in ran.err
+    aside = tmp_path / "made" / ".parked" / "scxml" / edited.name
+    assert f"help: it is in `{aside}`" in ran.out
+    assert aside.read_text() == "mine"
+    good.write_text(good.read_text().replace("Flashing", "Blinking"))
+    assert f"note: `{aside}` is `{edited}` now" in swarmc(*arguments).err
+    assert edited.read_text() == "mine"
 
 
 @pytest.mark.parametrize(

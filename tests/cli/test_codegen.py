@@ -34,7 +34,7 @@ def files(folder: Path) -> set[str]:
     return {
         path.relative_to(folder).as_posix()
         for path in folder.rglob("*")
-        if path.is_file() and path.name != ".swarmdsl.json"
+        if path.is_file() and not path.name.startswith(".swarmdsl")
     }
 
 
@@ -78,10 +78,21 @@ def test_a_package_is_brought_up_to_date_and_never_overwritten(
     edited.write_text("# mine\n", encoding="utf-8")
     door.write_text(DOOR.replace("shut", "lock"), encoding="utf-8")
     assert run(command) == 1
-    assert "error[SW0908]" in capsys.readouterr().out
+    assert "error[SW0919]" in capsys.readouterr().out
     assert edited.read_text(encoding="utf-8") == "# mine\n"
     assert run([*command, "--force"]) == 0
     assert "Lock" in edited.read_text(encoding="utf-8")
+    assert run([*command, "--check"]) == 0
+    door.write_text(DOOR, encoding="utf-8")
+    capsys.readouterr()
+    assert run([*command, "--dry-run"]) == 0
+    assert f"change    {edited.as_posix()}\n" in capsys.readouterr().out
+    assert run([*command, "--diff"]) == 1
+    assert f"--- {edited.as_posix()}\n" in capsys.readouterr().out
+    assert run([*command, "--check"]) == 1
+    assert f"`{edited}` is out of date" in capsys.readouterr().out
+    assert "Lock" in edited.read_text(encoding="utf-8")
+    assert run([*command, "--check", "--force"]) == 2
 
 
 @pytest.mark.parametrize(

@@ -113,9 +113,10 @@ def test_generate_overwrites_only_when_told(good, tmp_path):
     textx("generate", good, "--target", "scxml", "-o", tmp_path)
     edited = next((tmp_path / "scxml").glob("*.scxml"))
     edited.write_text("mine")
+    good.write_text(good.read_text().replace("Off", "Dark"))
     refused = textx("generate", good, "--target", "scxml", "-o", tmp_path)
     assert refused.returncode == 1
-    assert "would be overwritten" in refused.stderr
+    assert "has been edited where what is generated changes" in refused.stderr
     assert edited.read_text() == "mine"
     forced = textx("generate", good, "--target", "scxml", "-o", tmp_path, "--overwrite")
     assert forced.returncode == 0, forced.stderr

@@ -7,16 +7,17 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import NAME
-from swarmdsl.output import Written, write
+from swarmdsl.output import Action, How, Written, texts, write
 
 FIRST = "one\n# swarmc:begin m.a\n# swarmc:end m.a\ntwo\n# swarmc:begin m.b\n# swarmc:end m.b\n"
+CONFLICT = "`OUT/t/f` has been edited where what is generated changes"
 MOVED = "new\n# swarmc:begin m.b\n# swarmc:end m.b\n1\n# swarmc:begin m.a\n# swarmc:end m.a\n"
 
 
 def build(text: str | None, out: Path, **options: bool) -> tuple[Written | None, list[str]]:
     report = Diagnostics()
     files = [] if text is None else [OutputFile("f", text)]
-    written = write({"t": files}, out, report, **options)
+    written = write({"t": files}, out, report, How(**options))
     return written, [found.message.replace(out.as_posix(), "OUT") for found in report]
 
 
@@ -62,55 +63,66 @@ def test_they_move_with_their_marks(out: Path) -> None:
 def test_an_edit_outside_is_found(out: Path) -> None:
     edit(out, "two", "2")
 
-    assert build(MOVED, out)[1] == ["`OUT/t/f` would be overwritten, but it has been edited"]
+    assert build(MOVED, out)[1] == [CONFLICT]
+    assert "\n2\n" in (out / "t/f").read_text()
+    assert "\nmine\n" in (out / "t/f.swarmc-new").read_text()
     assert build(MOVED, out, force=True)[1] == []
     assert "\nmine\n" in (out / "t/f").read_text()
+    assert not (out / "t/f.swarmc-new").exists()
+
+
+def test_an_edit_outside_is_merged_beside_them(out: Path) -> None:
+    edit(out, "two", "2")
+    text = (out / "t/f").read_text()
+
+    assert build("zero\n" + FIRST, out)[1] == ["`OUT/t/f` is generated, and has been edited"]
+    assert (out / "t/f").read_text() == "zero\n" + text
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "reason"),
+    ("old", "new"),
     [
-        ("# swarmc:end m.a\n", "", "region `m.b` begins inside region `m.a`"),
-        ("# swarmc:begin m.a\n", "", "region `m.a` ends where it has not begun"),
-        ("# swarmc:end m.b\n", "", "region `m.b` has no end"),
-        (
-            "b\n# swarmc:end m.b\n",
-            "# swarmc:end m.b\n# swarmc:begin m.b\n",
-            "there are two regions `m.b`",
-        ),
+        ("# swarmc:end m.a\n", ""),
+        ("# swarmc:begin m.a\n", ""),
+        ("# swarmc:end m.b\n", ""),
+        ("b\n# swarmc:end m.b\n", "# swarmc:end m.b\n# swarmc:begin m.b\n"),
     ],
 )
-def test_marks_that_were_damaged_are_reported(out: Path, old: str, new: str, reason: str) -> None:
+def test_where_marks_were_damaged_nothing_is_lost(out: Path, old: str, new: str) -> None:
     edit(out, old, new)
     before = (out / "t/f").read_bytes()
 
-    assert build(MOVED, out) == (None, [f"`OUT/t/f` would be overwritten, but {reason}"])
+    assert build(MOVED, out)[1] == [CONFLICT]
     assert (out / "t/f").read_bytes() == before
 
 
 def test_a_region_that_is_gone_is_not_lost(out: Path) -> None:
     without = FIRST.replace("# swarmc:begin m.a\n# swarmc:end m.a\n", "")
-    reason = "region `m.a` has lines of yours, and is not part of it any more"
 
-    assert build(without, out) == (None, [f"`OUT/t/f` would be overwritten, but {reason}"])
+    for _ in range(2):
+        assert build(without, out)[1] == [CONFLICT]
+        assert "\nmine\n" in (out / "t/f").read_text()
     edit(out, "mine\n\n  é\n", "\n")
     assert build(without, out)[1] == []
 
 
-def test_a_file_that_is_not_made_any_more_stays_with_what_is_in_it(out: Path) -> None:
+def test_a_file_that_is_not_made_any_more_is_put_aside_with_what_is_in_it(out: Path) -> None:
     written, said = build(None, out)
 
-    assert said == []
+    assert said == ["`OUT/t/f` is put aside: nothing is generated for it any more"]
     assert written is not None
-    assert written.left == ("t/f",)
-    assert "mine" in (out / "t/f").read_text()
+    assert written.paths(Action.PARK) == (".parked/t/f",)
+    assert not (out / "t/f").exists()
+    assert build(MOVED, out)[1] == []
+    assert "\nmine\n" in (out / "t/f").read_text()
+    assert not (out / ".parked").exists()
 
 
 def test_without_lines_of_the_user_it_goes(tmp_path: Path) -> None:
     build(FIRST, tmp_path)
     build(None, tmp_path)
 
-    assert sorted(path.name for path in tmp_path.iterdir()) == [NAME]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [NAME, texts.NAME]
 
 
 def test_marks_in_a_text_that_are_none_do_no_harm(tmp_path: Path) -> None:

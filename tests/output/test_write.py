@@ -9,12 +9,12 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import NAME
-from swarmdsl.output import Written, write
+from swarmdsl.output import Action, How, Written, texts, write
 
 
 def write_ok(output, out: Path, **options) -> Written:
     report = Diagnostics()
-    written = write(output, out, report, **options)
+    written = write(output, out, report, How(**options))
     assert written is not None, [found.message for found in report]
     assert len(report) == 0
     return written
@@ -24,7 +24,7 @@ def errors(output, out: Path, **options) -> list[str]:
     """The names of what was reported; nothing may have been written."""
     before = tree(out)
     report = Diagnostics()
-    assert write(output, out, report, **options) is None
+    assert write(output, out, report, How(**options)) is None
     assert tree(out) == before
     return [found.name for found in report]
 
@@ -46,7 +46,7 @@ def test_files_lie_below_the_folder_of_their_target(tmp_path):
     output = {"a": [OutputFile("x/y.txt", "é\n")], "b": [OutputFile("run", "", executable=True)]}
     written = write_ok(output, tmp_path / "deep" / "out")
     out = tmp_path / "deep" / "out"
-    assert tree(out).keys() == {NAME, "a", "a/x", "a/x/y.txt", "b", "b/run"}
+    assert tree(out).keys() == {NAME, texts.NAME, "a", "a/x", "a/x/y.txt", "b", "b/run"}
     assert (out / "a/x/y.txt").read_bytes() == "é\n".encode()
     assert os.access(out / "b/run", os.X_OK)
     assert not os.access(out / "a/x/y.txt", os.X_OK)
@@ -106,13 +106,12 @@ def test_an_edited_file_is_not_overwritten_unasked(tmp_path):
     write_ok(files(a="1"), tmp_path)
     (tmp_path / "t/a").write_text("edited")
     report = Diagnostics()
-    assert write(files(a="2"), tmp_path, report) is None
+    assert write(files(a="2"), tmp_path, report) is not None
     (found,) = report
-    assert found.name == "would-overwrite"
-    assert "edited" in found.message
+    assert found.name == "merge-conflict"
     assert "--force" in (found.help or "")
     assert (tmp_path / "t/a").read_text() == "edited"
-    write_ok(files(a="2"), tmp_path, force=True)
+    assert write_ok(files(a="2"), tmp_path, force=True).paths(Action.OVERWRITE) == ("t/a",)
     assert (tmp_path / "t/a").read_text() == "2"
 
 
@@ -122,32 +121,35 @@ def test_a_deleted_file_is_written_again(tmp_path):
     assert write_ok(files(a="1"), tmp_path).written == ("t/a",)
 
 
-def test_a_file_to_keep_is_written_once(tmp_path):
+def test_a_file_to_fill_in_is_the_users_once_it_is_edited(tmp_path):
     def output(text):
         return {"t": [OutputFile("body.py", text, keep=True)]}
 
     assert write_ok(output("1"), tmp_path).written == ("t/body.py",)
-    assert write_ok(output("2"), tmp_path).kept == ("t/body.py",)
+    # As long as nobody has written in it, it follows the model.
+    assert write_ok(output("2"), tmp_path).written == ("t/body.py",)
     (tmp_path / "t/body.py").write_text("mine")
     assert write_ok(output("3"), tmp_path, force=True).kept == ("t/body.py",)
-    assert write_ok({"t": []}, tmp_path).removed == ()
     assert (tmp_path / "t/body.py").read_text() == "mine"
 
 
 def test_what_is_no_longer_generated_is_removed_with_its_folder(tmp_path):
     write_ok({"t": [OutputFile("d/e/old", "1"), OutputFile("new", "1")]}, tmp_path)
     assert write_ok(files(new="1"), tmp_path).removed == ("t/d/e/old",)
-    assert tree(tmp_path).keys() == {NAME, "t", "t/new"}
+    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/new"}
 
 
-def test_what_is_no_longer_generated_but_was_edited_stays(tmp_path):
+def test_what_is_no_longer_generated_but_was_edited_is_put_aside(tmp_path):
     write_ok(files(old="1", new="1"), tmp_path)
     (tmp_path / "t/old").write_text("edited")
-    written = write_ok(files(new="1"), tmp_path, force=True)
-    assert (written.removed, written.left) == ((), ("t/old",))
-    assert (tmp_path / "t/old").read_text() == "edited"
-    # From now on it is the user's, and no longer worth a word.
-    assert write_ok(files(new="1"), tmp_path).left == ()
+    report = Diagnostics()
+    written = write(files(new="1"), tmp_path, report, How(force=True))
+    assert written is not None
+    assert (written.removed, written.paths(Action.PARK)) == ((), (".parked/t/old",))
+    assert [found.name for found in report] == ["parked-code"]
+    assert (tmp_path / ".parked/t/old").read_text() == "edited"
+    # From now on it is no longer worth a word.
+    assert write_ok(files(new="1"), tmp_path).changes == ()
 
 
 def test_the_output_of_targets_that_are_not_built_stays(tmp_path):
@@ -159,7 +161,7 @@ def test_the_output_of_targets_that_are_not_built_stays(tmp_path):
 def test_a_target_that_makes_nothing_any_more_leaves_nothing(tmp_path):
     write_ok(files(a="1"), tmp_path)
     assert write_ok({"t": []}, tmp_path).removed == ("t/a",)
-    assert tree(tmp_path).keys() == {NAME}
+    assert tree(tmp_path).keys() == {NAME, texts.NAME}
 
 
 def test_a_file_renamed_in_case_only_is_not_lost(tmp_path):
@@ -171,9 +173,10 @@ def test_a_file_renamed_in_case_only_is_not_lost(tmp_path):
 @pytest.mark.parametrize(
     "content", ["", "{", "[]", '{"files": 1}', '{"files": {"t/a": 7}}', "\xff"]
 )
-def test_a_spoilt_manifest_makes_every_file_the_users(tmp_path, content):
+def test_spoilt_lists_make_every_file_the_users(tmp_path, content):
     write_ok(files(a="1"), tmp_path)
     (tmp_path / NAME).write_text(content, encoding="latin-1")
+    (tmp_path / texts.NAME).write_text(content, encoding="latin-1")
     assert errors(files(a="2"), tmp_path) == ["would-overwrite"]
 
 
@@ -248,7 +251,7 @@ def test_a_pipe_where_a_file_is_to_be_does_not_hang(tmp_path):
     (tmp_path / "t").mkdir()
     os.mkfifo(tmp_path / "t/a")
     report = Diagnostics()
-    assert write(files(a="1"), tmp_path, report, force=True) is None
+    assert write(files(a="1"), tmp_path, report, How(force=True)) is None
     assert [found.name for found in report] == ["cannot-write"]
 
 
@@ -281,7 +284,9 @@ def test_a_failing_disk_leaves_no_half_written_output(tmp_path, monkeypatch):
         report = Diagnostics()
         assert write(files(a="1", b="1"), tmp_path / "out", report) is None
     (found,) = report
-    assert found.message == f"cannot write `{tmp_path / 'out/t/a'}`: no space left on device"
+    assert (
+        found.message == f"cannot write `{tmp_path / 'out' / texts.NAME}`: no space left on device"
+    )
     assert tree(tmp_path) == {}
 
 
@@ -299,7 +304,7 @@ def test_the_manifest_is_true_when_only_some_files_could_be_replaced(tmp_path, m
         patch.setattr(os, "replace", replace)
         report = Diagnostics()
         assert write(files(a="2", b="2"), tmp_path, report) is None
-    assert tree(tmp_path).keys() == {NAME, "t", "t/a", "t/b"}
+    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/a", "t/b"}
     assert ((tmp_path / "t/a").read_text(), (tmp_path / "t/b").read_text()) == ("2", "1")
     # Neither of them counts as edited.
     assert write_ok(files(a="3", b="3"), tmp_path).written == ("t/a", "t/b")

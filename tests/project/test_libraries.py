@@ -197,7 +197,7 @@ statemachine Sweep {
 """
     root = project({"mission.swarm": mission})
     assert swarmc("build", "-t", "scxml", "-t", "adf").code == 0
-    written = "\n".join(p.read_text() for p in (root / "out").rglob("*") if p.is_file())
+    written = "\n".join(p.read_text() for p in (root / "out").rglob("*/*") if p.is_file())
     for name in ("MissionStart", "cmd/takeoff", "uav_random_coverage", "cmd/land"):
         assert name in written
     for name in ("TargetFound", "rois/assign", "ugv_coverage"):

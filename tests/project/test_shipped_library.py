@@ -47,7 +47,7 @@ def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
     path.write_text("\n".join(_everything(name, system)), encoding="utf-8")
     request = Request(target, {"profile": "portable"} if target == "scxml" else {})
     result = compiler.build([path], [request], tmp_path / "out")
-    made = [each for each in (tmp_path / "out").rglob("*") if each.is_file()]
+    made = [each for each in (tmp_path / "out" / target).rglob("*") if each.is_file()]
     text = "\n".join(each.read_text(encoding="utf-8") for each in made)
 
     assert [found.message for found in result.report] == []

@@ -13,6 +13,7 @@ from swarmdsl.emit import Request
 from .test_output import VARIANTS
 
 MODEL = (Path(__file__).parent / "model.swarm").read_text(encoding="utf-8")
+OF_SWARMC = {".swarmc-changes", ".swarmc-new"}
 CHANGES = [
     ("    height : float64\n", "    height : float64\n    speed  : float64\n"),
     ("height : float64", "height : float32"),
@@ -38,8 +39,9 @@ def build(request: pytest.FixtureRequest, tmp_path: Path) -> Any:
         options = {"ros": ros, "language": language}
         result = compiler.build([path], [Request("skeleton", options)], tmp_path / "out")
         folder = tmp_path / "out" / "skeleton" / "climb"
-        files = (path for path in folder.rglob("*") if path.is_file())
-        return result, [path for path in files if b"swarmc:fits" in path.read_bytes()]
+        files = (path for path in folder.rglob("*") if path.suffix not in OF_SWARMC)
+        of_user = [path for path in files if path.is_file()]
+        return result, [path for path in of_user if b"swarmc:fits" in path.read_bytes()]
 
     return build
 
@@ -80,6 +82,7 @@ def test_code_that_a_change_affects_is_told_until_it_is_adapted(
         path.write_text(text.replace(f"swarmc:fits {told[3]}", told[1]), encoding="utf-8")
     result, _ = build(changed)
     assert outdated(result) == []
+    assert not [path for path in files if path.with_name(f"{path.name}.swarmc-changes").exists()]
 
 
 @pytest.mark.parametrize(("old", "new"), NO_CHANGES)

@@ -102,7 +102,7 @@ def test_a_manifest_gives_back_what_it_was_given(tmp_path: Path, place: Span) ->
         "smach/lab/node.py": positions.file_map(OutputFile("lab/node.py", text, origin=place)),
         "smach/lab/mine.py": positions.file_map(OutputFile("lab/mine.py", text, keep=True)),
     }
-    (tmp_path / manifest.NAME).write_bytes(manifest.to_bytes({}, maps))
+    (tmp_path / manifest.NAME).write_bytes(manifest.to_bytes(manifest.Manifest(maps=maps)))
     found = Position(Model("../models/lab.swarm", map_file.digest(MODEL.text)), 3, 3, 14)
 
     assert manifest.read_maps(tmp_path) == maps

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.cli.outcome import conclude
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
+from swarmdsl.cli.writing import OPTIONS as OF_WRITING
 
 if TYPE_CHECKING:
     from swarmdsl.compiler import Result
@@ -39,10 +40,11 @@ OPTIONS = (
         metavar="TARGET.NAME=VALUE",
         repeated=True,
     ),
+    *OF_WRITING,
     Option(
-        "force",
-        ("--force",),
-        "Overwrite generated files that were edited, and others in their place.",
+        "clean",
+        ("--clean",),
+        "Remove what was generated and not edited, of the targets named or of all; build nothing.",
     ),
     Option("dump_ir", ("--dump-ir",), "Print the intermediate representation and write nothing."),
     WATCH,
@@ -57,6 +59,11 @@ def build(
     out: Path | None,
     given: tuple[str, ...],
     force: bool,
+    check: bool,
+    dry_run: bool,
+    diff: bool,
+    renames: tuple[str, ...],
+    clean: bool,
     dump_ir: bool,
     watch: bool,
     allow: tuple[str, ...],
@@ -66,39 +73,54 @@ def build(
 ) -> int:
     """Check models and generate what the targets make of them.
 
-    Files that were edited are not overwritten, files that are up to date not touched, and
-    what an earlier build made and this one does not is removed.
+    Files that are up to date are not touched, and what an earlier build made and this one does
+    not is removed. What you write stays: files to fill in are left as they are, what was edited
+    elsewhere is merged with what is new, and code for what the model does not have any more is
+    put aside.
     """
     from swarmdsl import compiler
+    from swarmdsl.cli.writing import writing
     from swarmdsl.diagnostics import Diagnostics, Level
-    from swarmdsl.project.command_line import UsageError, requests, run_settings
+    from swarmdsl.project.command_line import requests, run_settings
 
+    mode = writing(locals())
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
     report = Diagnostics()
     settings = run_settings(paths, levels, report)
     wanted = requests(targets, given, settings)
-    if watch and dump_ir:
-        raise UsageError("--dump-ir prints once: use it without --watch")
+    how = mode.how("swarmc", "build", *paths, *_repeated(targets, given, out))
     if watch:
         from swarmdsl.cli.watch import watch_files
 
         def build_again(checked: Result, settings: Settings) -> int:
             wanted = requests(targets, given, settings)
-            folder = out or settings.out
-            result = compiler.generate(checked, wanted, folder, force=force)
-            return conclude(result, format_, sys.stdout)
+            result = compiler.generate(checked, wanted, out or settings.out, how)
+            return mode.conclude(result, format_)
 
         return watch_files(paths, lambda report: run_settings(paths, levels, report), build_again)
     stream = sys.stderr if dump_ir else sys.stdout
     if report.has_errors:
         return conclude(compiler.Result(report, files=1), format_, stream)
+    folder = out or settings.out
+    if clean:
+        from swarmdsl.output.clean import clean as clean_folder
+
+        written = clean_folder(folder, targets, report, dry=dry_run)
+        return mode.conclude(compiler.Result(report, files=0, written=written), format_)
     if not dump_ir:
-        folder = out or settings.out
-        result = compiler.build(settings.sources, wanted, folder, settings, force=force)
-        return conclude(result, format_, stream)
+        result = compiler.build(settings.sources, wanted, folder, settings, how)
+        return mode.conclude(result, format_)
     result = compiler.check(settings.sources, settings)
     if result.system is not None:
         from swarmdsl.ir.dump import dump
 
         sys.stdout.write(dump(result.system))
     return conclude(result, format_, stream)
+
+
+def _repeated(targets: tuple[str, ...], given: tuple[str, ...], out: Path | None) -> list[object]:
+    """Options of a command line to be repeated."""
+    words: list[object] = []
+    for flag, values in (("--target", targets), ("--option", given)):
+        words += (word for value in values for word in (flag, value))
+    return words if out is None else [*words, "-o", out]

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import conclude
+from swarmdsl.cli.writing import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
+from swarmdsl.project.command_line import UsageError
 
 _FILE = click.Path(path_type=Path)
 
@@ -49,7 +49,11 @@ _FILE = click.Path(path_type=Path)
     show_default=True,
     help="The language of skeletons.",
 )
-@click.option("--force", is_flag=True, help="Overwrite generated files that were edited.")
+@options.option(FORCE)
+@options.option(CHECK)
+@options.option(DRY_RUN)
+@options.option(DIFF)
+@options.option(RENAME)
 @options.diagnostics_format
 @options.debug
 def codegen(
@@ -61,6 +65,10 @@ def codegen(
     package: str,
     language: str,
     force: bool,
+    check: bool,
+    dry_run: bool,
+    diff: bool,
+    renames: tuple[str, ...],
     format_: str,
 ) -> int:
     """Generate ROS packages from SCXML and ADF files, as the CPSwarm code generator does.
@@ -69,8 +77,12 @@ def codegen(
     """
     from swarmdsl.codegen import codegen as generate
 
+    try:
+        how_to_write = writing(locals())
+    except UsageError as error:
+        raise click.UsageError(str(error)) from error
+    described = () if adf is None else ("--adf", adf)
+    how = how_to_write.how("swarmc", "codegen", "--scxml", scxml, *described, "-o", out)
     simulation = mode is not None
-    result = generate(
-        scxml, adf, out, package, language=language, simulation=simulation, force=force
-    )
-    return conclude(result, format_, sys.stdout)
+    result = generate(scxml, adf, out, package, language=language, simulation=simulation, how=how)
+    return how_to_write.conclude(result, format_)

@@ -20,14 +20,15 @@ INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 _USAGE_FAULTS = frozenset({"unknown-target", "bad-option"})
 
 
-def conclude(result: Result, format_: str, stream: TextIO) -> int:
-    """Print what came of a run; return the exit code."""
+def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool = True) -> int:
+    """Print what came of a run, and of the files that it wrote; return the exit code."""
     render(result.report, format_, stream)
-    if result.written is not None:
+    if result.written is not None and about_files:
         from swarmdsl.render.written import render_written
 
         render_written(result.written, sys.stderr)
-    sys.stderr.write(f"{summary(result.report, result.files)}\n")
+    if result.files or len(result.report):
+        sys.stderr.write(f"{summary(result.report, result.files)}\n")
     return exit_code(result.report)
 
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import io
 import os
 import re
 import stat
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import unified_diff
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
@@ -16,6 +14,7 @@ from swarmdsl.format import formatted
 from swarmdsl.load import expanded
 from swarmdsl.reading import decoded, read_bytes
 from swarmdsl.staging import Staging
+from swarmdsl.unified_diff import unified_diff
 
 STDIN = "<stdin>"
 _LINE_END = re.compile(rb"\r\n|\n|\r")
@@ -36,11 +35,7 @@ class Layout:
 
     def diff(self) -> str:
         """What would change, as a unified diff."""
-        lines = unified_diff(_lines(self.before), _lines(self.after), self.name, self.name)
-        return "".join(
-            line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
-            for line in lines
-        )
+        return unified_diff(self.before, self.after, self.name, self.name)
 
 
 def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
@@ -92,8 +87,3 @@ def write(layouts: Sequence[Layout], report: Diagnostics) -> bool:
         report.report("cannot-write", path=error.filename or "", reason=reason)
         return False
     return True
-
-
-def _lines(content: bytes) -> list[str]:
-    # Not `splitlines`, which ends lines at more characters than editors do.
-    return list(io.StringIO(content.decode(), newline="\n"))

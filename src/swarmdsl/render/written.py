@@ -5,29 +5,49 @@ from __future__ import annotations
 from collections import Counter
 from typing import TextIO
 
-from swarmdsl.output import Written
+from swarmdsl.output import Action, Written
+from swarmdsl.output.changes import NEW_TEXT
 from swarmdsl.render import counted
 from swarmdsl.render.printable import printable
 
-_COLUMNS = ("written", "unchanged", "kept", "removed")
-
 
 def render_written(written: Written, stream: TextIO) -> None:
-    """Write the number of files by target, and what became of those no longer made."""
+    """Write the number of files by target, and what became of those of the user."""
     counts = {
-        column: Counter(path.partition("/")[0] for path in getattr(written, column))
-        for column in _COLUMNS
+        "written": _by_target(written, *NEW_TEXT),
+        "unchanged": Counter(map(_target, written.unchanged)),
+        "kept": Counter(map(_target, written.kept)),
+        "edited": Counter(map(_target, written.edited)),
+        "in conflict": Counter(map(_target, written.conflicts)),
+        "moved": _by_target(written, Action.MOVE, Action.RESTORE),
+        "put aside": _by_target(written, Action.PARK),
+        "removed": _by_target(written, Action.REMOVE),
     }
-    columns = [column for column in _COLUMNS if counts[column] or column == "written"]
+    columns = [column for column in counts if counts[column] or column == "written"]
     targets = dict.fromkeys(target for counter in counts.values() for target in counter)
     rows = [[target, *(str(counts[each][target] or "-") for each in columns)] for target in targets]
     if rows:
         _render_table(["target", *columns], rows, stream)
-    for path in written.left:
-        place = printable(str(written.folder / path))
-        stream.write(f"note: `{place}` is no longer generated; it was edited, so it stays\n")
-    files = len(written.written) + len(written.unchanged) + len(written.kept)
+    for change in written.changes:
+        place = written.folder / change.path
+        if change.action in (Action.MOVE, Action.RESTORE) and change.source is not None:
+            said = f"`{written.folder / change.source}` is `{place}` now"
+        elif change.action is Action.OVERWRITE:
+            said = f"`{place}` was not as swarmc had written it, and is overwritten"
+        else:
+            continue
+        stream.write(f"note: {printable(said)}\n")
+    there = ("written", "unchanged", "kept", "edited", "in conflict", "moved")
+    files = sum(sum(counts[column].values()) for column in there)
     stream.write(f"{counted(files, 'file')} in {printable(str(written.folder))}\n")
+
+
+def _by_target(written: Written, *actions: Action) -> Counter[str]:
+    return Counter(change.target for change in written.changes if change.action in actions)
+
+
+def _target(path: str) -> str:
+    return path.partition("/")[0]
 
 
 def _render_table(head: list[str], rows: list[list[str]], stream: TextIO) -> None:

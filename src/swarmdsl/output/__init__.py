@@ -1,0 +1,51 @@
+"""Writes the generated files: all of them or none, and never over what the user wrote.
+
+The files of target `t` go to the folder `t` of the output folder. A manifest lists what
+was generated there; whatever is not in it, or was edited since, is the user's.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from swarmdsl import manifest
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.output.carry_out import carry_out
+from swarmdsl.output.changes import Action, Change, How, Written
+from swarmdsl.output.disk import Disk, report_os_error
+from swarmdsl.output.plan import Plan
+from swarmdsl.output.stale import report_stale
+
+_AS_IS = How()
+
+
+def write(
+    output: Mapping[str, Sequence[OutputFile]],
+    out: Path,
+    report: Diagnostics,
+    how: How = _AS_IS,
+) -> Written | None:
+    """Bring the folder `out` up to date with the files of each target, or say what that would be.
+
+    None when something stands in the way: it is reported and nothing is changed.
+    """
+    plan = Plan(Disk(out), manifest.read(out), how, report)
+    plan.add_all(output)
+    if report.has_errors:
+        return None
+    if how.check:
+        report_stale(plan.written, plan.manifest != plan.before, plan.remarks, report)
+        return plan.written
+    if not how.dry:
+        try:
+            carry_out(plan)
+        except OSError as error:
+            report_os_error(Path(error.filename or out), error, report)
+            return None
+    report.include(plan.remarks)
+    return plan.written
+
+
+__all__ = ["Action", "Change", "How", "Written", "write"]

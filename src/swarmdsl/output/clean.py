@@ -1,0 +1,36 @@
+"""Removes what was generated, and nothing that the user has written in."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from pathlib import Path
+
+from swarmdsl import manifest
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.output import texts
+from swarmdsl.output.carry_out import carry_out
+from swarmdsl.output.changes import How, Written
+from swarmdsl.output.disk import Disk, report_os_error
+from swarmdsl.output.plan import Plan
+
+
+def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool) -> Written | None:
+    """Remove from a folder what was generated, or say what that would be.
+
+    `targets` are those whose files go; all where none is named.
+
+    What the user has written in stays in its place, and is known for the next build. None when
+    something stands in the way, which is reported.
+    """
+    plan = Plan(Disk(out), manifest.read(out), How(dry=dry), report)
+    plan.clean(targets or {path.partition("/")[0] for path in plan.before.files})
+    if not dry:
+        try:
+            carry_out(plan)
+            if not (plan.manifest.files or plan.manifest.parked):
+                for name in (manifest.NAME, texts.NAME):
+                    (out / name).unlink(missing_ok=True)
+        except OSError as error:
+            report_os_error(Path(error.filename or out), error, report)
+            return None
+    return plan.written

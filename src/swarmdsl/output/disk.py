@@ -1,0 +1,97 @@
+"""The files of an output folder as they are on disk."""
+
+from __future__ import annotations
+
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics
+
+_CACHES = ("__pycache__",)
+
+
+class Disk:
+    """Looks into an output folder; paths are below it."""
+
+    def __init__(self, out: Path) -> None:
+        self.out = out
+        self._inside: dict[Path, bool] = {}
+
+    def leads_inside(self, path: str) -> bool:
+        """Whether no symbolic link on the way leads out of the output folder."""
+        place = self.out / path
+        if os.path.islink(place):  # noqa: PTH114 - no error for a name that the disk does not take
+            return self._is_inside(place)
+        folder = place.parent
+        if folder not in self._inside:
+            self._inside[folder] = self._is_inside(folder)
+        return self._inside[folder]
+
+    def _is_inside(self, place: Path) -> bool:
+        # Not Path.resolve: it raises an error for links that lead in a circle.
+        real = Path(os.path.realpath(place))
+        return real.is_relative_to(os.path.realpath(self.out))
+
+    def content(self, path: str) -> bytes | None:
+        """The content of a file, None when there is none; OSError when it is something else."""
+        place = self.out / path
+        try:
+            mode = place.stat().st_mode
+        except FileNotFoundError:
+            return None
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(0, "it is a folder", str(place))
+        if not stat.S_ISREG(mode):
+            # Reading a pipe or a device could wait forever.
+            raise OSError(0, "it is not an ordinary file", str(place))
+        return place.read_bytes()
+
+    def mode(self, path: str) -> int:
+        """The permissions of a file that is there."""
+        return stat.S_IMODE((self.out / path).stat().st_mode)
+
+    def is_executable(self, path: str) -> bool:
+        """Whether the file can be run."""
+        return os.access(self.out / path, os.X_OK)
+
+    def same(self, path: str, other: str) -> bool:
+        """Whether two paths are one file, where case does not count."""
+        return (self.out / path).samefile(self.out / other)
+
+    def is_link(self, path: str) -> bool:
+        """Whether it is a symbolic link."""
+        return (self.out / path).is_symlink()
+
+    def obstacle(self, path: str) -> Path:
+        """The file that is where a folder is needed for another one."""
+        above = (self.out / path).parents
+        return next(place for place in above if place.exists() and not place.is_dir())
+
+    def files(self, folder: str) -> Iterator[str]:
+        """The ordinary files below a folder, but for what Python caches."""
+        for place, folders, names in os.walk(self.out / folder):
+            folders[:] = sorted(name for name in folders if name not in _CACHES)
+            for name in sorted(names):
+                found = Path(place, name)
+                if found.is_file() and not found.is_symlink():
+                    yield found.relative_to(self.out).as_posix()
+
+    def remove(self, path: str) -> None:
+        """Remove a file, and the folders that are empty then."""
+        place = self.out / path
+        place.unlink(missing_ok=True)
+        for folder in place.parents:
+            if folder == self.out:
+                return
+            try:
+                folder.rmdir()
+            except OSError:
+                return  # there is something else in it
+
+
+def report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:
+    """Report what the system says about a file."""
+    reason = error.strerror or str(error) or type(error).__name__
+    report.report("cannot-write", path=str(path), reason=reason[0].lower() + reason[1:])

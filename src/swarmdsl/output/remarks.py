@@ -1,0 +1,155 @@
+"""What is told about files that the user has worked on, and what is written beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.fitting_code import mark_in
+from swarmdsl.generator import OutputFile
+from swarmdsl.output.merge import Merge, first_difference
+from swarmdsl.output.names import Names
+from swarmdsl.source import Source, Span
+from swarmdsl.suggest import suggest
+from swarmdsl.unified_diff import unified_diff
+
+NEW = ".swarmc-new"
+"""Ends the name of what would be generated in place of a file that it cannot be merged with."""
+
+NOTE = ".swarmc-changes"
+"""Ends the name of what says how a model has changed below code of the user."""
+
+_MOST_LINES = 10
+
+
+def report_edited(
+    place: Path, content: bytes, base: bytes, taken: int, report: Diagnostics
+) -> None:
+    """A generated file has been edited, and `taken` changes were merged into it."""
+    source = _source(place, content)
+    at = _lines(source, first_difference(base, content))
+    changes = "one change" if taken == 1 else f"{taken} changes"
+    notes = (f"{changes} of what is generated merged into it",) if taken else ()
+    help_ = "a region or a file of yours keeps lines for good; `--force` gives up the edit"
+    report.report("edited-output", at, path=str(place), notes=notes, help=help_)
+
+
+def report_conflict(place: Path, content: bytes, merge: Merge | None, report: Diagnostics) -> None:
+    """A generated file has been edited where it changes; what would be there is beside it."""
+    source = _source(place, content)
+    others: tuple[Label, ...] = ()
+    at: Span | None = None
+    notes: tuple[str, ...] = ("what it was made from is not known",)
+    if merge is not None:
+        spans = [_lines(source, *lines) for lines in merge.conflicts]
+        at, notes = spans[0], ()
+        others = tuple(Label(span, "and here") for span in spans[1:])
+    help_ = (
+        f"take over what you need of `{place.name}{NEW}` beside it and delete that, "
+        "or give up the edit with `--force`"
+    )
+    report.report("merge-conflict", at, related=others, path=str(place), notes=notes, help=help_)
+
+
+def report_parked(place: Path, aside: Path, report: Diagnostics) -> None:
+    """A file with lines of the user is put aside."""
+    help_ = f"it is in `{aside}`, and comes back when the model has that again"
+    report.report("parked-code", path=str(place), help=help_)
+
+
+def report_renamed(old: str, new: str, at: Span | None, command: str, report: Diagnostics) -> None:
+    """A new element is like one that is gone."""
+    help_ = f"if it is, `{command} --rename {old}={new}` moves your files"
+    report.report("renamed-element", at, old=old, new=new, help=help_)
+
+
+def report_bad_rename(names: Names, made: Mapping[str, OutputFile], report: Diagnostics) -> None:
+    """Nothing was generated under the old name that is generated under the new one."""
+    owners = {file.owner for file in made.values() if file.owner}
+    if names.old in owners:
+        fault, help_ = f"the model still has `{names.old}`", None
+    elif names.new not in owners:
+        fault = f"nothing is generated for `{names.new}`"
+        help_ = suggest(names.new, owners, "elements")
+    else:
+        fault, help_ = f"nothing was generated for `{names.old}`", None
+    report.report("bad-rename", old=names.old, new=names.new, fault=fault, help=help_)
+
+
+def report_old_name(
+    place: Path, content: bytes, lines: Sequence[int], names: Names, report: Diagnostics
+) -> None:
+    """A file of the user was moved, in which some lines may still name the old element."""
+    if not lines:
+        return
+    source = _source(place, content)
+    spans = [_lines(source, line - 1) for line in lines[:_MOST_LINES]]
+    others = tuple(Label(span, "and here") for span in spans[1:])
+    more = len(lines) - len(spans)
+    notes = (f"and in {more} more lines",) if more else ()
+    report.report(
+        "old-name", spans[0], related=others, notes=notes, path=str(place), name=names.old
+    )
+
+
+def report_outdated(
+    place: Path,
+    file: OutputFile,
+    marks: tuple[str, str],
+    facts: Sequence[str] | None,
+    report: Diagnostics,
+) -> None:
+    """Code of the user was written for what the model said before."""
+    help_ = f"adapt it, and then write `swarmc:fits {marks[1]}` for `{marks[0]}` in it"
+    notes = (*_differences(facts, file.facts), f"`{place.name}{NOTE}` beside it says more")
+    report.report("outdated-code", file.origin, path=str(place), notes=notes, help=help_)
+
+
+def changed_below(
+    path: str,
+    file: OutputFile,
+    content: bytes,
+    base: bytes | None,
+    facts: Sequence[str] | None,
+) -> bytes:
+    """A text for the person who adapts a file: what has changed that its code builds on.
+
+    `base` is what was generated in its place, `facts` what the code was written for.
+    """
+    name = path.rpartition("/")[2]
+    new = file.text.encode()
+    lines = [
+        f"`{name}` is yours, and was written for another state of the model.",
+        f"Adapt it, and write `swarmc:fits {mark_in(new)}` for `{mark_in(content)}` in it:",
+        "then this file goes.",
+    ]
+    differences = _differences(facts, file.facts)
+    if differences:
+        lines += ["", "What its code builds on:", "", *(f"    {line}" for line in differences)]
+    elif facts is None:
+        lines += ["", "What its code builds on now:", "", *(f"    {each}" for each in file.facts)]
+    text = "\n".join([*lines, ""])
+    if base is not None and base != new:
+        text += "\nWhat would be generated in its place, before and now:\n\n"
+        text += unified_diff(base, new, name, name)
+    return text.encode()
+
+
+def _differences(before: Sequence[str] | None, now: Sequence[str]) -> list[str]:
+    """The facts that are gone and those that are new."""
+    if before is None:
+        return []
+    gone = [f"- {fact}" for fact in before if fact not in now]
+    return gone + [f"+ {fact}" for fact in now if fact not in before]
+
+
+def _source(place: Path, content: bytes) -> Source:
+    return Source(str(place), content.decode(errors="replace"), place)
+
+
+def _lines(source: Source, first: int, end: int | None = None) -> Span:
+    """Lines of a source, counted from 0; of more than one, the first."""
+    starts = [*source.line_starts, len(source.text)]
+    first = min(first, len(starts) - 2)
+    return Span(source, starts[first], max(starts[first], starts[first + 1] - 1))

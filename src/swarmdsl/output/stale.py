@@ -1,0 +1,52 @@
+"""What keeps output from being what a build would make, as diagnostics: for a check."""
+
+from __future__ import annotations
+
+from swarmdsl import manifest
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.output.changes import Action, Written
+from swarmdsl.output.remarks import NEW, NOTE
+
+_BUILD = "build again"
+_EDITED = "build again, and put the edit into a region, a file of yours, or the model"
+# What is the matter with a file to which this would happen, and what to do.
+_FAULTS = {
+    Action.CREATE: ("is missing", _BUILD),
+    Action.CHANGE: ("is out of date", _BUILD),
+    Action.MERGE: ("has been edited, and is out of date", _EDITED),
+    Action.REMOVE: ("is not generated any more", _BUILD),
+    Action.PARK: (
+        "is not generated any more, and has lines of yours",
+        "build again to put it aside",
+    ),
+    Action.RESTORE: ("was put aside, and is generated again", _BUILD),
+}
+
+
+# What else is told by a build is about what it did.
+_LASTING = ("outdated-code", "renamed-element", "merge-conflict")
+
+
+def report_stale(
+    written: Written, other_list: bool, remarks: Diagnostics, report: Diagnostics
+) -> None:
+    """Report each file that a build would change, and each generated one that was edited.
+
+    `other_list` is whether the list of files would change: with a file, or alone. What stands
+    beside files of the user to help them is not output.
+    """
+    if other_list and not written.changes:
+        place = str(written.folder / manifest.NAME)
+        report.report("stale-output", path=place, fault="is out of date", way=_BUILD)
+    report.include(remark for remark in remarks if remark.name in _LASTING)
+    for change in written.changes:
+        if change.path.endswith((NEW, NOTE)):
+            continue
+        fault, way = _FAULTS[change.action]
+        path = change.source if change.action is Action.PARK and change.source else change.path
+        place = str(written.folder / path)
+        report.report("stale-output", path=place, fault=fault, way=way)
+    for path in written.edited:
+        way = "put the edit into a region, a file of yours, or the model"
+        place = str(written.folder / path)
+        report.report("stale-output", path=place, fault="has been edited", way=way)
