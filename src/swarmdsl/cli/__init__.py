@@ -23,8 +23,23 @@ from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
 COMMANDS = (
-    *("build", "check", "codegen", "diagram", "diff", "explain", "fmt", "import", "lsp"),
-    *("merge", "new", "simulate", "targets", "test", "trace"),
+    "build",
+    "check",
+    "codegen",
+    "completion",
+    "diagram",
+    "diff",
+    "doctor",
+    "explain",
+    "fmt",
+    "import",
+    "lsp",
+    "merge",
+    "new",
+    "simulate",
+    "targets",
+    "test",
+    "trace",
 )
 # Those whose options are plain data: a command line in the plainest form is read without Click.
 PLAIN = ("build", "check")

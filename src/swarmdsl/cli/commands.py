@@ -54,11 +54,27 @@ def _of_click(module: ModuleType, name: str) -> click.Command:
     cls=_Commands,
     context_settings={"help_option_names": ["-h", "--help"]},
     epilog="Example: swarmc build examples/search_and_rescue --target smach -o out",
+    invoke_without_command=True,
+    no_args_is_help=True,
 )
-@click.version_option(__version__, prog_name="swarmc")
+@click.option("--version", is_flag=True, help="Show the version.")
+@click.option("--verbose", is_flag=True, help="With --version: all that a report needs.")
 @options.debug
-def cli() -> None:
+@click.pass_context
+def cli(context: click.Context, version: bool, verbose: bool) -> None:
     """Compile swarms of robots: .swarm models to exchange formats and ROS packages."""
+    if verbose and not version:
+        raise click.UsageError("`--verbose` goes with `--version`")
+    if version:
+        click.echo(f"swarmc, version {__version__}")
+        if verbose:
+            from swarmdsl.doctor import environment
+
+            for name, value in environment():
+                click.echo(f"{name}: {value}")
+        context.exit()
+    if context.invoked_subcommand is None:
+        raise click.UsageError("Missing command.")
 
 
 def run(arguments: Sequence[str]) -> int:
