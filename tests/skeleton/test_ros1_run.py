@@ -208,9 +208,8 @@ def test_a_node_without_a_needed_param_says_so(
 @pytest.fixture(scope="module")
 def catkin(graph: Any, write: Write, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A workspace of catkin in which all packages are built, without optimisation."""
-    missing = [path for path in _CATKIN if not Path(path).exists()]
-    if missing:
-        pytest.skip(f"no catkin for C++: {missing[0]} is missing")
+    if (missing := missing_of_catkin()) is not None:
+        pytest.skip(missing)
     folder = tmp_path_factory.mktemp("catkin")
     write(folder / "src", language="cpp")
     # A machine and the server that it calls, as the CPSwarm code generator was called for them.
@@ -220,6 +219,12 @@ def catkin(graph: Any, write: Write, tmp_path_factory: pytest.TempPathFactory) -
     assert swarmc(["codegen", "--env", "ROS", *words]) == 0
     make(graph, folder, "-O0", "all", "tests")
     return folder
+
+
+def missing_of_catkin() -> str | None:
+    """Why catkin cannot build C++ here; None where it can."""
+    missing = next((path for path in _CATKIN if not Path(path).exists()), None)
+    return f"no catkin for C++: {missing} is missing" if missing is not None else None
 
 
 def make(graph: Any, folder: Path, optimisation: str, *targets: str) -> None:
