@@ -17,7 +17,7 @@ import pytest
 
 from swarmdsl.cli import run as swarmc
 
-from .conftest import graph_module
+from .conftest import MODEL, graph_module
 
 HERE = Path(__file__).parent
 STAND_IN = HERE.parent / "smach" / "stand_in"
@@ -301,3 +301,66 @@ def test_a_generated_machine_is_answered_by_the_server_of_a_skeleton(
         "ready",
         "4 lift is not implemented",  # GoalStatus.ABORTED
     ]
+
+
+HOOK = """
+import rospy
+from camera.base import CameraBase
+class Camera(CameraBase):
+    def on_exposure(self, message):
+        raise ValueError('too bright')
+"""
+BRIGHT = """
+import rospy, std_msgs.msg
+rospy.init_node('sun')
+publisher = rospy.Publisher('exposure', std_msgs.msg.Float64, queue_size=1, latch=True)
+publisher.publish(1.0)
+rospy.spin()
+"""
+
+
+def test_a_log_of_rospy_leads_to_the_model(
+    graph: Any,
+    messages: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(MODEL, tmp_path)
+    assert swarmc(["build", MODEL.name, "--target", "skeleton", "-o", "src"]) == 0
+    camera = tmp_path / "src" / "skeleton" / "camera"
+    (camera / "src" / "camera" / "implementation.py").write_text(HOOK, encoding="utf-8")
+    environment = graph.environment(
+        [camera / "src", messages],
+        ROS_NAMESPACE="/traced",
+        ROSCONSOLE_FORMAT="[${severity}] [${file}:${line}]: ${message}",
+    )
+    commands = {
+        "traced_camera": [graph.python, str(camera / "scripts" / "camera_node")],
+        "traced_sun": [graph.python, "-c", BRIGHT],
+    }
+    running = []
+    try:
+        for name, command in commands.items():
+            running.append(graph.start(command, output=name, env=environment))
+        wanted = "ValueError: too bright"
+        graph_module.wait_until(lambda: wanted in graph.printed("traced_camera"), wanted, 60)
+    finally:
+        for process in running:
+            graph.end(process)
+    log = graph.printed("traced_camera")
+    (tmp_path / "node.log").write_text(log, encoding="utf-8")
+    capfdbinary.readouterr()
+
+    assert swarmc(["trace", "node.log"]) == 0
+    said = capfdbinary.readouterr().out.decode()
+    assert "bad callback" in log
+    assert (
+        "    self.on_exposure(message)\n"
+        "  --> model.swarm:48:9\n"
+        "   |\n"
+        '48 |   in    exposure : float64 on "exposure"\n'
+        "   |         ^^^^^^^^\n"
+    ) in said
+    assert "note: `implementation.py` is yours: swarmc wrote it once, for model.swarm:47:8" in said
