@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
+from typing import Protocol
 
 from swarmdsl.cpp import literal as cpp_literal
 from swarmdsl.dataclass import dataclass
@@ -17,59 +18,52 @@ from .names import python_field
 _REAL = (*FLOATS, "duration")
 
 
-@dataclass(frozen=True)
-class Language:
+class Language(Protocol):
     """Python or C++ with one generation of ROS."""
 
-    ros: Generation
+    @property
+    def ros(self) -> Generation:
+        """The generation."""
 
     def literal(self, text: str) -> str:
         """A text as a literal."""
-        raise NotImplementedError
 
     def named(self, type_: Named, kind: str) -> str:
         """The class of an interface; `kind` is `msg`, `srv` or `action`."""
-        raise NotImplementedError
 
     def imported(self, type_: Named, kind: str) -> str:
         """The module or header it is in."""
-        raise NotImplementedError
 
     def server_types(self, type_: Named, kind: str) -> tuple[str, str, str, str]:
         """The class of an action or service, and those of its parts; empty where it has none."""
-        raise NotImplementedError
 
     def setting_type(self, type_: Primitive | Array) -> str:
         """The type of a ROS parameter."""
-        raise NotImplementedError
 
     def value(self, value: object, type_: Primitive | Array) -> str:
         """The value of a ROS parameter."""
-        raise NotImplementedError
 
     def zero(self, type_: Primitive | Array) -> str:
         """What a ROS parameter is until it has a value."""
-        raise NotImplementedError
 
     def declared(self, type_: Primitive | Array) -> str:
         """How a ROS parameter is declared that has no value; empty where it need not be."""
-        raise NotImplementedError
 
     def example(self, type_: Primitive | Array) -> str:
         """Some value of a ROS parameter."""
-        raise NotImplementedError
 
     def field(self, name: str) -> str:
         """A field of a message."""
-        raise NotImplementedError
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
         """The lines that answer a service which is not there yet; types of fields by name."""
-        raise NotImplementedError
 
 
-class Python(Language):
+@dataclass(frozen=True)
+class Python:
     """Python with rospy or rclpy."""
+
+    ros: Generation
 
     def literal(self, text: str) -> str:
         """`'cmd/climb'`."""
@@ -142,8 +136,11 @@ class Python(Language):
         return (*lines, "return response")
 
 
-class Cpp(Language):
+@dataclass(frozen=True)
+class Cpp:
     """C++ with roscpp or rclcpp."""
+
+    ros: Generation
 
     def literal(self, text: str) -> str:
         """`"cmd/climb"`."""

@@ -17,7 +17,9 @@ from typing import Any
 
 import pytest
 
-from .conftest import load_module
+from swarmdsl.cli import run as swarmc
+
+from .conftest import MODEL, load_module
 
 HERE = Path(__file__).parent
 NODES = ("climb", "beep", "camera")
@@ -191,3 +193,51 @@ def test_a_node_without_a_needed_param_says_so(
     assert run.returncode == 1
     assert "frame" in run.stderr
     assert "Traceback" not in run.stderr
+
+
+HOOK = """
+from camera.base import CameraBase
+class Camera(CameraBase):
+    def on_exposure(self, message):
+        raise ValueError('too bright')
+"""
+HEAR = """
+import rclpy, std_msgs.msg
+from camera.implementation import Camera
+rclpy.init()
+Camera()._hear_exposure(std_msgs.msg.Float64())
+"""
+
+
+def test_a_log_of_rclpy_leads_to_the_model(
+    ros2: tuple[Path, dict[str, str]],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:
+    python, variables = ros2
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(MODEL, tmp_path)
+    options = ["--option", "skeleton.ros=2", "-o", "src"]
+    assert swarmc(["build", MODEL.name, "--target", "skeleton", *options]) == 0
+    camera = tmp_path / "src" / "skeleton" / "camera"
+    (camera / "camera" / "implementation.py").write_text(HOOK, encoding="utf-8")
+    environment = {
+        **variables,
+        "PYTHONPATH": os.pathsep.join([str(camera), variables["PYTHONPATH"]]),
+        "RCUTILS_CONSOLE_OUTPUT_FORMAT": "[{severity}] ({file_name}:{line_number}): {message}",
+    }
+    run = subprocess.run(
+        [python, "-c", HEAR], env=environment, capture_output=True, timeout=60, check=True
+    )
+    (tmp_path / "node.log").write_bytes(run.stderr)
+    capfdbinary.readouterr()
+
+    assert swarmc(["trace", "node.log"]) == 0
+    first, place, *said = capfdbinary.readouterr().out.decode().splitlines()
+    assert first.startswith("[ERROR] (")
+    assert place == "  --> model.swarm:48:9"
+    assert said[1] == '48 |   in    exposure : float64 on "exposure"'
+    # Once for the place that has logged it, once for the frame of the traceback.
+    assert said.count("  --> model.swarm:48:9") == 1
+    assert "ValueError: too bright" in said
