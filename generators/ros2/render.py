@@ -44,7 +44,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     if package is None:
         return []
     interfaces = [interface_files(each, options, report) for each in package.interfaces]
-    return [*_files(package, options), *(file for files in interfaces for file in files)]
+    return [*files(package, options), *(file for each in interfaces for file in each)]
 
 
 def interface_files(
@@ -53,8 +53,8 @@ def interface_files(
     """The files of a package of interfaces."""
     yield from definitions(package, 2, TARGET, report)
     at = package.interfaces[0].origin
-    files = [file_name(interface) for interface in package.interfaces]
-    text = _fill("interfaces/CMakeLists.txt", package=package, files=files)
+    paths = [file_name(interface) for interface in package.interfaces]
+    text = _fill("interfaces/CMakeLists.txt", package=package, files=paths)
     yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
     depends = [
         ("buildtool_depend", "ament_cmake"),
@@ -68,9 +68,10 @@ def interface_files(
     yield OutputFile(f"{package.name}/package.xml", about, origin=at)
 
 
-def _files(package: PackageView, options: Options) -> Iterator[OutputFile]:
+def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
+    """The files of the package with the behaviour."""
     root = package.name
-    legal = _legal(options)
+    legal = legal_head(options)
     values = {"package": package, "options": options, "legal": legal}
     head = f"{legal}# {package.header}"
     yield OutputFile(f"{root}/package.xml", package.manifest)
@@ -115,12 +116,12 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
     text = _fill("package/package/machine.py", machine=machine, package=package, header=head)
     return OutputFile(
         f"{package.name}/{package.name}/{machine.module}.py",
-        text.rewritten(_within_width),
+        text.rewritten(within_width),
         origin=machine.origin,
     )
 
 
-def _within_width(line: str) -> list[str]:
+def within_width(line: str) -> list[str]:
     """A line, a comment in several that are not too long; code that is says so."""
     stripped = line.lstrip()
     indent = line[: len(line) - len(stripped)]
@@ -131,7 +132,7 @@ def _within_width(line: str) -> list[str]:
     return [f"{line}  # noqa: E501"]
 
 
-def _legal(options: Options) -> str:
+def legal_head(options: Options) -> str:
     """The head of a file that says whose it is, where somebody has said so."""
     if not options.copyright:
         return ""

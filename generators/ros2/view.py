@@ -53,6 +53,24 @@ class MachineView:
 
 
 @dataclass(frozen=True)
+class Variant:
+    """What is otherwise in the package of a target that builds on this one.
+
+    `host` is the module with the `Host` of the node; the executable of a machine is in the module
+    called like that of the machine with the `suffix`. `depends` are further dependencies, each with
+    its tag, `folders` what is installed besides, with a pattern of the files.
+    """
+
+    host: str = "host"
+    suffix: str = ""
+    depends: tuple[tuple[str, str], ...] = ()
+    folders: tuple[tuple[str, str], ...] = ()
+
+
+PLAIN = Variant()
+
+
+@dataclass(frozen=True)
 class PackageView:
     """The whole package."""
 
@@ -64,9 +82,12 @@ class PackageView:
     launches: tuple[Launch, ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
+    variant: Variant
 
 
-def package_view(system: System, options: Options, report: Diagnostics) -> PackageView | None:
+def package_view(
+    system: System, options: Options, report: Diagnostics, variant: Variant = PLAIN
+) -> PackageView | None:
     """All that the templates need; None where the system has no machine to make a node of."""
     machines = chosen_machines(system)
     if not machines:
@@ -82,7 +103,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     if report.has_errors:
         return None
     views = tuple(
-        _machine_view(system, machine, modules[machine.name], sent, callbacks, report)
+        _machine_view(system, machine, modules[machine.name], sent, callbacks, variant, report)
         for machine in machines
     )
     doc = system.doc or f"Behaviour of {system.name}."
@@ -91,6 +112,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     if launched:
         tools = ("ament_index_python", "launch", "launch_ros")
         depends += [("exec_depend", needed) for needed in tools]
+    depends += variant.depends
     linters = ("ament_copyright", "ament_flake8", "ament_pep257", "python3-pytest")
     depends += [("test_depend", needed) for needed in linters]
     return PackageView(
@@ -102,6 +124,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         launches=tuple(launched),
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
+        variant=variant,
     )
 
 
@@ -118,13 +141,15 @@ def _machine_view(
     module: str,
     sent: Iterable[str],
     callbacks: dict[str, str],
+    variant: Variant,
     report: Diagnostics,
 ) -> MachineView:
     imports = Imports(messages_of_actions(system))
     for own in ("Behavior", "tree"):
         imports.own("host", own)
     imports.own("engine", "Machine")
-    imports.own("node", "run")
+    if not variant.suffix:
+        imports.own("node", "run")
     table = Table(machine, system, imports)
     for callback, signature, origin in table.callbacks:
         names.check_callback(callback, signature, callbacks, origin, report)

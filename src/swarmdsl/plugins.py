@@ -21,6 +21,7 @@ BUILT_IN = {
     "smach": "swarmdsl.generators.smach:generator",
     "ros2": "swarmdsl.generators.ros2:generator",
     "skeleton": "swarmdsl.generators.skeleton:generator",
+    "yasmin": "swarmdsl.generators.yasmin:generator",
     "amf": "swarmdsl.exchange.amf:generator",
     "swarmros": "swarmdsl.exchange.swarmros:generator",
     "parameters": "swarmdsl.exchange.parameters:generator",
@@ -30,7 +31,7 @@ BUILT_IN = {
 }
 # What other tools take besides; built only where somebody asks for it.
 ON_REQUEST = frozenset(
-    {"skeleton", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
+    {"skeleton", "yasmin", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
 )
 GROUP = "swarmdsl.generators"
 

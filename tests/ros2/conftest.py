@@ -41,9 +41,11 @@ def load_module(name: str) -> ModuleType:
     return module
 
 
-def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+def emit(
+    system: System, target: str = "ros2", **options: str
+) -> tuple[list[OutputFile], Diagnostics]:
     """What the generator makes of a system, and what it reports."""
-    generator = load("ros2")
+    generator = load(target)
     report = Diagnostics()
     chosen = parse_options(generator, options, report)
     files = [] if report.has_errors else list(generator.emit(system, chosen, report))
@@ -131,7 +133,8 @@ def _agrees(node: Any, scenario: Path) -> None:
     """What a node did is what its machine does in the model when the same happens to it."""
     environment = load_module("environment")
     (model,) = [m for m in environment.MODELS if f"{_system(m).name}_behavior" == node.package]
-    (machine,) = [m for m in _system(model).machines if snake_case(m.name) == node.module]
+    module = node.module.removesuffix("_fsm")  # what target `yasmin` calls it
+    (machine,) = [m for m in _system(model).machines if snake_case(m.name) == module]
     names = {param.name: param.type for param in machine.params}
     lines = ["[params]"]
     for name, value in node.parameters.items():

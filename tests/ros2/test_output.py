@@ -82,7 +82,7 @@ sensor Lens { behavior Watch  param limit : duration = 2 s }
 member Head { eye : Lens { limit = 3 s } }
 swarm Eyes { left : Eye[2..4]  head : Head }
 '''.replace("LONG", "which takes more than one line" * 5).replace("POWER", "*".join(["wide"] * 4))
-_ROS = (
+LINTERS = (
     *("--isolated", "--target-version", "py310", "--line-length", "99"),
     *("--select", "E,F,W,I,Q,D,A,C4,UP", "--ignore", "D100,D101,D102,D103,D104,D105,D106,D107"),
     *("--ignore", "D203,D212,D404,D413,D407,D406,A005"),
@@ -91,7 +91,7 @@ _ROS = (
     *("--config", "lint.isort.order-by-type=false"),
     *("--config", "lint.isort.case-sensitive=false"),
 )
-_FORMAT = ("--isolated", "--line-length", "99", "--config", "format.quote-style='single'")
+FORMAT = ("--isolated", "--line-length", "99", "--config", "format.quote-style='single'")
 
 
 def write(files: Files, folder: Path) -> None:
@@ -129,8 +129,8 @@ def test_linters_of_ros_find_nothing(
 ) -> None:
     write(generate(model, lifecycle=lifecycle), tmp_path)
 
-    assert ruff("check", *_ROS, tmp_path) == ""
-    assert ruff("format", "--check", *_FORMAT, tmp_path) == ""
+    assert ruff("check", *LINTERS, tmp_path) == ""
+    assert ruff("format", "--check", *FORMAT, tmp_path) == ""
 
 
 def test_python_of_humble_reads_it(generate: Generate) -> None:

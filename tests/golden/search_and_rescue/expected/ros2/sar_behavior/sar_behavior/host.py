@@ -235,6 +235,10 @@ class Host:
         """Publish an event."""
         self._topics.send(event)
 
+    def observer(self):
+        """Return who is told what the engine does."""
+        return self._trace
+
     def failed(self, instance, error):
         """Say that a guard, an effect or a goal has no value."""
         self.warn(f'no value: {error}')
@@ -247,7 +251,11 @@ class Host:
         zero = self._delays.now
         self._trace = Trace(self._member, lambda: self._delays.now - zero, self._tell)
         self._instance = Instance(
-            self._behavior.machine, self, data=data, observer=self._trace, servers=self._servers
+            self._behavior.machine,
+            self,
+            data=data,
+            observer=self.observer(),
+            servers=self._servers,
         )
         self._trace.begin(self._instance, None)
         self._instance.start()

@@ -1,0 +1,54 @@
+"""A state machine as XML of `yasmin_factory`, of 4.0.0 and later; parallel states of 5.0.0.
+
+The states are the classes of the generated module; the XML binds their outcomes as the module
+does.
+"""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from swarmdsl.exchange.xml import document as written
+from swarmdsl.exchange.xml import legal
+from swarmdsl.ir import StateMachine
+
+from .structure import Kind, Node
+from .ways import CANCELED
+
+
+def document(root: Node, machine: StateMachine, module: str) -> str:
+    """The text of the file of a machine whose states are in the module."""
+    element = etree.Element("StateMachine", _head(root))
+    keys = [(each.name, each.doc) for each in machine.params]
+    keys += [(each.name, each.doc) for each in machine.variables]
+    for name, doc in keys:
+        about = {"description": legal(" ".join(doc.split()))} if doc else {}
+        etree.SubElement(element, "Key", {"name": name, "type": "out", **about})
+    for node in root.nodes:
+        element.append(_element(node, module))
+    return written(element)
+
+
+def _head(node: Node) -> dict[str, str]:
+    outcomes = " ".join(node.outcomes)
+    return {"name": node.name, "outcomes": outcomes, "start_state": node.start}
+
+
+def _element(node: Node, module: str) -> etree._Element:
+    """A state with what is inside it and where its outcomes lead."""
+    if node.kind is Kind.MACHINE:
+        element = etree.Element("StateMachine", _head(node))
+    elif node.kind is Kind.CONCURRENCE:
+        element = etree.Element("Concurrence", name=node.name, default_outcome=CANCELED)
+    else:
+        called = {"type": "py", "module": module, "class": node.python_name}
+        element = etree.Element("State", {"name": node.name, **called})
+    for inside in node.nodes:
+        element.append(_element(inside, module))
+    for outcome, needs in node.outcome_map.items():
+        mapped = etree.SubElement(element, "OutcomeMap", outcome=outcome)
+        for state, ending in needs.items():
+            etree.SubElement(mapped, "Item", state=state, outcome=ending)
+    for outcome, target in node.transitions.items():
+        etree.SubElement(element, "Transition", {"from": outcome, "to": target})
+    return element

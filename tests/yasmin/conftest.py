@@ -1,0 +1,132 @@
+"""Generated machines in this process, on YASMIN alone: what they follow is the engine of a test.
+
+They run twice: on the stand-in beside this file, and on the real core of YASMIN where
+SWARMDSL_YASMIN_PATH names the folder that it is in, or Python has it.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import importlib.util
+import itertools
+import os
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.naming import snake_case
+from swarmdsl.options import parse_options
+from swarmdsl.plugins import load
+
+# The modules of YASMIN, of the stand-in and of the real one: that can be imported only once.
+_LOADED: dict[bool, dict[str, ModuleType]] = {}
+STAND_IN = Path(__file__).parent / "stand_in"
+
+
+def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+    """What the generator makes of a system, and what it reports."""
+    generator = load("yasmin")
+    report = Diagnostics()
+    chosen = parse_options(generator, options, report)
+    files = [] if report.has_errors else list(generator.emit(system, chosen, report))
+    return files, report
+
+
+@pytest.fixture
+def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, str]]:
+    """Generate from the text of a model; the texts by path in the package of the behaviour."""
+
+    def generate(text: str, **options: str) -> dict[str, str]:
+        files, report = emit(compiled(text), **options)
+        assert not list(report)
+        package = files[0].path.partition("/")[0] + "/"
+        return {file.path.removeprefix(package): file.text for file in files}
+
+    return generate
+
+
+@pytest.fixture
+def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
+    """What is reported about a model: name, message, the text it points at."""
+
+    def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
+        _, report = emit(compiled(text), **options)
+        return [
+            (found.name, found.message, found.primary.span.text if found.primary else "")
+            for found in report
+        ]
+
+    return reported
+
+
+@functools.cache
+def _real_yasmin() -> tuple[str, ...] | None:
+    """The folders that the real YASMIN is imported from, None where there is none."""
+    if "SWARMDSL_YASMIN_PATH" in os.environ:
+        return tuple(os.environ["SWARMDSL_YASMIN_PATH"].split(os.pathsep))
+    return () if importlib.util.find_spec("yasmin") is not None else None
+
+
+@pytest.fixture(params=["stand-in", "real"])
+def yasmin_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
+    """The folders of the YASMIN to run on: the stand-in, then the real one where there is one."""
+    if request.param == "stand-in":
+        return (str(STAND_IN),)
+    found = _real_yasmin()
+    if found is None:
+        pytest.skip("no real YASMIN here; SWARMDSL_YASMIN_PATH names the folder of it")
+    return found
+
+
+@pytest.fixture
+def build(
+    yasmin_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Callable[..., ModuleType]]:
+    """Generate a system and import the module of a machine; `chart` stands for the table."""
+    packages: set[str] = set()
+    for place in yasmin_path:
+        monkeypatch.syspath_prepend(place)
+    kind = str(STAND_IN) in yasmin_path
+    sys.modules.update(_LOADED.setdefault(kind, {}))
+    roots = (tmp_path / f"out{number}" for number in itertools.count())
+
+    def build(system: System, machine: str, chart: Any) -> ModuleType:
+        files, report = emit(system)
+        assert not list(report), [found.message for found in report]
+        package = files[0].path.partition("/")[0]
+        folder = next(roots) / package
+        for file in files:
+            path = folder.parent / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(file.text, encoding="utf-8")
+        for name in [each for each in sys.modules if each.partition(".")[0] == package]:
+            del sys.modules[name]
+        packages.add(package)
+        monkeypatch.syspath_prepend(str(folder))
+        module = snake_case(machine)
+        behavior = SimpleNamespace(machine=chart)
+        fakes = {
+            module: {"BEHAVIOR": behavior},
+            "node": {"run": None},
+            "runner": {"Fsm": None, "in_yasmin_node": lambda behavior: None},
+        }
+        importlib.import_module(package)
+        for name, content in fakes.items():
+            fake = ModuleType(f"{package}.{name}")
+            vars(fake).update(content)
+            monkeypatch.setitem(sys.modules, fake.__name__, fake)
+        return importlib.import_module(f"{package}.{module}_fsm")
+
+    yield build
+    for name in [each for each in sys.modules if each.partition(".")[0] in packages]:
+        del sys.modules[name]
+    for name in [each for each in sys.modules if each.partition(".")[0] == "yasmin"]:
+        _LOADED[kind][name] = sys.modules.pop(name)
