@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -11,6 +12,7 @@ from jinja2 import Environment
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.xml import legal
 from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
@@ -250,5 +252,5 @@ def _environment() -> Environment:
     made = environment(Path(__file__).parent / "templates")
     made.filters["repr"] = repr
     made.filters["docstring"] = docstring
-    made.filters["xml_comment"] = lambda text: text.replace("--", "- -")
+    made.filters["xml_comment"] = lambda text: re.sub("-(?=-)", "- ", legal(text))
     return made

@@ -91,6 +91,55 @@ def test_manifests_and_launch_files_are_xml(emit: Emit, variant: dict[str, str])
     assert "geometry_msgs" not in depends
 
 
+def test_launch_files_say_what_the_model_says(emit: Emit, variant: dict[str, str]) -> None:
+    files, _ = emit(**variant)
+    end = ".launch" if variant["ros"] == "1" else ".launch.py"
+
+    assert "Send the take-off command." in files[f"climb/launch/climb{end}"].text
+
+
+def test_functions_are_launched_as_those_of_libraries_are(emit: Emit) -> None:
+    files, _ = emit()
+
+    def arguments(name: str) -> dict[str, str]:
+        root = etree.fromstring(files[f"{name}/launch/{name}.launch"].text.encode())
+        return {arg.attrib["name"]: arg.attrib["default"] for arg in root.iter("arg")}
+
+    assert arguments("beep") == {"id": "1", "name": "beep_$(arg id)", "output": "screen"}
+    assert arguments("camera") == {
+        "name": "camera",
+        "output": "screen",
+        "param": "$(find camera)/param/camera.yaml",
+    }
+
+
+EVIL = r"""package demo
+/// a --- b --> c -
+/// </launch> ''' \""" \
+///
+/// # d
+function f_x : swarm {
+  service "x" : std_srvs/Empty
+  /// a --- b --> c -
+  /// </launch> ''' \""" \
+  param p : int32 = 1
+}
+"""
+
+
+def test_documentation_cannot_leave_its_comment(emit: Emit, variant: dict[str, str]) -> None:
+    files, complaints = emit(EVIL, **variant)
+
+    assert complaints == []
+    for path, file in files.items():
+        if path.endswith((".xml", ".launch")):
+            etree.fromstring(file.text.encode())
+        elif path.endswith(".py"):
+            ast.parse(file.text)
+        elif path.endswith(".yaml"):
+            assert "'p': 1" in str(yaml.safe_load(file.text))
+
+
 def test_params_are_documented_and_have_their_defaults(emit: Emit, variant: dict[str, str]) -> None:
     files, _ = emit(**variant)
     folder = "param" if variant["ros"] == "1" else "config"

@@ -205,6 +205,21 @@ def test_a_node_without_a_needed_param_says_so(
     assert "Traceback" not in run.stderr
 
 
+def test_a_launch_file_of_cpswarm_can_start_it(
+    graph: Any, python_nodes: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "all.launch").write_text(
+        """<launch><group ns="uav_3"><include file="$(find climb)/launch/climb.launch">
+        <arg name="id" value="3"/><arg name="output" value="log"/></include></group></launch>""",
+        encoding="utf-8",
+    )
+    command = ["/usr/bin/roslaunch", "--nodes", str(tmp_path / "all.launch")]
+    environment = graph.environment(ROS_PACKAGE_PATH=str(python_nodes))
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+
+    assert run.stdout.split() == ["/uav_3/climb_3"], run.stderr
+
+
 @pytest.fixture(scope="module")
 def catkin(graph: Any, write: Write, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A workspace of catkin in which all packages are built, without optimisation."""
