@@ -51,24 +51,6 @@ def filled(content: bytes, of_user: Mapping[str, bytes]) -> tuple[bytes, list[st
     return text, [id_ for id_ in of_user if id_ not in known]
 
 
-def generated_lines(content: bytes) -> dict[int, int | None]:
-    """For each line of a file with regions, counted from 1, its number where they are empty.
-
-    None for those in a region; nothing where the marks are wrong.
-    """
-    try:
-        pieces = _pieces(content)
-    except RegionError:
-        return {}
-    found: dict[int, int | None] = {}
-    before = 0
-    for id_, lines in pieces:
-        for _ in lines:
-            before += id_ is None
-            found[len(found) + 1] = before if id_ is None else None
-    return found if len(pieces) > 1 else {}
-
-
 def _pieces(content: bytes) -> list[tuple[str | None, list[bytes]]]:
     """The lines outside (None) and inside of regions, in turn; marks are outside."""
     pieces: list[tuple[str | None, list[bytes]]] = [(None, [])]

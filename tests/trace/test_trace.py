@@ -42,7 +42,7 @@ def test_a_traceback_has_the_places_below_its_frames(build: Build, trace: Trace)
     return self.aborted(x)
 +NameError: name 'x' is not defined
 """
-    yours = "  = note: `implementation.py` is yours: swarmc wrote it once, for model.swarm:28:10\n"
+    yours = "  = note: `implementation.py` is yours to fill in, for model.swarm:28:10\n"
 
     assert trace(log.replace("@", "").replace("+", "")) == log.replace("@", STATE).replace(
         "+", yours
@@ -61,7 +61,7 @@ def test_a_compiler_has_the_places_below_its_lines(build: Build, trace: Trace) -
       |          \x1b[01;31m\x1b[K^~~~~\x1b[m\x1b[K
 @3compilation terminated.
 """
-    yours = "  = note: `climb.h` is yours: swarmc wrote it once, for model.swarm:28:10\n"
+    yours = "  = note: `climb.h` is yours to fill in, for model.swarm:28:10\n"
     notes = {"@1": "  --> model.swarm:30:3\n", "@2": yours, "@3": STATE}
 
     def with_notes(told: bool) -> str:
@@ -175,9 +175,25 @@ def test_lines_of_the_user_in_a_generated_file_move_those_below(build: Build, tr
     mine = line_of(cmake, "  tf2")
 
     assert trace(f"CMake Error at climb/CMakeLists.txt:{mine} (find_package):\n").endswith(
-        "  = note: this line of `CMakeLists.txt` is yours: it is in a region\n"
+        "  = note: this line of `CMakeLists.txt` is yours: it was not generated\n"
     )
     assert "--> model.swarm:28:10" in trace(f"climb/CMakeLists.txt:{mine + 5}\n")
+
+
+@pytest.mark.parametrize("with_texts", [True, False])
+def test_lines_that_an_edit_has_moved(build: Build, trace: Trace, with_texts: bool) -> None:
+    base = build() / "climb" / "src" / "climb" / "base.py"
+    text = base.read_text(encoding="utf-8")
+    base.write_text(text.replace("import rospy\n", "import rospy\nimport sys\n"), encoding="utf-8")
+    if not with_texts:
+        # Then nobody knows what was generated.
+        (base.parents[4] / ".swarmdsl.texts").unlink()
+    line = f"climb/base.py:{line_of(base, 'self.on_state(message)')}\n"
+    mine = f"climb/base.py:{line_of(base, 'import sys')}\n"
+
+    assert "--> model.swarm:30:3\n" in trace(line)
+    assert ("`base.py` has been edited since" in trace(line)) != with_texts
+    assert ("is yours: it was not generated" in trace(mine)) == with_texts
 
 
 def test_a_model_that_has_changed_is_not_shown(build: Build, trace: Trace, tmp_path: Path) -> None:

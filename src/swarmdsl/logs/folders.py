@@ -14,31 +14,57 @@ from pathlib import Path
 from swarmdsl import manifest, regions
 from swarmdsl.dataclass import dataclass
 from swarmdsl.map_file import FileMap, Position
+from swarmdsl.output.merge import matches
+from swarmdsl.output.texts import Texts
 
 
 @dataclass(frozen=True)
 class Generated:
-    """A file of an output folder, by its path below it; `package` is the folder of its package."""
+    """A file of an output folder, by its path below it.
+
+    `package` is the folder of its package, `hash` that of the text that was generated.
+    """
 
     out: Path
     path: str
     map: FileMap
     package: str
+    hash: str | None
 
     @cached_property
-    def _regions(self) -> dict[int, int | None]:
+    def _content(self) -> bytes:
         try:
-            return regions.generated_lines((self.out / self.path).read_bytes())
+            return (self.out / self.path).read_bytes()
         except OSError:
-            return {}
+            return b""
 
-    def is_in_region(self, line: int) -> bool:
-        """Whether a line is in a region of the user."""
-        return self._regions.get(line, line) is None
+    @cached_property
+    def is_unknown(self) -> bool:
+        """Whether it was edited, and nobody knows any more what it was before."""
+        edited = bool(self._content) and manifest.content_hash(self._content) != self.hash
+        return edited and not self.map.of_user and Texts(self.out).get(self.hash) is None
+
+    @cached_property
+    def _made(self) -> dict[int, int | None]:
+        """The lines of a file that the user has written in, as they were generated.
+
+        None for those of the user, nothing where there are none.
+        """
+        content = self._content
+        base = Texts(self.out).get(self.hash) or regions.generated(content)
+        if content == base:
+            return {}
+        lines = content.splitlines()
+        found = matches(lines, base.splitlines())
+        return {at + 1: found[at] + 1 if at in found else None for at in range(len(lines))}
+
+    def is_of_user(self, line: int) -> bool:
+        """Whether the user has written a line."""
+        return self._made.get(line, line) is None
 
     def position(self, line: int) -> Position | None:
-        """Where a line comes from, as far as more is known than of the file."""
-        made = self._regions.get(line, line)
+        """Where a line comes from that was generated, as far as more is known than of the file."""
+        made = self._made.get(line, line)
         return self.map.position(made) if made is not None else None
 
 
@@ -86,13 +112,14 @@ class Folders:
             self.unmapped.append(out)
             return
         self.found.append(out)
+        hashes = manifest.read(out).files
         packages = {path.rpartition("/")[0] for path in maps if path.endswith("/package.xml")}
         for path, map_ in maps.items():
             # What is in no package is in the folder of a target.
             package = next(
                 (above for above in _above(path) if above in packages), path.partition("/")[0]
             )
-            file = Generated(out, path, map_, package)
+            file = Generated(out, path, map_, package, hashes.get(path))
             self._files.setdefault(path.rpartition("/")[2], []).append(file)
 
 

@@ -42,13 +42,16 @@ class Notes:
     def _of(self, mention: Mention, file: Generated) -> Iterator[Piece]:
         name = file.path.rpartition("/")[2]
         if file.map.of_user:
-            yield from self._note(file.path, f"`{name}` is yours: swarmc wrote it once", file)
-        elif file.is_in_region(mention.line):
+            yield from self._note(file.path, f"`{name}` is yours to fill in", file)
+        elif file.is_of_user(mention.line):
             yield from self._note(
-                (file.path, mention.line), f"this line of `{name}` is yours: it is in a region"
+                (file.path, mention.line), f"this line of `{name}` is yours: it was not generated"
             )
         elif (position := file.position(mention.line)) is not None:
             yield from self._position(position, file, "")
+            if file.is_unknown:
+                edited = f"`{name}` has been edited since: the place may be another one"
+                yield from self._note((file.path, "edited"), edited)
         elif file.map.origin is not None:
             about = f"`{name}` as a whole is made for this"
             yield from self._position(file.map.origin, file, about)

@@ -29,7 +29,7 @@ class Merge:
 def merge(base: bytes, of_user: bytes, generated: bytes) -> Merge:
     """What the user and the generator have made of a text, in one."""
     lines, user, ours = (text.splitlines(keepends=True) for text in (base, of_user, generated))
-    in_user, in_ours = _matches(lines, user), _matches(lines, ours)
+    in_user, in_ours = matches(lines, user), matches(lines, ours)
     made: list[bytes] = []
     conflicts: list[tuple[int, int]] = []
     taken = 0
@@ -63,7 +63,7 @@ def _shorter(one: bytes, other: bytes) -> int:
     return min(len(one.splitlines()), len(other.splitlines()))
 
 
-def _matches(before: list[bytes], after: list[bytes]) -> dict[int, int]:
+def matches(before: list[bytes], after: list[bytes]) -> dict[int, int]:
     """The lines of one text that are in the other, in the same order."""
     blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
     return {block.a + number: block.b + number for block in blocks for number in range(block.size)}
