@@ -38,7 +38,7 @@ test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, i
 # Where it cannot be had, the tests in it are skipped, and say so.
 vscode: $(READY) ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
 	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[editor]'
-	-$(BIN)/python tests/editor/host/environment.py .vscode-host
+	-$(BIN)/python tests/editor/vscode/environment.py .vscode-host
 
 check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff format --check

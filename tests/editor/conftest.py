@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -89,6 +90,28 @@ def npm() -> Npm:
             pytest.skip("the tools of the extension are not installed, and npm cannot fetch them")
         assert result.returncode == 0, result.stderr
     return run
+
+
+@pytest.fixture(scope="session")
+def packages(npm: Npm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """The extension, packaged twice: in two places of the world, but of one time."""
+    if shutil.which("make") is None:
+        pytest.skip("make is not installed")
+
+    def packaged(zone: str) -> Path:
+        folder = tmp_path_factory.mktemp("package")
+        made = subprocess.run(
+            ["make", "vsix", f"VSIX_DIR={folder}"],
+            cwd=ROOT,
+            env={**os.environ, "TZ": zone, "SOURCE_DATE_EPOCH": "1700000000"},
+            capture_output=True,
+            text=True,
+        )
+        assert made.returncode == 0, made.stderr
+        [package] = folder.glob("*.vsix")
+        return package
+
+    return packaged("UTC"), packaged("Pacific/Auckland")
 
 
 @pytest.fixture(scope="session")

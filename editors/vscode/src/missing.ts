@@ -14,10 +14,19 @@ export function tell(found: { readonly missing: string; readonly setting?: strin
       return vscode.commands.executeCommand("swarmdsl.selectInterpreter");
     }
     if (chosen === SETTINGS) {
-      return vscode.commands.executeCommand("workbench.action.openSettings", found.setting);
+      return openSettings(found.setting ?? "");
     }
     return chosen === LOG ? vscode.commands.executeCommand("swarmdsl.showLog") : undefined;
   });
+}
+
+/** Show a setting where it is set. */
+function openSettings(setting: string): Thenable<unknown> {
+  const inWorkspace = vscode.workspace.getConfiguration().inspect(setting)?.workspaceValue;
+  return vscode.commands.executeCommand(
+    `workbench.action.${inWorkspace ? "openWorkspaceSettings" : "openSettings"}`,
+    { query: setting },
+  );
 }
 
 /** Tell that the copy that comes with the extension does not do what is asked for. */

@@ -18,6 +18,9 @@ interface Scenario extends vscode.QuickPickItem {
   readonly uri: vscode.Uri | undefined;
 }
 
+// By what the outline calls them.
+const KINDS: Record<string, Subject["kind"]> = { swarm: "swarm", "state machine": "machine" };
+
 /** Simulate `subject` of a file; without it what the user chooses of those in the file. */
 export async function simulate(server: Server, file: vscode.Uri, subject?: Subject): Promise<void> {
   const launch = await server.swarmc();
@@ -55,8 +58,8 @@ async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {
     file,
   );
   const found = (outline ?? []).flatMap(({ name, detail }): Subject[] => {
-    const kind = { swarm: "swarm", statemachine: "machine" }[detail.split(" ").at(-1) ?? ""];
-    return kind === "swarm" || kind === "machine" ? [{ kind, name }] : [];
+    const kind = KINDS[detail];
+    return kind ? [{ kind, name }] : [];
   });
   if (found.length <= 1) {
     if (!found.length) {

@@ -1,0 +1,189 @@
+"""What a person does in VS Code with the search-and-rescue example, and sees of it."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import __version__
+
+pytest.importorskip("playwright", reason="`make vscode` has not installed playwright")
+
+from playwright.sync_api import expect
+
+from .window import Window
+
+PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
+
+
+def text(window: Window, name: str) -> str:
+    return (window.folder / name).read_text(encoding="utf-8")
+
+
+def test_the_server_of_the_extension_runs_with_any_python(window: Window) -> None:
+    window.open("behaviours.swarm")
+    window.server(__version__)
+    window.found("the extension")
+
+
+def test_hover(window: Window) -> None:
+    window.place("behaviours.swarm", "uav_coverage(")
+    window.command("Show or Focus Hover")
+    hover = window.page.locator(".monaco-hover .hover-contents").last
+    expect(hover).to_contain_text("Sweep the whole area")
+
+
+def test_definition(window: Window) -> None:
+    window.place("behaviours.swarm", "uav_coverage(")
+    window.press("F12")
+    expect(window.tab("functions.swarm")).to_have_count(1)
+    line = text(window, "functions.swarm").split("\n").index("function uav_coverage : swarm {") + 1
+    window.at(line, len("function ") + 1)
+
+
+def test_references(window: Window) -> None:
+    window.place("behaviours.swarm", "MissionStart")
+    window.press("Shift+F12")
+    rows = window.page.locator(".zone-widget .monaco-list-row")
+    for line in (
+        "event MissionStart :",
+        "on MissionStart -> TakeOff",
+        "on MissionStart -> Mission",
+    ):
+        expect(rows.filter(has_text=line)).not_to_have_count(0)
+    window.press("Escape")
+
+
+def test_completion(window: Window) -> None:
+    window.place("behaviours.swarm", "Coverage", after="on succeeded -> ")
+    window.press("Control+Space")
+    rows = window.page.locator(".suggest-widget .monaco-list-row")
+    expect(rows.filter(has_text="SelectRover")).to_have_count(1)
+    window.press("Escape")
+
+
+def test_a_mistake_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
+    before = text(window, "behaviours.swarm")
+    window.place("behaviours.swarm", "Coverage", after="on succeeded -> ")
+    for _ in range(4):
+        window.press("ArrowRight")
+    window.press("Delete")
+    window.page.keyboard.type("a")
+    expect(window.page.locator(".squiggly-error").first).to_be_visible()
+    expect(window.problems().filter(has_text="no state called")).to_have_count(1)
+    window.command("View: Focus Active Editor Group")
+    window.press("Control+.")
+    action = window.page.locator(".action-widget .monaco-list-row", has_text="Coverage")
+    expect(action.first).to_be_visible()
+    window.press("Enter")
+    expect(window.page.locator(".squiggly-error")).to_have_count(0)
+    window.saved("behaviours.swarm", lambda now: now == before)
+
+
+def test_rename_across_files(window: Window) -> None:
+    window.place("behaviours.swarm", "uav_coverage(")
+    window.press("F2")
+    entry = window.page.locator(".rename-box input")
+    entry.fill("sweep_all")
+    window.press("Enter")
+    expect(window.line("do sweep_all(altitude")).to_have_count(1)
+    window.saved("functions.swarm", lambda now: "function sweep_all : swarm {" in now)
+    window.saved(
+        "behaviours.swarm", lambda now: "do sweep_all(" in now and "uav_coverage" not in now
+    )
+
+
+def test_formatting(window: Window) -> None:
+    before = text(window, "sar.swarm")
+    file = window.folder / "sar.swarm"
+    file.write_text(re.sub(r"^  ", "       ", before, flags=re.MULTILINE), encoding="utf-8")
+    window.open("sar.swarm")
+    window.command("Format Document")
+    window.saved("sar.swarm", lambda now: now == before)
+
+
+def test_outline(window: Window) -> None:
+    window.open("behaviours.swarm")
+    window.command("Explorer: Focus on Outline View")
+    rows = window.page.locator(".outline-pane .monaco-list-row")
+    for name in ("MissionStart", "UavSearchstate machine"):
+        expect(rows.filter(has_text=name)).to_have_count(1)
+
+
+def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -> None:
+    """With `--bless` they are those that the README shows."""
+    folder = PICTURES if pytestconfig.getoption("--bless") else tmp_path
+    before = text(window, "behaviours.swarm")
+    window.place("behaviours.swarm", "ing", after="on succeeded -> Track")
+    window.command("Explorer: Focus on Outline View")
+    window.command("View: Focus Active Editor Group")
+    window.press("Delete")
+    window.problems()
+    window.command("View: Focus Active Editor Group")
+    window.press("Control+.")
+    expect(window.page.locator(".action-widget .monaco-list-row")).not_to_have_count(0)
+    for scheme in ("light", "dark"):
+        window.page.emulate_media(color_scheme=scheme)
+        expect(
+            window.page.locator(f".monaco-workbench.vs{'-dark' * (scheme == 'dark')}")
+        ).to_have_count(1)
+        window.page.wait_for_timeout(1000)  # for what fades
+        window.page.screenshot(path=folder / f"vscode-{scheme}.png")
+    window.page.emulate_media(color_scheme="light")
+    window.press("Enter")
+    window.saved("behaviours.swarm", lambda now: now == before)
+
+
+def test_blocks_in_markdown_have_colours(window: Window) -> None:
+    window.open("NOTES.md")
+    block, prose = (window.line("state Idle").nth(each) for each in range(2))
+    expect(block.locator("span span").first).to_have_text("state")
+    assert block.locator("span span").first.get_attribute("class") != prose.locator(
+        "span span"
+    ).first.get_attribute("class")
+
+
+def test_a_new_model(window: Window) -> None:
+    window.command("Swarm: New Model...")
+    path = window.folder / "Night Watch.swarm"
+    window.page.locator(".quick-input-widget input[type=text]").fill(str(path))
+    window.press("Enter")
+    expect(window.tab("Night Watch.swarm")).to_have_count(1)
+    assert "package night_watch\n" in path.read_text(encoding="utf-8")
+
+
+def test_what_a_setting_names_is_told_if_it_is_no_swarmc(window: Window) -> None:
+    window.open("behaviours.swarm")
+    with window.settings({"swarmdsl.server.path": "/bin/false"}):
+        told = window.page.locator(".notification-toast", has_text="/bin/false is not a swarmc")
+        expect(told.get_by_role("button", name="Select Interpreter")).to_be_visible()
+        expect(window.status("swarmdsl.swarm.swarmdsl").locator(".codicon-warning")).to_be_visible()
+        told.get_by_role("button", name="Open Settings").click()
+        expect(window.page.locator(".settings-editor")).to_contain_text("The program swarmc to use")
+        window.press("Escape")
+    window.server(__version__)
+
+
+def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> None:
+    """Whatever swarmc is installed beside these tests."""
+    window.open("sar.swarm")
+    window.server(__version__)
+    window.command("Swarm: Simulate")
+    told = window.page.locator(".notification-toast", has_text="install the Python package")
+    told.get_by_role("button", name="Select Interpreter").click()
+    window.choose("Browse...")
+    window.page.locator(".quick-input-widget input[type=text]").fill(sys.executable)
+    window.press("Enter")
+    try:
+        window.found("the setting swarmdsl.server.interpreter")
+        window.server(__version__)
+        window.command("Swarm: Simulate")
+        window.choose("mission.toml")
+        terminal = window.page.locator(".terminal-wrapper .xterm-rows", has_text="rover[0]")
+        expect(terminal).not_to_have_count(0)
+    finally:
+        shutil.rmtree(window.folder / ".vscode")

@@ -1,0 +1,221 @@
+"""A window of Visual Studio Code in a browser, and what a person does in it.
+
+The selectors are those of Code 1.139, whose page has no others that are promised.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+import time
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import Locator, Page, expect, sync_playwright
+
+from . import environment
+
+# Of what a page does, in milliseconds: machines that do other things besides are slow.
+PATIENCE = 60_000
+SIZE = {"width": 1280, "height": 800}
+_SETTINGS = {
+    "chat.disableAIFeatures": True,
+    "editor.minimap.enabled": False,
+    "extensions.ignoreRecommendations": True,
+    "git.enabled": False,
+    "telemetry.telemetryLevel": "off",
+    "terminal.integrated.gpuAcceleration": "off",  # so that the page has its text
+    "update.mode": "none",
+    "window.autoDetectColorScheme": True,
+    "workbench.layoutControl.enabled": False,
+    "workbench.preferredDarkColorTheme": "Default Dark Modern",
+    "workbench.preferredLightColorTheme": "Default Light Modern",
+    "workbench.secondarySideBar.defaultVisibility": "hidden",
+    "workbench.startupEditor": "none",
+}
+_BROWSER = [
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--host-resolver-rules=MAP * ~NOTFOUND , EXCLUDE 127.0.0.1",
+]
+
+
+class Window:
+    """What a person sees and does; `folder` is the one that is open."""
+
+    def __init__(self, page: Page, folder: Path) -> None:
+        self.page = page
+        self.folder = folder
+        self.press = page.keyboard.press
+
+    def command(self, title: str) -> None:
+        """Run the command that the palette shows first for its title."""
+        self.press("F1")
+        entry = self.page.locator(".quick-input-widget input[type=text]")
+        entry.fill(f">{title}")
+        row = self.page.locator(".quick-input-list .monaco-list-row.focused")
+        expect(row).to_contain_text(title.split(": ")[-1])
+        self.press("Enter")
+
+    def choose(self, text: str) -> None:
+        """Choose what a list offers that has opened in the middle."""
+        self.page.locator(".quick-input-list .monaco-list-row", has_text=text).first.click()
+
+    def open(self, name: str, line: int = 1, column: int = 1) -> None:
+        """Open a file of the folder, with the cursor at a place in it."""
+        self.press("Control+p")
+        self.page.locator(".quick-input-widget input[type=text]").fill(f"{name}:{line}:{column}")
+        expect(self.page.locator(".quick-input-list .monaco-list-row").first).to_contain_text(name)
+        self.press("Enter")
+        expect(self.tab(name)).to_have_count(1)
+        self.at(line, column)
+
+    def tab(self, name: str) -> Locator:
+        """The tab of a file, if it is in front."""
+        return self.page.locator(f".tab.active[data-resource-name='{name}']")
+
+    def at(self, line: int, column: int) -> None:
+        """Wait until the cursor is at a place."""
+        expect(self.status("status.editor.selection")).to_contain_text(f"Ln {line}, Col {column}")
+
+    def place(self, name: str, text: str, after: str = "") -> None:
+        """Open a file with the cursor at the first `text` after the first `after`."""
+        whole = (self.folder / name).read_text(encoding="utf-8")
+        offset = whole.index(text, whole.index(after))
+        before = whole[:offset]
+        self.open(name, before.count("\n") + 1, len(before) - before.rfind("\n"))
+
+    def status(self, item: str) -> Locator:
+        """An item of the status bar."""
+        return self.page.locator(f'.statusbar-item[id="{item}"]')
+
+    def server(self, version: str) -> None:
+        """Wait until the language server runs."""
+        item = self.status("swarmdsl.swarm.swarmdsl")
+        expect(item.locator(".codicon-check")).to_be_visible()
+        expect(item).to_contain_text(f"swarmc {version}")
+
+    def found(self, origin: str) -> None:
+        """Wait until the server is the one that was found somewhere, as its item says."""
+        hover = self.page.locator(".monaco-hover .hover-contents", has_text=origin)
+        deadline = time.monotonic() + PATIENCE / 1000
+        while not hover.count():
+            assert time.monotonic() < deadline, origin
+            self.page.mouse.move(0, 0)
+            self.page.wait_for_timeout(500)
+            self.status("swarmdsl.swarm.swarmdsl").hover()
+            self.page.wait_for_timeout(1500)
+        self.page.mouse.move(0, 0)
+
+    def line(self, text: str) -> Locator:
+        """The lines in sight that have a text."""
+        return self.page.locator(".editor-instance .view-line", has_text=_spaced(text))
+
+    def saved(self, name: str, right: Callable[[str], bool]) -> None:
+        """Save all files, and wait until one of them is as it should be."""
+        self.command("File: Save All Files")
+        file = self.folder / name
+        deadline = time.monotonic() + PATIENCE / 1000
+        while not right(file.read_text(encoding="utf-8")):
+            assert time.monotonic() < deadline, file.read_text(encoding="utf-8")
+            self.page.wait_for_timeout(50)
+
+    @contextmanager
+    def settings(self, settings: Mapping[str, object]) -> Iterator[None]:
+        """Set something for the folder, for a while."""
+        file = self.folder / ".vscode" / "settings.json"
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(json.dumps(settings), encoding="utf-8")
+        yield
+        file.write_text("{}", encoding="utf-8")
+
+    def problems(self) -> Locator:
+        """The rows of the view of problems, files and what is wrong in them."""
+        self.command("Problems: Focus on Problems View")
+        return self.page.locator(".markers-panel .monaco-list-row")
+
+
+def _spaced(text: str) -> re.Pattern[str]:
+    """Match a text as the page has it, where blanks do not break."""
+    return re.compile(re.escape(text).replace("\\ ", "[ \u00a0]"))
+
+
+@contextmanager
+def opened(
+    host: Path, chromium: str, extension: Path, folder: Path, scratch: Path
+) -> Iterator[Window]:
+    """Serve a folder by a VS Code of its own, with an extension, and open it in a browser."""
+    machine = scratch / "data" / "Machine"
+    user = scratch / "data" / "User"
+    for settings in (machine, user):
+        settings.mkdir(parents=True)
+        (settings / "settings.json").write_text(json.dumps(_SETTINGS), encoding="utf-8")
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    program = [
+        *(str(environment.node(host)), str(environment.code(host))),
+        *("--user-data-dir", str(scratch / "data"), "--extensions-dir", str(scratch / "added")),
+    ]
+    surroundings = {
+        "HOME": str(scratch),
+        "PATH": "/usr/bin:/bin",  # without the environment that runs these tests
+        "SHELL": "/bin/sh",
+        "LANG": "C.UTF-8",
+        "EXTENSIONS_GALLERY": "{}",  # else the page asks one
+    }
+    subprocess.run(
+        [*program, "--install-extension", str(extension)],
+        env=surroundings,
+        check=True,
+        capture_output=True,
+    )
+    serve = [
+        *("--auth", "none", "--bind-addr", f"127.0.0.1:{port}", "--disable-telemetry"),
+        *("--disable-update-check", "--disable-workspace-trust"),
+        *("--disable-getting-started-override", str(folder)),
+    ]
+    with (scratch / "log.txt").open("wb") as log:
+        server = subprocess.Popen(
+            [*program, *serve],
+            env=surroundings,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
+    try:
+        _wait_for(port)
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=chromium, args=_BROWSER)
+            expect.set_options(timeout=PATIENCE)
+            page = browser.new_page(viewport=SIZE, color_scheme="light")
+            page.set_default_timeout(PATIENCE)
+            page.goto(f"http://127.0.0.1:{port}/")
+            page.wait_for_selector(".explorer-folders-view .monaco-list-row")
+            yield Window(page, folder)
+            browser.close()
+    finally:
+        # The processes of extensions live on without their window.
+        os.killpg(server.pid, signal.SIGTERM)
+        try:
+            server.wait(20)
+        except subprocess.TimeoutExpired:
+            os.killpg(server.pid, signal.SIGKILL)
+
+
+def _wait_for(port: int) -> None:
+    deadline = time.monotonic() + PATIENCE / 1000
+    while True:
+        try:
+            socket.create_connection(("127.0.0.1", port)).close()
+            return
+        except OSError:
+            assert time.monotonic() < deadline, "VS Code does not start"
+            time.sleep(0.1)
