@@ -5,6 +5,7 @@ import * as vscode from "vscode";
 import { selectInterpreter } from "./interpreter.ts";
 import { newModel } from "./models.ts";
 import { onSelect } from "./python.ts";
+import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
 import { simulate, type Subject } from "./simulate.ts";
 import { showStatus } from "./status.ts";
@@ -30,6 +31,9 @@ export function activate(context: vscode.ExtensionContext): void {
       const uri = asked(file);
       return uri && simulate(started, uri, subject);
     }),
+    command("references", (file: string, at: Place["range"]["start"], places: Place[]) =>
+      showReferences(file, at, places),
+    ),
     vscode.workspace.onDidChangeConfiguration((event) => {
       if (event.affectsConfiguration("swarmdsl.server")) {
         refresh();

@@ -116,6 +116,8 @@ export class Server implements vscode.Disposable {
         // That of the problem matcher, so that a problem is shown once.
         diagnosticCollectionName: "swarmdsl",
         outputChannel: this.log,
+        // Those that the server may name above declarations.
+        initializationOptions: { commands: ["swarmdsl.references", "swarmdsl.simulate"] },
       },
     );
     client.onDidChangeState(({ newState }) => {

@@ -19,7 +19,8 @@ NOTE = "```swarm\nstate Idle {\n}\n```\n\nstate Idle\n"
 EXAMPLE = ROOT / "examples" / "search_and_rescue"
 
 
-@pytest.fixture(scope="package")
+# Not for longer: while a browser is driven, no test with asyncio runs.
+@pytest.fixture(scope="module")
 def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Iterator:
     chromium = shutil.which("chromium")
     missing = [
