@@ -1,6 +1,7 @@
 """`swarmc check --watch` and `swarmc build --watch`, with files that change."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -112,6 +113,46 @@ def test_build(model: Path, tmp_path: Path) -> None:
         (second,) = out.rglob("*.scxml")
         assert second != first
         assert watching.end() == 0
+    finally:
+        watching.stop()
+
+
+def test_a_build_is_a_line(model: Path, tmp_path: Path) -> None:
+    """With what changed, when, how long it took and what became of how many files."""
+    out = tmp_path / "out"
+    two = MACHINE + MACHINE.replace("Work", "Rest")
+    put(model, two)
+    options = ("--target", "scxml", "--option", "scxml.profile=portable")
+    watching = Watching("build", str(model.parent), *options, "--out", str(out))
+    try:
+        line = r"waiting for changes \(\d\d:\d\d:\d\d, \d+ ms\): "
+        first = watching.run()
+        assert re.fullmatch(f"{line}2 written; no errors in 1 file; end with Ctrl-C\n", first)
+        before = {path: path.stat().st_mtime_ns for path in out.rglob("*") if path.is_file()}
+        put(model, two)
+        same = watching.run()
+        assert re.fullmatch(f"changed: a.swarm\n{line}2 unchanged; no errors in 1 file\n", same)
+        put(model, two.replace("-> B", "-> Lost"))
+        said = watching.run()
+        assert re.search(f"^{line}2 errors in 1 file$", said, re.MULTILINE)
+        now = {path: path.stat().st_mtime_ns for path in out.rglob("*") if path.is_file()}
+        assert now == before
+        put(model, two.replace("1 s", "2 s", 1))
+        assert "): 1 written, 1 unchanged; no errors in 1 file\n" in watching.run()
+    finally:
+        watching.stop()
+
+
+def test_a_dry_run_that_watches(model: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    put(model, MACHINE)
+    arguments = ("build", str(model.parent), "--target", "scxml", "--out", str(out), "--dry-run")
+    watching = Watching(*arguments)
+    try:
+        assert f"create    {out}/scxml/Work.scxml\n" in watching.run()
+        put(model, MACHINE.replace("Work", "Rest"))
+        assert f"create    {out}/scxml/Rest.scxml\n" in watching.run()
+        assert not out.exists()
     finally:
         watching.stop()
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swarmdsl.cli.outcome import conclude
+from swarmdsl.cli.outcome import briefly, conclude
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
 from swarmdsl.cli.writing import OPTIONS as OF_WRITING
 
@@ -80,6 +80,7 @@ def build(
     """
     from swarmdsl import compiler
     from swarmdsl.cli.writing import writing
+    from swarmdsl.dataclass import replace
     from swarmdsl.diagnostics import Diagnostics, Level
     from swarmdsl.project.command_line import requests, run_settings
 
@@ -92,10 +93,13 @@ def build(
     if watch:
         from swarmdsl.cli.watch import watch_files
 
-        def build_again(checked: Result, settings: Settings) -> int:
+        def build_again(checked: Result, settings: Settings) -> str:
             wanted = requests(targets, given, settings)
             result = compiler.generate(checked, wanted, out or settings.out, how)
-            return mode.conclude(result, format_)
+            if not how.dry:
+                return briefly(result, format_, sys.stdout)
+            mode.show(result, format_)
+            return briefly(replace(result, written=None), format_, sys.stderr)
 
         return watch_files(paths, lambda report: run_settings(paths, levels, report), build_again)
     stream = sys.stderr if dump_ir else sys.stdout

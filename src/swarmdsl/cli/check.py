@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from swarmdsl.cli.outcome import conclude
+from swarmdsl.cli.outcome import briefly, conclude
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH
 
 EPILOG = "Example: swarmc check examples/search_and_rescue --format concise"
@@ -36,7 +36,7 @@ def check(
         return watch_files(
             paths,
             lambda report: run_settings(paths, levels, report),
-            lambda result, _: conclude(result, format_, sys.stdout),
+            lambda result, _: briefly(result, format_, sys.stdout),
         )
     report = Diagnostics()
     settings = run_settings(paths, levels, report)

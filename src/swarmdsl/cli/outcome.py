@@ -32,6 +32,17 @@ def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool 
     return exit_code(result.report)
 
 
+def briefly(result: Result, format_: str, stream: TextIO) -> str:
+    """Print what is wrong, and return in one line what came of a run."""
+    render(result.report, format_, stream)
+    said = summary(result.report, result.files)
+    if result.written is None:
+        return said
+    from swarmdsl.render.written import line
+
+    return f"{line(result.written)}; {said}"
+
+
 def exit_code(report: Diagnostics) -> int:
     """0 without errors, 2 where all of them are on the command line, 1 for others."""
     errors = [found for found in report if found.severity is Severity.ERROR]

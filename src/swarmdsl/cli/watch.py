@@ -7,7 +7,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from time import perf_counter, sleep
+from time import perf_counter, sleep, strftime
 
 import click
 
@@ -23,8 +23,8 @@ _PAUSE = 0.2
 
 Stamp = tuple[int, int]
 Stamps = Mapping[str, Stamp | None]
-# Says what came of a check, or builds what it found valid.
-Conclude = Callable[[Result, Settings], object]
+# Says what came of a check, or builds what it found valid; returns all in all, in a few words.
+Conclude = Callable[[Result, Settings], str]
 
 
 def watch_files(
@@ -40,28 +40,31 @@ def watch_files(
     try:
         changed: set[str] = set()
         while True:
+            start = perf_counter()
             before = _stamps(places(paths[0] if paths else Path()))
             report = Diagnostics()
             settings = read_settings(report)
             if report.has_errors:
-                _show(conclude, Result(report, files=1), settings, changed)
+                _show(conclude, Result(report, files=1), settings, changed, start)
                 while _stamps(before) == before:
                     sleep(_PAUSE)
             else:
-                _watch(before, settings, conclude, changed)
+                _watch(before, settings, conclude, changed, start)
             changed = {FILE_NAME}
     except KeyboardInterrupt:
         click.echo(err=True)
         return 0
 
 
-def _watch(project: Stamps, settings: Settings, conclude: Conclude, changed: set[str]) -> None:
-    """Watch the files of a model until the project file changes."""
+def _watch(
+    project: Stamps, settings: Settings, conclude: Conclude, changed: set[str], start: float
+) -> None:
+    """Watch the files of a model until the project file changes; `start` is when it did."""
     workspace = Workspace(settings.sources, settings)
     gc.collect()
     gc.freeze()
     known = _stamps(workspace.watched())
-    _show(conclude, _result(workspace, settings), settings, changed)
+    _show(conclude, _result(workspace, settings), settings, changed, start)
     while _stamps(project) == project:
         sleep(_PAUSE)
         found = _stamps(workspace.watched())
@@ -69,11 +72,10 @@ def _watch(project: Stamps, settings: Settings, conclude: Conclude, changed: set
         if changed:
             start = perf_counter()
             workspace.update({Path(path): None for path in changed})
-            seconds = perf_counter() - start
             # Of what changed meanwhile the older time counts, so that it is seen next.
             known = _stamps(workspace.watched())
             known.update((path, found[path]) for path in known.keys() & found.keys())
-            _show(conclude, _result(workspace, settings), settings, changed, seconds)
+            _show(conclude, _result(workspace, settings), settings, changed, start)
             gc.collect()
 
 
@@ -88,7 +90,7 @@ def _show(
     result: Result,
     settings: Settings,
     changed: Iterable[str],
-    seconds: float | None = None,
+    start: float,
 ) -> None:
     if sys.stdout.isatty():
         click.clear()
@@ -96,11 +98,13 @@ def _show(
     if names:  # by this line an editor knows that what was said before is no longer true
         click.echo(f"changed: {names}", err=True)
     try:
-        conclude(result, settings)
+        said = conclude(result, settings)
     except UsageError as error:  # of what the project file leaves open
-        click.echo(f"Error: {error}", err=True)
-    taken = f" after {seconds * 1000:.0f} ms" if seconds is not None else ""
-    click.echo(f"waiting for changes{taken}; end with Ctrl-C", err=True)
+        said = f"Error: {error}"
+    sys.stdout.flush()
+    took = f"{(perf_counter() - start) * 1000:.0f} ms"
+    ending = "" if names else "; end with Ctrl-C"
+    click.echo(f"waiting for changes ({strftime('%H:%M:%S')}, {took}): {said}{ending}", err=True)
 
 
 def _stamps(paths: Iterable[str | Path]) -> dict[str, Stamp | None]:

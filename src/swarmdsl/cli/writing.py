@@ -121,16 +121,20 @@ class Writing:
             if self.check and written is not None and code == OK:
                 sys.stderr.write(f"{written.folder} is up to date\n")
             return code
-        from swarmdsl.render.planned import render_diff, render_plan
-
-        if written is not None and self.diff:
-            render_diff(written, sys.stdout)
-        elif written is not None:
-            render_plan(written, format_, sys.stdout)
-        sys.stdout.flush()
+        self.show(result, format_)
         code = conclude(result, format_, sys.stderr, about_files=False)
         changes = written is not None and bool(written.changes)
         return ERRORS if code == OK and self.diff and changes else code
+
+    def show(self, result: Result, format_: str) -> None:
+        """Print what would be done, if it is not done."""
+        from swarmdsl.render.planned import render_diff, render_plan
+
+        if result.written is not None and self.diff:
+            render_diff(result.written, sys.stdout)
+        elif result.written is not None:
+            render_plan(result.written, format_, sys.stdout)
+        sys.stdout.flush()
 
 
 def _is_name(text: str) -> bool:

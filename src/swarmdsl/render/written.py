@@ -13,16 +13,7 @@ from swarmdsl.render.printable import printable
 
 def render_written(written: Written, stream: TextIO) -> None:
     """Write the number of files by target, and what became of those of the user."""
-    counts = {
-        "written": _by_target(written, *NEW_TEXT),
-        "unchanged": Counter(map(_target, written.unchanged)),
-        "kept": Counter(map(_target, written.kept)),
-        "edited": Counter(map(_target, written.edited)),
-        "in conflict": Counter(map(_target, written.conflicts)),
-        "moved": _by_target(written, Action.MOVE, Action.RESTORE),
-        "put aside": _by_target(written, Action.PARK),
-        "removed": _by_target(written, Action.REMOVE),
-    }
+    counts = _counts(written)
     columns = [column for column in counts if counts[column] or column == "written"]
     targets = dict.fromkeys(target for counter in counts.values() for target in counter)
     rows = [[target, *(str(counts[each][target] or "-") for each in columns)] for target in targets]
@@ -40,6 +31,26 @@ def render_written(written: Written, stream: TextIO) -> None:
     there = ("written", "unchanged", "kept", "edited", "in conflict", "moved")
     files = sum(sum(counts[column].values()) for column in there)
     stream.write(f"{counted(files, 'file')} in {printable(str(written.folder))}\n")
+
+
+def line(written: Written) -> str:
+    """How many files became what: "3 written, 41 unchanged"."""
+    counts = {name: sum(counter.values()) for name, counter in _counts(written).items()}
+    return ", ".join(f"{number} {name}" for name, number in counts.items() if number)
+
+
+def _counts(written: Written) -> dict[str, Counter[str]]:
+    """The number of files of each target by what became of them."""
+    return {
+        "written": _by_target(written, *NEW_TEXT),
+        "unchanged": Counter(map(_target, written.unchanged)),
+        "kept": Counter(map(_target, written.kept)),
+        "edited": Counter(map(_target, written.edited)),
+        "in conflict": Counter(map(_target, written.conflicts)),
+        "moved": _by_target(written, Action.MOVE, Action.RESTORE),
+        "put aside": _by_target(written, Action.PARK),
+        "removed": _by_target(written, Action.REMOVE),
+    }
 
 
 def _by_target(written: Written, *actions: Action) -> Counter[str]:

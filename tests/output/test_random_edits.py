@@ -1,0 +1,202 @@
+"""Models and files change at random, again and again: no line of a user is ever lost.
+
+The model is one of functions and components as target `skeleton` makes packages of them. Between
+two builds some of its elements come, go, get another name or another interface, and a user
+writes lines of their own into any file of the output.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from swarmdsl import compiler
+from swarmdsl.emit import Request
+from swarmdsl.output import How
+from swarmdsl.output.plan import PARKED
+
+NAMES = ("takeoff", "land", "rise_up", "Camera")
+TYPES = ("float64", "int32")
+MINE = "line of mine"
+
+ELEMENTS = st.dictionaries(
+    st.sampled_from(NAMES), st.tuples(st.sampled_from(TYPES), st.booleans()), min_size=1
+)
+# Where a line is written: which file, and where in it, both as parts of a thousand.
+EDIT = st.tuples(st.integers(0, 999), st.integers(0, 999), st.booleans())
+STEP = st.tuples(ELEMENTS, st.lists(EDIT, max_size=4), st.booleans())
+
+
+def model(elements: dict[str, tuple[str, bool]]) -> str:
+    """The text of a model with these elements, with a type and an extra param each."""
+    text = "package lab\n"
+    for name, (type_, extra) in elements.items():
+        more = "  param more : float64 = 1.0\n" if extra else ""
+        if name[0].isupper():
+            text += f"sensor {name} {{\n  out image : {type_}\n{more}}}\n"
+        else:
+            action = f'  action "cmd/{name}" : Work\n  in "height" : std_msgs/Float64\n'
+            text += f"function {name} : abstraction {{\n{action}  param limit : {type_}\n{more}}}\n"
+    return text + "action Work { goal { now : bool } }\n"
+
+
+def files(out: Path) -> list[Path]:
+    """All files but the lists of swarmc, and what an interrupted build leaves."""
+    found = (path for path in sorted(out.rglob("*")) if path.is_file())
+    return [path for path in found if not path.name.startswith((".swarmdsl", ".swarmc-"))]
+
+
+def write_line(out: Path, edit: tuple[int, int, bool], number: int) -> None:
+    """A user writes a line into a file, or in place of another line that is not theirs."""
+    which, where, replace = edit
+    # What is beside a file to help with it, the user reads and deletes.
+    own = [
+        path for path in files(out) if not path.name.endswith((".swarmc-new", ".swarmc-changes"))
+    ]
+    path = own[which * len(own) // 1000]
+    lines = path.read_text(encoding="utf-8").splitlines()
+    at = where * len(lines) // 1000
+    if replace and at < len(lines) and MINE not in lines[at] and "swarmc:" not in lines[at]:
+        del lines[at]
+    lines.insert(at, f"# {MINE} {number}.")
+    path.write_text("\n".join([*lines, ""]), encoding="utf-8")
+
+
+def mine(out: Path) -> set[str]:
+    """The lines of the user in all files, but for copies."""
+    found = set()
+    for path in files(out):
+        if path.name.endswith((".swarmc-new", ".swarmc-changes")):
+            continue
+        text = path.read_text(encoding="utf-8")
+        found |= {line for line in text.splitlines() if MINE in line}
+    return found
+
+
+def build(out: Path, text: str, **how: object) -> compiler.Result:
+    source = out.parent / "lab.swarm"
+    source.write_text(text, encoding="utf-8")
+    request = Request("skeleton", {"language": "cpp"})
+    return compiler.build([source], [request], out, how=How(**how))  # type: ignore[arg-type]
+
+
+def renames(
+    before: dict[str, tuple[str, bool]], now: dict[str, tuple[str, bool]]
+) -> tuple[tuple[str, str], ...]:
+    """One element that is gone, as if it were one that is new."""
+    gone = [name for name in before if name not in now]
+    new = [name for name in now if name not in before]
+    return tuple(zip(gone[:1], new[:1], strict=False))
+
+
+def stamps(out: Path) -> dict[Path, int]:
+    return {path: path.stat().st_mtime_ns for path in out.rglob("*") if path.is_file()}
+
+
+@settings(
+    max_examples=15,
+    deadline=None,
+    derandomize=True,
+    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+)
+@given(st.lists(STEP, min_size=2, max_size=4))
+def test_no_line_of_the_user_is_lost(
+    steps: list[tuple[dict[str, tuple[str, bool]], list[tuple[int, int, bool]], bool]],
+) -> None:
+    with TemporaryDirectory() as folder:
+        out = Path(folder, "out")
+        before: dict[str, tuple[str, bool]] = {}
+        number = 0
+        for elements, edits, renamed in steps:
+            there = mine(out)
+            how = {"renames": renames(before, elements)} if renamed else {}
+            text = model(elements)
+            if build(out, text, **how).written is None:
+                # Two files of the user would be one: nothing is done, until they are asked.
+                assert mine(out) == there
+                build(out, text)
+            assert mine(out) == there
+
+            done = stamps(out)
+            again = build(out, text)
+            assert again.written is not None
+            assert again.written.changes == ()
+            assert stamps(out) == done
+
+            for edit in edits:
+                number += 1
+                write_line(out, edit, number)
+            before = elements
+
+
+def test_the_test_sees_all_kinds_of_changes() -> None:
+    """What is random above happens here for certain: nothing is tested that cannot be."""
+    one, other = {"takeoff": ("float64", False)}, {"land": ("float64", False)}
+    with TemporaryDirectory() as folder:
+        out = Path(folder, "out")
+        build(out, model(one))
+        for place in range(0, 1000, 50):
+            write_line(out, (place, 500, False), place)
+        build(out, model(other))
+        assert (out / PARKED).exists()
+        assert len(mine(out)) == 20
+        build(out, model(other), renames=(("takeoff", "land"),))
+        assert not (out / PARKED).exists()
+        assert len(mine(out)) == 20
+
+
+class Stopped(BaseException):
+    """As if the power failed: nothing is cleaned up after it."""
+
+
+@pytest.mark.parametrize("after", range(0, 40, 3))
+def test_an_interrupted_build_leaves_old_or_new(
+    after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And the next one goes on as if nothing had been."""
+    old, new = model({"takeoff": ("float64", False)}), model({"takeoff": ("int32", True)})
+    expected = {}
+    for name, texts in (("new", [old, new]), ("out", [old])):
+        out = tmp_path / name / "out"
+        out.parent.mkdir()
+        for number, text in enumerate(texts):
+            build(out, text)
+            if number == 0:
+                for place in (100, 400, 700):
+                    write_line(out, (place, 500, False), place)
+        expected[name] = {path.relative_to(out): path.read_bytes() for path in files(out)}
+    out = tmp_path / "out" / "out"
+    count = 0
+    real_replace, real_unlink = os.replace, Path.unlink
+
+    def step() -> None:
+        nonlocal count
+        count += 1
+        if count > after:
+            raise Stopped
+
+    def replace(source: Path, place: Path) -> None:
+        step()
+        real_replace(source, place)
+
+    def unlink(path: Path, missing_ok: bool = False) -> None:
+        step()
+        real_unlink(path, missing_ok)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", replace)
+        patch.setattr(Path, "unlink", unlink)
+        with suppress(Stopped):
+            build(out, new)
+    for path in files(out):
+        content, key = path.read_bytes(), path.relative_to(out)
+        assert content in (expected["out"].get(key), expected["new"].get(key)), path
+    assert mine(out) == mine(tmp_path / "new" / "out")
+    build(out, new)
+    assert {path.relative_to(out): path.read_bytes() for path in files(out)} == expected["new"]
