@@ -32,8 +32,8 @@ from swarmdsl.cli.outcome import exit_code
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(("mermaid", "dot", "plantuml")),
-    default="mermaid",
+    type=click.Choice(("svg", "mermaid", "dot", "plantuml")),
+    default="svg",
     show_default=True,
     help="What is written.",
 )

@@ -15,13 +15,14 @@ from swarmdsl.diagram.internal import internal
 from swarmdsl.diagram.mermaid import mermaid
 from swarmdsl.diagram.plantuml import plantuml
 from swarmdsl.diagram.statechart import statechart
+from swarmdsl.diagram.svg import svg
 from swarmdsl.ir import System
 
 __all__ = ["FORMATS", "KINDS", "Diagram", "Kind", "diagrams"]
 
-FORMATS = {"dot": dot, "mermaid": mermaid, "plantuml": plantuml}
+FORMATS = {"svg": svg, "dot": dot, "mermaid": mermaid, "plantuml": plantuml}
 """What writes a diagram, by the name of the format."""
-SUFFIXES = {"dot": ".dot", "mermaid": ".mmd", "plantuml": ".puml"}
+SUFFIXES = {"svg": ".svg", "dot": ".dot", "mermaid": ".mmd", "plantuml": ".puml"}
 
 
 def diagrams(system: System, kinds: Collection[Kind] = KINDS) -> Iterator[Diagram]:

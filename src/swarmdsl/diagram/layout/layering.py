@@ -1,0 +1,108 @@
+"""Cells to layers, and links to segments from layer to layer."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from swarmdsl.diagram.layout.level import Cell, End, Layers, Link, Segment, Side, Vertex
+from swarmdsl.diagram.layout.simplex import minimized
+
+
+def make_layers(cells: Sequence[Cell], links: Sequence[Link], pitch: int) -> Layers:
+    """Put each cell in a layer so that links are short; those with a label have a layer for it.
+
+    `pitch` is the distance of a line from the text beside it.
+    """
+    ranks = _ranks(cells, links)
+    vertices = [
+        Vertex(cell.length, cell.breadth, rank, cell=number)
+        for number, (cell, rank) in enumerate(zip(cells, ranks, strict=True))
+    ]
+    layers: list[list[Vertex]] = [[] for _ in range(max(ranks, default=-1) + 1)]
+    for vertex in vertices:
+        layers[vertex.layer].append(vertex)
+    segments: list[Segment] = []
+    for number, link in enumerate(links):
+        segments += _segments(number, link, vertices, layers, pitch)
+    return Layers(layers, segments, vertices)
+
+
+def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
+    constraints = []
+    for link in links:
+        tail, head = (link.target, link.source) if link.flipped else (link.source, link.target)
+        if tail != head:
+            constraints.append((tail, head, link.least, 1))
+    title = next((number for number, cell in enumerate(cells) if cell.title), None)
+    if title is not None:
+        # Beside a title there is only what comes in from outside.
+        constraints += (
+            (title, number, 1, 0)
+            for number, cell in enumerate(cells)
+            if cell.border != "first" and number != title
+        )
+    for border, cell in enumerate(cells):
+        # Beside what has a name at the border there is nothing else.
+        if cell.border is not None and cell.length:
+            ends = (
+                (border, number) if cell.border == "first" else (number, border)
+                for number, each in enumerate(cells)
+                if each.border is None
+            )
+            constraints += ((tail, head, 1, 0) for tail, head in ends)
+    ranks = minimized(len(cells), constraints)
+    last = max(ranks, default=0)
+    for number, cell in enumerate(cells):
+        if cell.border is not None:
+            ranks[number] = 0 if cell.border == "first" else last
+    return ranks
+
+
+def _segments(
+    number: int, link: Link, vertices: list[Vertex], layers: list[list[Vertex]], pitch: int
+) -> list[Segment]:
+    """The way of a link, from its source to its target, with a vertex in each layer between."""
+    source, target = vertices[link.source], vertices[link.target]
+    step = -1 if link.flipped else 1
+    out: Side = "first" if link.flipped else "last"
+    into: Side = "last" if link.flipped else "first"
+    passed = list(range(source.layer + step, target.layer, step))
+    # Where it must leave on the side that faces away, it first goes round the cell.
+    leaves_back = link.source_side not in (None, out)
+    enters_back = link.target_side not in (None, into)
+    if source is target:
+        passed = [source.layer]
+    else:
+        passed = [*[source.layer] * leaves_back, *passed, *[target.layer] * enters_back]
+    way = []
+    for at, layer in enumerate(passed):
+        # Next to the source one sees whose label it is.
+        if link.label is not None and at == leaves_back:
+            length, breadth = link.label
+            vertex = Vertex(length, breadth + pitch, layer, link=number, is_label=True)
+        else:
+            vertex = Vertex(0, 0, layer, link=number)
+        layers[layer].append(vertex)
+        way.append(vertex)
+    stops = [source, *way, target]
+    segments = []
+    for at, (one, other) in enumerate(pairwise(stops)):
+        leaving, entering = out, into
+        if leaves_back and at == 0:
+            leaving = entering = _other(out)
+        elif enters_back and at == len(stops) - 2:
+            leaving = entering = _other(into)
+        gap = one.layer + (leaving == "last")
+        segments.append(Segment(gap, number, _end(one, leaving), _end(other, entering)))
+    segments[0].start.at = link.source_at
+    segments[-1].end.at = link.target_at
+    return segments
+
+
+def _other(side: Side) -> Side:
+    return "first" if side == "last" else "last"
+
+
+def _end(vertex: Vertex, side: Side) -> End:
+    return End(vertex, side, 0 if vertex.cell is None else None)

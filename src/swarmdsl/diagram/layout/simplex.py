@@ -1,0 +1,290 @@
+"""Whole numbers that make weighted differences as small as possible: network simplex.
+
+Layers are found with it, and places within layers. Gansner, Koutsofios, North, Vo: A Technique
+for Drawing Directed Graphs, IEEE TSE 19 (1993), section 2.3 and 4.2.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from heapq import heapify, heappop, heappush
+
+Constraint = tuple[int, int, int, int]
+"""Number `head` is at least number `tail` + length; each unit more costs weight."""
+
+_WORK = 1_000_000
+"""About how many steps are spent: an answer that is not the best is one, too."""
+_SEARCHED = 30
+
+
+def minimized(count: int, constraints: Sequence[Constraint]) -> list[int]:
+    """`count` numbers, the least 0, that fulfil all constraints at the least cost.
+
+    The constraints have no circles. They are the edges (tail, head, length, weight).
+    """
+    if count == 0:
+        return []
+    merged: dict[tuple[int, int], tuple[int, int]] = {}
+    for tail, head, length, weight in constraints:
+        known = merged.get((tail, head), (length, 0))
+        merged[tail, head] = (max(length, known[0]), weight + known[1])
+    heads = {head for _, head in merged}
+    root = count
+    for node in range(count):
+        # What nothing else holds together, the root does, at no cost.
+        if node not in heads:
+            merged[root, node] = (0, 0)
+    edges = [(tail, head, *about) for (tail, head), about in merged.items()]
+    solver = _Solver(count + 1, edges)
+    solver.solve()
+    least = min(solver.rank[:count])
+    return [value - least for value in solver.rank[:count]]
+
+
+class _Solver:
+    """A spanning tree of edges that are as short as they may be, made better edge by edge."""
+
+    def __init__(self, count: int, edges: list[tuple[int, int, int, int]]) -> None:
+        self.count = count
+        self.tail = [edge[0] for edge in edges]
+        self.head = [edge[1] for edge in edges]
+        self.length = [edge[2] for edge in edges]
+        self.weight = [edge[3] for edge in edges]
+        self.incident: list[list[int]] = [[] for _ in range(count)]
+        for number, (tail, head, _, _) in enumerate(edges):
+            self.incident[tail].append(number)
+            self.incident[head].append(number)
+        self.rank = [0] * count
+        self.in_tree = [False] * len(edges)
+        self.tree: list[list[int]] = [[] for _ in range(count)]
+        self.cut = [0] * len(edges)
+        # Of the tree as seen from the root: the edge to the parent, the number of a node, and the
+        # last one below it.
+        self.parent = [-1] * count
+        self.low = [0] * count
+        self.last = [0] * count
+
+    def solve(self) -> None:
+        self.longest_paths()
+        self.span()
+        self.number(self.count - 1, -1, 1)
+        self.cut_values()
+        members = [edge for edge, inside in enumerate(self.in_tree) if inside]
+        work, at = _WORK, 0
+        while work > 0:
+            leaving, at = self.leaving(members, at)
+            if leaving is None:
+                break
+            entering = self.entering(members[leaving])
+            if entering is None:
+                break
+            work -= self.exchange(members[leaving], entering) + len(members) // 4
+            members[leaving] = entering
+        self.balance(members)
+
+    def slack(self, edge: int) -> int:
+        return self.rank[self.head[edge]] - self.rank[self.tail[edge]] - self.length[edge]
+
+    def longest_paths(self) -> None:
+        """The least numbers that fulfil all constraints."""
+        waits = [0] * self.count
+        for head in self.head:
+            waits[head] += 1
+        ready = [node for node in range(self.count) if not waits[node]]
+        for node in ready:
+            for edge in self.incident[node]:
+                if self.tail[edge] != node:
+                    continue
+                head = self.head[edge]
+                self.rank[head] = max(self.rank[head], self.rank[node] + self.length[edge])
+                waits[head] -= 1
+                if not waits[head]:
+                    ready.append(head)
+        assert len(ready) == self.count, "constraints go in a circle"
+
+    def span(self) -> None:
+        """Make a tree of tight edges: join the smallest part to the nearest other, in turns."""
+        part = list(range(self.count))
+        members: list[list[int]] = [[node] for node in range(self.count)]
+
+        def join(edge: int) -> int:
+            one, other = part[self.tail[edge]], part[self.head[edge]]
+            if len(members[one]) < len(members[other]):
+                one, other = other, one
+            for node in members[other]:
+                part[node] = one
+            members[one] += members[other]
+            members[other] = []
+            self.in_tree[edge] = True
+            self.tree[self.tail[edge]].append(edge)
+            self.tree[self.head[edge]].append(edge)
+            return one
+
+        for edge in range(len(self.tail)):
+            if part[self.tail[edge]] != part[self.head[edge]] and not self.slack(edge):
+                join(edge)
+        heap = [(len(nodes), number) for number, nodes in enumerate(members) if nodes]
+        heapify(heap)
+        while len(heap) > 1:
+            size, number = heappop(heap)
+            if len(members[number]) != size:
+                continue
+            best, least = -1, 0
+            for node in members[number]:
+                for edge in self.incident[node]:
+                    if part[self.tail[edge]] != part[self.head[edge]]:
+                        slack = self.slack(edge)
+                        if best < 0 or slack < least:
+                            best, least = edge, slack
+            if best < 0:
+                break  # it is all there is
+            delta = least if part[self.tail[best]] == number else -least
+            for node in members[number]:
+                self.rank[node] += delta
+            joined = join(best)
+            heappush(heap, (len(members[joined]), joined))
+
+    def number(self, root: int, parent: int, low: int) -> int:
+        """Number the tree below a node in preorder; return how many nodes that are."""
+        tail, head, tree, parents = self.tail, self.head, self.tree, self.parent
+        parents[root] = parent
+        order = []
+        above = []
+        stack = [(root, root)]
+        while stack:
+            node, before = stack.pop()
+            order.append(node)
+            above.append(before)
+            up = parents[node]
+            for edge in tree[node]:
+                if edge != up:
+                    child = head[edge] if tail[edge] == node else tail[edge]
+                    parents[child] = edge
+                    stack.append((child, node))
+        lows, lasts = self.low, self.last
+        for number, node in enumerate(order, low):
+            lows[node] = lasts[node] = number
+        for node, before in zip(reversed(order), reversed(above), strict=True):
+            if lasts[node] > lasts[before]:
+                lasts[before] = lasts[node]
+        return len(order)
+
+    def cut_values(self) -> None:
+        """What it costs to make each edge of the tree longer, from the leaves to the root."""
+        order = sorted(range(self.count), key=self.low.__getitem__, reverse=True)
+        for node in order:
+            if self.parent[node] >= 0:
+                self.cut[self.parent[node]] = self.cut_value(node)
+
+    def cut_value(self, node: int) -> int:
+        """That of the edge above a node, from those of the edges below it."""
+        above = self.parent[node]
+        # Counted towards the node if the edge leads to it, and the other way round if not.
+        inward = self.head[above] == node
+        total = 0
+        for edge in self.incident[node]:
+            same = (self.head[edge] == node) == inward
+            value = self.weight[edge] if same else -self.weight[edge]
+            if edge != above and self.in_tree[edge]:
+                value += -self.cut[edge] if same else self.cut[edge]
+            total += value
+        return total
+
+    def leaving(self, members: list[int], start: int) -> tuple[int | None, int]:
+        """An edge that had better be longer, of some the one that costs most; where to go on."""
+        best, found, size = None, 0, len(members)
+        for step in range(size):
+            at = start + step
+            at -= size if at >= size else 0
+            if self.cut[members[at]] < 0:
+                if best is None or self.cut[members[at]] < self.cut[members[best]]:
+                    best = at
+                found += 1
+                if found == _SEARCHED:
+                    return best, at
+        return best, start
+
+    def below(self, edge: int) -> int:
+        """The end of an edge of the tree that is farther from the root."""
+        tail, head = self.tail[edge], self.head[edge]
+        return tail if self.parent[tail] == edge else head
+
+    def entering(self, leaving: int) -> int | None:
+        """The shortest edge that holds the parts together on the other side."""
+        node = self.below(leaving)
+        low, last = self.low[node], self.last[node]
+        # Without `leaving`, what it leads to may go away; an edge the other way stops that.
+        outward = self.head[leaving] == node
+        best, least = None, 0
+        stack = [node]
+        numbers = self.low
+        while stack:
+            here = stack.pop()
+            for edge in self.incident[here]:
+                other = self.head[edge] if self.tail[edge] == here else self.tail[edge]
+                if low <= numbers[other] <= last:
+                    if self.in_tree[edge] and self.parent[other] == edge:
+                        stack.append(other)
+                elif (self.tail[edge] == here) == outward and not self.in_tree[edge]:
+                    slack = self.slack(edge)
+                    if best is None or slack < least:
+                        best, least = edge, slack
+                        if not slack:
+                            return best
+        return best
+
+    def exchange(self, leaving: int, entering: int) -> int:
+        """Let one edge of the tree go for another; return how many nodes that touched."""
+        node = self.below(leaving)
+        low, last = self.low[node], self.last[node]
+        slack = self.slack(entering)
+        if slack:
+            inside = low <= self.low[self.head[entering]] <= last
+            self.shift(node, -slack if inside else slack)
+        cut = self.cut[leaving]
+        top = self.update(self.tail[entering], self.head[entering], cut, True)
+        self.update(self.head[entering], self.tail[entering], cut, False)
+        self.cut[entering], self.cut[leaving] = -cut, 0
+        self.in_tree[leaving], self.in_tree[entering] = False, True
+        for edge, change in ((leaving, list.remove), (entering, list.append)):
+            change(self.tree[self.tail[edge]], edge)
+            change(self.tree[self.head[edge]], edge)
+        return self.number(top, self.parent[top], self.low[top]) + last - low
+
+    def shift(self, node: int, delta: int) -> None:
+        """Move the tree below a node."""
+        stack = [node]
+        while stack:
+            here = stack.pop()
+            self.rank[here] += delta
+            for edge in self.tree[here]:
+                if edge != self.parent[here]:
+                    other = self.head[edge] if self.tail[edge] == here else self.tail[edge]
+                    stack.append(other)
+
+    def update(self, start: int, goal: int, cut: int, forward: bool) -> int:
+        """Correct cut values from a node up to where the tree goes down to the goal."""
+        node, wanted = start, self.low[goal]
+        while not self.low[node] <= wanted <= self.last[node]:
+            edge = self.parent[node]
+            away = self.tail[edge] == node
+            self.cut[edge] += cut if away == forward else -cut
+            node = self.head[edge] if away else self.tail[edge]
+        return node
+
+    def balance(self, members: list[int]) -> None:
+        """Put in the middle what can be moved at no cost."""
+        work = _WORK // 4
+        for edge in members:
+            if work <= 0:
+                return
+            if self.cut[edge] == 0 and self.weight[edge] + self.length[edge]:
+                entering = self.entering(edge)
+                if entering is None or (slack := self.slack(entering)) < 2:
+                    continue
+                node = self.below(edge)
+                inside = self.low[node] <= self.low[self.head[entering]] <= self.last[node]
+                self.shift(node, -(slack // 2) if inside else slack // 2)
+                # The tree is not tight there any more, and so this edge must not be used again.
+                self.cut[edge] = 1
+                work -= self.last[node] - self.low[node] + 1
