@@ -264,4 +264,9 @@ CODES: dict[str, Code] = {
     # ---- new projects, changes of models
     "bad-name": Code("SW1501", "error", "`{name}` cannot be {what}"),
     "already-there": Code("SW1502", "error", "`{path}` is there already, and has something in it"),
+    "no-such-thing": Code("SW1503", "error", "the model declares nothing called `{name}`"),
+    "unclear-name": Code("SW1504", "error", "several things are called `{name}`"),
+    "cannot-rename": Code("SW1505", "error", "{what} keeps its name: {reason}"),
+    "still-named": Code("SW1506", "warning", "`{name}` stands here still"),
+    "cannot-add": Code("SW1507", "error", "{what} is not added: {reason}"),
 }

@@ -23,6 +23,7 @@ from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
 COMMANDS = (
+    "add",
     "build",
     "check",
     "codegen",
@@ -36,6 +37,7 @@ COMMANDS = (
     "lsp",
     "merge",
     "new",
+    "rename",
     "simulate",
     "targets",
     "test",

@@ -51,8 +51,9 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
     if any(span.text != found.span.text for span in spans):
         raise RefusedError(f"`{found.span.text}` has another name where it is used")
-    if name != found.span.text and not _can_be_given(workspace, found, spans, name):
-        raise RefusedError(f"`{name}` would be taken for something else, or something for it")
+    objection = _objection(workspace, found, spans, name) if name != found.span.text else None
+    if objection is not None:
+        raise RefusedError(objection)
     return spans
 
 
@@ -61,22 +62,26 @@ def _home(workspace: Workspace, node: Node) -> File | None:
     return workspace.file(path) if path is not None else None
 
 
-def _can_be_given(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> bool:
-    """Whether a model has no more errors with this name, and it means the same everywhere."""
+def _objection(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> str | None:
+    """The mistake that a name would make; None where it means the same everywhere."""
+    other = f"`{name}` would be taken for something else, or something for it"
     before = _errors(workspace)
     texts = _texts(spans)
     tried = {path: _replaced(text, spans, path, name) for path, text in texts.items()}
     with workspace.supposing(tried):
-        if _errors(workspace) - before:
-            return False
+        new = _errors(workspace) - before
+        if new:
+            known = {each.code: each.message for each in reversed(list(workspace.report))}
+            return f"with `{name}` there would be a mistake, {known[next(iter(new))]}"
         path = found.span.source.path
         file = workspace.file(path) if path is not None else None
         earlier = sum(span.source.path == path and span.start < found.span.start for span in spans)
         start = found.span.start + earlier * (len(name) - len(found.span.text))
         again = occurrence_at(workspace, file, start) if file is not None else None
         if again is None:
-            return False
-        return len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
+            return other
+        same = len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
+        return None if same else other
 
 
 def _errors(workspace: Workspace) -> Counter[str]:

@@ -42,11 +42,16 @@ class Edits:
         place = found.end() if ends else at
         self._made.append((place, place, True, f"\n{lines}" if ends else f"\n{lines}\n"))
 
+    def changes(self) -> list[tuple[int, int, str]]:
+        """From where to where, and the new text, in the order of the file."""
+        made = sorted(self._made, key=lambda edit: edit[:3])
+        return [(start, end, text) for start, end, _, text in made]
+
     def text(self) -> str:
         """The text of the file with all changes."""
         pieces: list[str] = []
         done = 0
-        for start, end, _, text in sorted(self._made, key=lambda edit: edit[:3]):
+        for start, end, text in self.changes():
             assert start >= done, "two changes of the same text"
             pieces += (self.source.text[done:start], text)
             done = end

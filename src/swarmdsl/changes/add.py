@@ -1,0 +1,255 @@
+"""`swarmc add`: something new in a model that exists."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from swarmdsl.changes import placing
+from swarmdsl.changes.names import Named, all_named, find, similar
+from swarmdsl.changes.rewriting import Change, rewritten
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
+from swarmdsl.format import formatted
+from swarmdsl.format.files import Layout, write
+from swarmdsl.load import File
+from swarmdsl.parse import parse
+from swarmdsl.project import find_settings
+from swarmdsl.scaffold.names import given
+from swarmdsl.scopes import kind_of
+from swarmdsl.source import Source
+from swarmdsl.syntax import Declaration, Member, Part, Role, StateMachine, Swarm, Vertex
+from swarmdsl.workspace import Workspace
+
+Found = tuple[File, Change]
+Place = Callable[[Workspace, Diagnostics], Found | None]
+"""Where something goes in a model, if it needs to; None where it needs not, or has no place,
+which is reported."""
+
+
+@dataclass(frozen=True)
+class Added:
+    """What came of it: the files that change."""
+
+    report: Diagnostics
+    files: int
+    layouts: Sequence[Layout] = ()
+
+
+def add(paths: Sequence[Path], places: Sequence[Place], *, dry_run: bool = False) -> Added:
+    """Put things into the model of these files, or that of the project, one after the other.
+
+    Nothing is written where one of them has no place or makes a mistake.
+    """
+    report = Diagnostics()
+    settings = find_settings(paths, report)
+    if report.has_errors:
+        return Added(report, 0)
+    workspace = Workspace(paths or settings.sources, settings)
+    before = list(workspace.report)
+    if not any(not file.library for file in workspace.project.files):
+        report.include(before)
+        return Added(report, workspace.files)
+    contents: dict[Path, bytes] = {}
+    for place in places:
+        found = place(workspace, report)
+        if report.has_errors:
+            return Added(report, workspace.files)
+        if found is None:
+            continue
+        file, change = found
+        path = Path(file.source.name)
+        start, end, text = change = _fitted(file, change)
+        layout = rewritten(str(path), contents.get(path, path.read_bytes()), [change])
+        contents[path] = layout.after
+        whole = file.source.text
+        workspace.update({path: whole[:start] + text + whole[end:]})
+    report.include(_new(before, workspace.report))
+    layouts = [Layout(str(path), path.read_bytes(), text) for path, text in contents.items()]
+    if report.has_errors or not (dry_run or write(layouts, report)):
+        return Added(report, workspace.files)
+    return Added(report, workspace.files, layouts)
+
+
+def _fitted(file: File, change: Change) -> Change:
+    """A change with the columns of what is around it, where that has to change nowhere else."""
+    start, end, text = change
+    before, after = file.source.text[:start], file.source.text[end:]
+    made = formatted(Source(file.source.name, before + text + after), Diagnostics())
+    if made is None or len(made) < len(before) + len(after):
+        return change
+    if made.startswith(before) and made.endswith(after):
+        return start, end, made[len(before) : len(made) - len(after)]
+    return change
+
+
+def _new(before: Sequence[Diagnostic], after: Diagnostics) -> list[Diagnostic]:
+    """What is reported now and was not before, wherever it stood."""
+    known = Counter((each.code, each.message) for each in before)
+    found = []
+    for each in after:
+        known[each.code, each.message] -= 1
+        if known[each.code, each.message] < 0:
+            found.append(each)
+    return found
+
+
+def declaration(name: str, text: str, to: Path | None = None) -> Place:
+    """A declaration, in a file or in the one where it fits best."""
+
+    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+        node = _parsed(name, text, report)
+        if node is None:
+            return None
+        files = [file for file in workspace.project.files if not file.library]
+        file = (
+            placing.best_file(files, type(node))
+            if to is None
+            else _file(workspace, name, to, report)
+        )
+        if file is None:
+            return None
+        for other in workspace.project.files:
+            for known in other.model.declarations:
+                if known.name == name and other.package == file.package:
+                    _report_taken(name, Named(other, known, (name,)), report)
+                    return None
+        return file, placing.declaration(file, type(node), text)
+
+    return place
+
+
+def unless_there(name: str, text: str) -> Place:
+    """A declaration that is only needed where no file declares something of this name."""
+    made = declaration(name, text)
+
+    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+        there = any(
+            known.name == name
+            for file in workspace.project.files
+            for known in file.model.declarations
+        )
+        return None if there else made(workspace, report)
+
+    return place
+
+
+def part_of(owner: str, name: str, kind: type[Member] | type[Swarm], line: str) -> Place:
+    """A part of a member, or a role of a swarm."""
+
+    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+        found = _container(workspace, name, owner, (kind,), report)
+        if found is None:
+            return None
+        node = found.node
+        assert isinstance(node, (Member, Swarm))
+        items = [each for each in node.items if isinstance(each, (Part, Role))]
+        taken = next((each for each in items if each.name == name), None)
+        if taken is not None:
+            _report_taken(name, Named(found.file, taken, (owner, name)), report)
+            return None
+        return found.file, placing.line_in(found.file, found.node, items, line)
+
+    return place
+
+
+def state(path: str, text: str) -> Place:
+    """A state of a machine, of a state or of a region."""
+    owner, _, name = path.rpartition(".")
+
+    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+        found = _container(workspace, name, owner, placing.CONTAINERS, report)
+        if found is None:
+            return None
+        node = found.node
+        assert isinstance(node, placing.CONTAINERS)
+        taken = next(
+            (each for each in node.items if isinstance(each, Vertex) and each.name == name), None
+        )
+        if taken is not None:
+            _report_taken(name, Named(found.file, taken, (*found.path, name)), report)
+            return None
+        if "{" not in node.span.text:
+            reason, way = f"{found} has no braces", f"write them: `{node.span.text} {{ }}`"
+            report.report("cannot-add", found.place, what=f"`{name}`", reason=reason, help=way)
+            return None
+        wrapped = f"statemachine M {{\n  initial {name}\n{text}\n}}"
+        machine = _parsed(name, wrapped, report)
+        if not isinstance(machine, StateMachine):
+            return None
+        if len(machine.items) != 2:  # beside `initial`
+            _report_several(name, text, report)
+            return None
+        return found.file, placing.state(found.file, node, name, text)
+
+    return place
+
+
+def _container(
+    workspace: Workspace, name: str, owner: str, kinds: tuple[type, ...], report: Diagnostics
+) -> Named | None:
+    every = find(workspace, owner)
+    found = [each for each in every if isinstance(each.node, kinds)]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        related = tuple(Label(each.place, str(each)) for each in found)
+        way = f"say which, such as `{'.'.join(found[0].path)}`"
+        report.report("unclear-name", given(owner), name=owner, related=related, help=way)
+    elif every:
+        reason = f"nothing of its kind goes into {kind_of(every[0].node)}"
+        way = f"name {_alternatives(workspace, kinds)}"
+        report.report("cannot-add", every[0].place, what=f"`{name}`", reason=reason, help=way)
+    else:
+        close = similar(workspace, owner)
+        way = f"did you mean `{close}`?" if close else f"name {_alternatives(workspace, kinds)}"
+        report.report("no-such-thing", given(owner), name=owner, help=way)
+    return None
+
+
+def _alternatives(workspace: Workspace, kinds: tuple[type, ...]) -> str:
+    names = [str(each) for each in all_named(workspace) if isinstance(each.node, kinds)]
+    return f"{names[0]}, for instance" if names else "something that the model has: it has none"
+
+
+def _parsed(name: str, text: str, report: Diagnostics) -> Declaration | None:
+    """The one declaration in a text; None where it has mistakes, or is more, which is reported."""
+    found = Diagnostics()
+    model = parse(Source("<command line>", text), found).model
+    if found.has_errors:
+        report.include(each for each in found if each.severity is Severity.ERROR)
+        return None
+    declared = [*model.declarations, *model.optimizations]
+    if len(declared) != 1 or declared[0] is not model.declarations[0] or model.imports:
+        _report_several(name, text, report)
+        return None
+    return model.declarations[0]
+
+
+def _report_several(name: str, text: str, report: Diagnostics) -> None:
+    way = "add one thing at a time"
+    reason = "it is more than one thing"
+    report.report("cannot-add", given(text), what=f"`{name}`", reason=reason, help=way)
+
+
+def _file(workspace: Workspace, name: str, path: Path, report: Diagnostics) -> File | None:
+    file = workspace.file(path)
+    if file is None or file.library:
+        names = [each.source.name for each in workspace.project.files if not each.library]
+        way = f"it has `{names[0]}`" + (" and others" if len(names) > 1 else "")
+        reason = f"`{path.as_posix()}` is no file of the model"
+        report.report(
+            "cannot-add", given(path.as_posix()), what=f"`{name}`", reason=reason, help=way
+        )
+        return None
+    return file
+
+
+def _report_taken(name: str, known: Named, report: Diagnostics) -> None:
+    related = (Label(known.place, "declared here"),)
+    way = "choose another name, or change what is there"
+    reason = "there is something of this name already"
+    report.report(
+        "cannot-add", given(name), what=f"`{name}`", reason=reason, related=related, help=way
+    )

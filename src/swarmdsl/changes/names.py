@@ -1,0 +1,69 @@
+"""What a model declares, by the paths that a person writes: `Uav.altitude`, `Search.Rise`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.load import File
+from swarmdsl.scopes import KINDS, kind_of
+from swarmdsl.source import Span
+from swarmdsl.suggest import closest
+from swarmdsl.syntax import Node, Region, children
+from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.occurrences import owners
+
+
+@dataclass(frozen=True, eq=False)
+class Named:
+    """Something that a file declares, and its path, in which regions do not count."""
+
+    file: File
+    node: Node
+    path: tuple[str, ...]
+
+    @property
+    def place(self) -> Span:
+        """Where its name stands."""
+        span: Span = self.node.name.span.absolute  # type: ignore[attr-defined]
+        return span
+
+    def __str__(self) -> str:
+        return f"{kind_of(self.node)} `{'.'.join(self.path)}`"
+
+
+def all_named(workspace: Workspace, *, library: bool = False) -> Iterator[Named]:
+    """All that the files of the project itself declare, or those of libraries."""
+    for file in workspace.project.files:
+        if file.library == library:
+            for owner in owners(file):
+                yield from _inside(file, owner, ())
+
+
+def find(workspace: Workspace, name: str) -> list[Named]:
+    """What a path means: exactly that, else what ends so; `package.Name` names a declaration."""
+    words = tuple(name.split("."))
+    every = list(all_named(workspace))
+    exact = [each for each in every if each.path == words]
+    if exact:
+        return exact
+    ending = [each for each in every if each.path[-len(words) :] == words]
+    if ending:
+        return ending
+    return [each for each in every if (*each.file.package.split("."), *each.path) == words]
+
+
+def similar(workspace: Workspace, name: str) -> str | None:
+    """The path of something that may be meant."""
+    every = {".".join(each.path) for each in all_named(workspace)}
+    return closest(name, every) or closest(name.rpartition(".")[2], every)
+
+
+def _inside(file: File, node: Node, around: Sequence[str]) -> Iterator[Named]:
+    path = (*around,)
+    if type(node) in KINDS:
+        own = (*around, str(node.name))  # type: ignore[attr-defined]
+        yield Named(file, node, own)
+        path = path if isinstance(node, Region) else own
+    for child in children(node):
+        yield from _inside(file, child, path)

@@ -1,0 +1,104 @@
+"""`swarmc rename`: another name for something, wherever it is named."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from swarmdsl.changes.names import Named, all_named, find, similar
+from swarmdsl.changes.rewriting import Change, rewritten
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.format.files import Layout, write
+from swarmdsl.project import find_file, find_settings
+from swarmdsl.reading import read_source
+from swarmdsl.scaffold.names import given
+from swarmdsl.source import Source, Span
+from swarmdsl.workspace import Workspace
+from swarmdsl.workspace.renaming import RefusedError
+from swarmdsl.workspace.renaming import rename as places_of
+
+_MOST_SHOWN = 8
+
+
+@dataclass(frozen=True)
+class Renamed:
+    """What came of it: the files that change, and in how many places."""
+
+    report: Diagnostics
+    files: int
+    layouts: Sequence[Layout] = ()
+    places: int = 0
+
+
+def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) -> Renamed:
+    """Call something otherwise in the model of these files, or that of the project."""
+    report = Diagnostics()
+    settings = find_settings(paths, report)
+    if report.has_errors:
+        return Renamed(report, 0)
+    workspace = Workspace(paths or settings.sources, settings)
+    found = _found(workspace, old, report)
+    if found is None:
+        return Renamed(report, workspace.files)
+    try:
+        spans = places_of(workspace, found.file, found.place.start, new)
+    except RefusedError as error:
+        way = "choose another name"
+        report.report("cannot-rename", found.place, what=str(found), reason=error, help=way)
+        return Renamed(report, workspace.files)
+    layouts = list(_layouts(spans, new))
+    _check_tests(paths, found.path[-1], report)
+    if not dry_run and not write(layouts, report):
+        return Renamed(report, workspace.files)
+    return Renamed(report, workspace.files, layouts, len(spans))
+
+
+def _found(workspace: Workspace, name: str, report: Diagnostics) -> Named | None:
+    found = find(workspace, name)
+    if len(found) == 1:
+        return found[0]
+    if found:
+        related = tuple(Label(each.place, str(each)) for each in found[:_MOST_SHOWN])
+        way = f"say which, such as `{'.'.join(found[0].path)}`"
+        if len({each.path for each in found}) == 1:
+            way = f"say which, such as `{found[0].file.package}.{'.'.join(found[0].path)}`"
+        report.report("unclear-name", given(name), name=name, related=related, help=way)
+        return None
+    close = similar(workspace, name)
+    if any(".".join(each.path) == name for each in all_named(workspace, library=True)):
+        way = "a library does, which keeps its names"
+    else:
+        way = f"did you mean `{close}`?" if close else "give its path, such as `Uav.altitude`"
+    report.report("no-such-thing", given(name), name=name, help=way)
+    return None
+
+
+def _layouts(spans: Sequence[Span], new: str) -> Iterator[Layout]:
+    changes: dict[Path, list[Change]] = defaultdict(list)
+    for source, start, end in (span.absolute for span in spans):
+        assert source.path is not None  # what has been read from a file
+        changes[source.path].append((start, end, new))
+    for path, made in changes.items():
+        yield rewritten(str(path), path.read_bytes(), made)
+
+
+def _check_tests(paths: Sequence[Path], old: str, report: Diagnostics) -> None:
+    """Point to where tests and scenarios of the project still have the old name."""
+    project = find_file(paths[0] if paths else Path())
+    folders = [project.parent] if project is not None else [*paths] or [Path()]
+    word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(old)}(?![A-Za-z0-9_])")
+    for folder in folders:
+        for path in sorted(folder.rglob("*.toml")) if folder.is_dir() else ():
+            source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
+            place = _first(source, word) if source is not None else None
+            if place is not None:
+                way = "change it there too, if it means what is called otherwise now"
+                report.report("still-named", place, name=old, help=way)
+
+
+def _first(source: Source, word: re.Pattern[str]) -> Span | None:
+    found = word.search(source.text)
+    return Span(source, found.start(), found.end()) if found is not None else None

@@ -1,0 +1,334 @@
+"""`swarmc add`."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.project.command_line import UsageError
+
+if TYPE_CHECKING:
+    from swarmdsl.changes.add import Place
+
+_FILE = click.Path(path_type=Path)
+_name = click.argument("name")
+_doc = click.option("--doc", metavar="TEXT", default="", help="What it is: its documentation.")
+_file = click.option(
+    "--file",
+    "file",
+    metavar="FILE",
+    type=_FILE,
+    help="Where it goes.  [default: where it fits best]",
+)
+_param = click.option("--param", "params", metavar="NAME:TYPE[=VALUE]", multiple=True)
+_in = click.option("--in", "incoming", metavar="NAME:TYPE[@TOPIC]", multiple=True)
+_out = click.option("--out", "outgoing", metavar="NAME:TYPE[@TOPIC]", multiple=True)
+_inout = click.option("--inout", "both", metavar="NAME:TYPE[@TOPIC]", multiple=True)
+_extends = click.option("--extends", metavar="NAME", default="", help="What it has all of.")
+_behavior = click.option(
+    "--behavior",
+    metavar="MACHINE",
+    default="",
+    help="The state machine that it runs; made if there is none of this name.",
+)
+
+
+def _common(command: Callable[..., Any]) -> Callable[..., Any]:
+    for each in (
+        options.debug,
+        options.diagnostics_format,
+        click.option("--dry-run", is_flag=True, help="Show what would change, write nothing."),
+        click.option(
+            "--model",
+            "paths",
+            metavar="FILE|FOLDER",
+            type=_FILE,
+            multiple=True,
+            help="The model.  [default: that of swarm.toml, or the current folder]",
+        ),
+    ):
+        command = each(command)
+    return command
+
+
+@click.group(
+    "add", epilog="Example: swarmc add event BatteryLow sensor_msgs/BatteryState --on battery"
+)
+@options.debug
+def add() -> None:
+    """Add something to a model, where it belongs in its files.
+
+    All that is there stays as it is, byte for byte. What would be a mistake is told, and
+    not added.
+    """
+
+
+@add.command(
+    epilog="Example: swarmc add component Sonar --out range:sensor_msgs/Range --to Uav.front"
+)
+@_name
+@click.option(
+    "--kind",
+    type=click.Choice(("sensor", "actuator", "controller", "virtual")),
+    default="sensor",
+    show_default=True,
+)
+@_extends
+@_in
+@_out
+@_inout
+@_param
+@click.option(
+    "--operation", "operations", metavar="NAME(in|out PARAMETER:TYPE, ...)", multiple=True
+)
+@_behavior
+@click.option(
+    "--to", metavar="MEMBER[.PART]", default="", help="Make it a part of this member too."
+)
+@_doc
+@_file
+@_common
+def component(**given: Any) -> int:
+    """A sensor, actuator, controller or virtual component."""
+    from swarmdsl.changes import writing
+    from swarmdsl.changes.add import declaration, part_of
+    from swarmdsl.naming import snake_case
+    from swarmdsl.syntax import Member
+
+    name = given["name"]
+    ports = writing.Ports(given["incoming"], given["outgoing"], given["both"])
+
+    def places() -> list[Place]:
+        lines = [
+            *ports.lines(),
+            *writing.params(given["params"]),
+            *(f"operation {each}" for each in given["operations"]),
+            *_behaviour(given),
+        ]
+        head = f"{given['kind']} {name}{_base(given)}"
+        made = [
+            *_machine(given),
+            declaration(name, writing.block(given["doc"], head, lines), given["file"]),
+        ]
+        if given["to"]:
+            owner, _, part = given["to"].partition(".")
+            part = part or snake_case(name)
+            made.append(part_of(owner, part, Member, f"{part} : {name}"))
+        return made
+
+    return _run(places, given)
+
+
+@add.command(epilog="Example: swarmc add member Rover --part wheels:Wheels --to Rescue=1..5")
+@_name
+@_extends
+@_behavior
+@click.option("--part", "parts", metavar="NAME:COMPONENT", multiple=True)
+@click.option("--connect", "connectors", metavar="PART.PORT->PART.PORT", multiple=True)
+@_in
+@_out
+@_inout
+@_param
+@click.option(
+    "--to", metavar="SWARM[=NUMBER]", default="", help="Make it a role of this swarm too."
+)
+@_doc
+@_file
+@_common
+def member(**given: Any) -> int:
+    """A type of robot."""
+    from swarmdsl.changes import writing
+    from swarmdsl.changes.add import declaration, part_of
+    from swarmdsl.naming import snake_case
+    from swarmdsl.syntax import Swarm
+
+    name = given["name"]
+    ports = writing.Ports(given["incoming"], given["outgoing"], given["both"])
+
+    def places() -> list[Place]:
+        connectors = list(writing.connectors(given["connectors"]))
+        head = [*_behaviour(given), *writing.params(given["params"]), *ports.lines()]
+        parts = list(writing.parts(given["parts"]))
+        groups = [group for group in (head, parts, connectors) if group]
+        lines = [line for group in groups for line in ("", *group)][1:]
+        text = writing.block(given["doc"], f"member {name}{_base(given)}", lines)
+        made = [*_machine(given), declaration(name, text, given["file"])]
+        if given["to"]:
+            swarm, _, count = given["to"].partition("=")
+            (line,) = writing.roles([f"{name}={count}" if count else name])
+            made.append(part_of(swarm, snake_case(name), Swarm, line))
+        return made
+
+    return _run(places, given)
+
+
+@add.command(epilog="Example: swarmc add function land --service cmd/land:std_srvs/Empty")
+@_name
+@click.option(
+    "--category",
+    type=click.Choice(("abstraction", "swarm")),
+    default="abstraction",
+    show_default=True,
+)
+@click.option("--action", metavar="SERVER:TYPE", help="It is called as this action.")
+@click.option("--service", metavar="SERVER:TYPE", help="It is called as this service.")
+@click.option("--in", "incoming", metavar="TOPIC:TYPE", multiple=True)
+@click.option("--out", "outgoing", metavar="TOPIC:TYPE", multiple=True)
+@_param
+@_doc
+@_file
+@_common
+def function(**given: Any) -> int:
+    """Something that a robot can do."""
+    from swarmdsl.changes import writing
+    from swarmdsl.changes.add import declaration
+
+    name = given["name"]
+
+    def places() -> list[Place]:
+        lines = [
+            writing.call(given["action"], given["service"]),
+            *writing.topics("in", given["incoming"]),
+            *writing.topics("out", given["outgoing"]),
+            *writing.params(given["params"]),
+        ]
+        text = writing.block(given["doc"], f"function {name} : {given['category']}", lines)
+        return [declaration(name, text, given["file"])]
+
+    return _run(places, given)
+
+
+@add.command(
+    epilog="Example: swarmc add event TargetFound cpswarm_msgs/TargetPositionEvent --swarm"
+)
+@_name
+@click.argument("type_", metavar="TYPE")
+@click.option("--swarm", is_flag=True, help="It travels between the members of the swarm.")
+@click.option("--on", "topic", metavar="TOPIC", default="", help="The topic of it.")
+@_doc
+@_file
+@_common
+def event(**given: Any) -> int:
+    """Something that state machines react to."""
+    from swarmdsl.changes.add import declaration
+    from swarmdsl.importing.update.merging import commented
+
+    name = given["name"]
+
+    def places() -> list[Place]:
+        head = f"{commented(given['doc'])}\n" if given["doc"] else ""
+        kind = "swarm event" if given["swarm"] else "event"
+        topic = f' on "{given["topic"]}"' if given["topic"] else ""
+        text = f"{head}{kind} {name} : {given['type_']}{topic}"
+        return [declaration(name, text, given["file"])]
+
+    return _run(places, given)
+
+
+@add.command(epilog="Example: swarmc add swarm Fleet --member Uav=3 --member base:Rover")
+@_name
+@click.option("--member", "members", metavar="[ROLE:]MEMBER[=NUMBER]", multiple=True, required=True)
+@click.option("--environment", metavar="NAME", default="")
+@click.option("--fitness", metavar="NAME", default="")
+@_doc
+@_file
+@_common
+def swarm(**given: Any) -> int:
+    """Robots that work together."""
+    from swarmdsl.changes import writing
+    from swarmdsl.changes.add import declaration
+
+    name = given["name"]
+
+    def places() -> list[Place]:
+        lines = [*writing.roles(given["members"])]
+        lines += [f"{word} {given[word]}" for word in ("environment", "fitness") if given[word]]
+        return [
+            declaration(name, writing.block(given["doc"], f"swarm {name}", lines), given["file"])
+        ]
+
+    return _run(places, given)
+
+
+@add.command(
+    epilog='Example: swarmc add state Search.Wait --do land --on "succeeded, aborted -> Done"'
+)
+@click.argument("name", metavar="MACHINE.[STATE.]NAME")
+@click.option(
+    "--do",
+    "activity",
+    metavar="CALL",
+    default="",
+    help="What it does: `land`, `climb(height = 2.0)`.",
+)
+@click.option("--runs", metavar="MACHINE[(...)]", default="", help="The machine that it reuses.")
+@click.option("--on", "transitions", metavar='"TRIGGER -> STATE"', multiple=True)
+@click.option("--after", "delays", metavar='"DELAY -> STATE"', multiple=True)
+@click.option("--final", is_flag=True, help="It is an end.")
+@_doc
+@_common
+def state(**given: Any) -> int:
+    """A state of a state machine, of a region or of another state."""
+    from swarmdsl.changes import writing
+    from swarmdsl.changes.add import state as state_at
+    from swarmdsl.importing.update.merging import commented
+
+    owner, _, name = given["name"].rpartition(".")
+
+    def places() -> list[Place]:
+        if not owner:
+            raise UsageError(f"say where `{name}` is to be: MACHINE.{name}")
+        lines = [f"do {given['activity']}"] if given["activity"] else []
+        lines += [f"on {each}" for each in given["transitions"]]
+        lines += [f"after {each}" for each in given["delays"]]
+        if given["final"]:
+            if lines or given["runs"]:
+                raise UsageError("a final state does nothing and leads nowhere")
+            doc = f"{commented(given['doc'])}\n" if given["doc"] else ""
+            return [state_at(given["name"], f"{doc}final {name}")]
+        head = f"state {name}" + (f" = {given['runs']}" if given["runs"] else "")
+        return [state_at(given["name"], writing.block(given["doc"], head, lines))]
+
+    return _run(places, given)
+
+
+def _base(given: dict[str, Any]) -> str:
+    return f" extends {given['extends']}" if given["extends"] else ""
+
+
+def _behaviour(given: dict[str, Any]) -> list[str]:
+    return [f"behavior {given['behavior']}"] if given["behavior"] else []
+
+
+def _machine(given: dict[str, Any]) -> Sequence[Place]:
+    """The state machine that something is to run, if there is none yet."""
+    if not given["behavior"]:
+        return ()
+    from swarmdsl.changes.add import unless_there
+    from swarmdsl.changes.writing import machine
+
+    name = given["behavior"]
+    return (unless_there(name, machine(name, f"How a {given['name']} behaves.")),)
+
+
+def _run(places: Callable[[], Sequence[Place]], given: dict[str, Any]) -> int:
+    from swarmdsl.changes.add import add as added
+    from swarmdsl.cli.outcome import exit_code
+    from swarmdsl.render import render
+
+    try:
+        made = places()
+    except UsageError as error:
+        raise click.UsageError(str(error)) from error
+    done = added(given["paths"], made, dry_run=given["dry_run"])
+    render(done.report, given["format_"], sys.stderr)
+    for layout in done.layouts:
+        click.echo(layout.diff() if given["dry_run"] else layout.name, nl=not given["dry_run"])
+    if done.report.has_errors:
+        click.echo("nothing is added", err=True)
+    return exit_code(done.report)

@@ -1,0 +1,39 @@
+"""`swarmc rename`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import exit_code
+
+
+@click.command(epilog="Example: swarmc rename UavSearch.TakeOff Climb --dry-run")
+@click.argument("old", metavar="OLD")
+@click.argument("new", metavar="NEW")
+@options.files
+@click.option("--dry-run", is_flag=True, help="Show what would change, write nothing.")
+@options.diagnostics_format
+@options.debug
+def rename(old: str, new: str, paths: tuple[Path, ...], dry_run: bool, format_: str) -> int:
+    """Call something otherwise, wherever the model names it.
+
+    OLD is its name, or its path where several have that: `Uav.altitude` is a param of a
+    member, `Search.Rise` a state of a machine. NEW is one word. A name that makes a mistake
+    of anything, or that means something else already, is not given.
+    """
+    from swarmdsl.changes.rename import rename as renamed
+    from swarmdsl.render import counted, render
+
+    done = renamed(paths, old, new, dry_run=dry_run)
+    render(done.report, format_, sys.stderr)
+    if dry_run:
+        for layout in done.layouts:
+            click.echo(layout.diff(), nl=False)
+    elif done.layouts:
+        files = counted(len(done.layouts), "file")
+        click.echo(f"{counted(done.places, 'place')} in {files} changed", err=True)
+    return exit_code(done.report)

@@ -1,0 +1,135 @@
+"""`swarmc rename`: another name wherever something is named, and nowhere else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+PARTS = """package parts
+sensor Camera {   // of Camera & Sons
+  out image : sensor_msgs/Image
+  param rate : float64 = 30.0
+}
+"""
+MODEL = """package yard
+import "parts.swarm"
+import cpswarm.events.*
+
+/// The Camera is in front.
+member Cart {
+  behavior Going
+  param speed : float64 = 1.0
+  camera : Camera { rate = 5.0 }
+}
+
+statemachine Going {
+  param speed : float64
+  var camera : float64 = 0.0
+  initial Idle
+  state Idle { on MissionStart [speed > camera] / camera = speed -> Busy.Drive }
+  state Busy {
+    initial Drive
+    state Drive { on MissionAbort -> Idle }
+    on done -> Done
+    final Over
+  }
+  final Done
+}
+
+statemachine Other { initial Idle  state Idle { after 1 s -> Done }  final Done }
+"""
+
+
+@pytest.fixture
+def yard(folder: Path) -> Path:
+    (folder / "parts.swarm").write_bytes(PARTS.replace("\n", "\r\n").encode())
+    (folder / "yard.swarm").write_text(MODEL, encoding="utf-8")
+    return folder
+
+
+CASES = [
+    ("Camera", "Eye", [("sensor Camera", "sensor Eye")], [("camera : Camera {", "camera : Eye {")]),
+    ("Camera.rate", "hz", [("param rate", "param hz")], [("{ rate =", "{ hz =")]),
+    ("Cart.camera", "front", [], [("  camera : Camera", "  front : Camera")]),
+    (
+        "Going.camera",
+        "seen",
+        [],
+        [("var camera", "var seen"), ("speed > camera] / camera =", "speed > seen] / seen =")],
+    ),
+    (
+        "Going.Busy.Drive",
+        "Roll",
+        [],
+        [
+            ("Busy.Drive", "Busy.Roll"),
+            ("initial Drive", "initial Roll"),
+            ("state Drive", "state Roll"),
+        ],
+    ),
+    ("Busy", "Work", [], [("-> Busy.", "-> Work."), ("state Busy", "state Work")]),
+    (
+        "Going.Idle",
+        "Still",
+        [],
+        [
+            ("initial Idle\n  state Idle {", "initial Still\n  state Still {"),
+            ("-> Idle }", "-> Still }"),
+        ],
+    ),
+    ("yard.Cart", "Van", [], [("member Cart", "member Van")]),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "parts", "model"), CASES)
+def test_it_is_called_otherwise_wherever_it_is_named(old, new, parts, model, swarmc, yard) -> None:
+    wanted = {"parts.swarm": PARTS, "yard.swarm": MODEL}
+    for name, changes in (("parts.swarm", parts), ("yard.swarm", model)):
+        for before, after in changes:
+            assert before in wanted[name]
+            wanted[name] = wanted[name].replace(before, after, 1)
+    shown = swarmc("rename", old, new, "--dry-run")
+    assert (yard / "yard.swarm").read_text() == MODEL
+    assert shown.out.count("--- ") == bool(parts) + bool(model)
+    ran = swarmc("rename", old, new)
+
+    assert (ran.code, ran.out) == (0, ""), ran.err
+    assert "changed" in ran.err
+    assert (yard / "parts.swarm").read_bytes() == wanted["parts.swarm"].replace(
+        "\n", "\r\n"
+    ).encode()
+    assert (yard / "yard.swarm").read_text() == wanted["yard.swarm"]
+    assert swarmc("check").code == 0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "said"),
+    [
+        ("Camra", "Eye", "SW1503", "did you mean `Camera`?"),
+        ("MissionStart", "Go", "SW1503", "a library does, which keeps its names"),
+        ("Idle", "Still", "SW1504", "say which, such as `Going.Idle`"),
+        ("Camera", "on", "SW1505", "a word of the language"),
+        ("Camera", "My-Eye", "SW1505", "is no name"),
+        ("Camera", "Cart", "SW1505", "keeps its name"),
+        ("Going.Done", "Idle", "SW1505", "keeps its name"),
+        ("Cart.speed", "velocity", "SW1505", "there would be a mistake"),
+    ],
+)
+def test_what_cannot_be_renamed(old, new, code, said, swarmc, yard) -> None:
+    ran = swarmc("rename", old, new)
+
+    assert (ran.code, ran.out) == (1, "")
+    assert code in ran.err
+    assert said in ran.err
+    assert (yard / "yard.swarm").read_text() == MODEL
+
+
+def test_tests_and_scenarios_that_have_the_old_name_are_told(swarmc, yard) -> None:
+    (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n')
+    (yard / "other.toml").write_text('text = "Driver"\n')
+    ran = swarmc("rename", "Going.Busy.Drive", "Roll", "--format", "concise")
+
+    assert ran.code == 0
+    assert "yard.swarmtest.toml:3:18: warning[SW1506] `Drive` stands here still" in ran.err
+    assert "other.toml" not in ran.err
