@@ -211,7 +211,7 @@ CODES: dict[str, Code] = {
     "renamed-element": Code("SW0922", "warning", "`{new}` looks like `{old}` under another name"),
     "bad-rename": Code("SW0923", "error", "`{old}` cannot be renamed to `{new}`: {fault}"),
     "old-name": Code("SW0924", "warning", "`{path}` may still mean `{name}` here"),
-    "no-source-map": Code("SW0930", "error", "no source map in `{path}`: {reason}"),
+    "no-source-map": Code("SW0925", "error", "no source map in `{path}`: {reason}"),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

@@ -211,7 +211,7 @@ def test_a_model_that_has_changed_is_not_shown(build: Build, trace: Trace, tmp_p
     assert "note: `model.swarm` is not there to show the line" in trace("climb/setup.py:1\n")
 
 
-@pytest.mark.parametrize("target", ["smach", "ros2", "scxml"])
+@pytest.mark.parametrize("target", ["smach", "ros2", "yasmin", "scxml"])
 def test_other_targets(build: Build, trace: Trace, target: str) -> None:
     model = Path(__file__).parents[2] / "examples" / "minimal" / "blinker.swarm"
     folder = build(target, model=model)
