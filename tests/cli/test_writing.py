@@ -211,7 +211,9 @@ def test_options_that_do_not_go_together_are_wrong_usage(build, words):
     assert not Path("out").exists()
 
 
-@pytest.mark.parametrize("rename", ["a", "a=", "=a", "a=b=c", "a=a", "a b=c", "../a=b"])
+@pytest.mark.parametrize(
+    "rename", ["a", "a=", "=a", "a=b=c", "a=a", "a b=c", "../a=b", "__=a", "a=1"]
+)
 def test_renames_that_cannot_be_understood_are_wrong_usage(build, rename):
     ran = build("--rename", rename)
     assert (ran.code, ran.out) == (2, "")

@@ -270,6 +270,7 @@ def test_files_move_to_the_new_name(tmp_path: Path, before: bool) -> None:
     (folder / "rise.py").write_text(f"import math\n{mine}", encoding="utf-8")
     (folder / "base.py").write_text("class RiseBase:\n  1\n\n\n# mine\n", encoding="utf-8")
     (folder / "more_rise.txt").write_text("all mine\n", encoding="utf-8")
+    (folder / "more_climb.txt").write_text("mine too\n", encoding="utf-8")
     if before:
         build(tmp_path, *skeleton("climb"))
     written, found = build(tmp_path, *skeleton("climb"), renames=(("rise", "climb"),))
@@ -281,7 +282,8 @@ def test_files_move_to_the_new_name(tmp_path: Path, before: bool) -> None:
             "class Climb(ClimbBase):\n def rise(self): pass  # Climb\n"
         ),
         "t/climb/base.py": "class ClimbBase:\n  1\n\n\n# mine\n",
-        "t/climb/more_climb.txt": "all mine\n",
+        "t/climb/more_climb.txt": "mine too\n",
+        "t/rise/more_rise.txt": "all mine\n",
     }
     told = {each.name: each for each in found}
     assert set(told) == {"edited-output", "old-name"}

@@ -155,22 +155,23 @@ class Stopped(BaseException):
     """As if the power failed: nothing is cleaned up after it."""
 
 
+@pytest.mark.parametrize("name", ["takeoff", "land"])
 @pytest.mark.parametrize("after", range(0, 40, 3))
 def test_an_interrupted_build_leaves_old_or_new(
-    after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    name: str, after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """And the next one goes on as if nothing had been."""
-    old, new = model({"takeoff": ("float64", False)}), model({"takeoff": ("int32", True)})
+    old, new = model({"takeoff": ("float64", False)}), model({name: ("int32", True)})
     expected = {}
-    for name, texts in (("new", [old, new]), ("out", [old])):
-        out = tmp_path / name / "out"
+    for which, texts in (("new", [old, new]), ("out", [old])):
+        out = tmp_path / which / "out"
         out.parent.mkdir()
         for number, text in enumerate(texts):
             build(out, text)
             if number == 0:
                 for place in (100, 400, 700):
                     write_line(out, (place, 500, False), place)
-        expected[name] = {path.relative_to(out): path.read_bytes() for path in files(out)}
+        expected[which] = {path.relative_to(out): path.read_bytes() for path in files(out)}
     out = tmp_path / "out" / "out"
     count = 0
     real_replace, real_unlink = os.replace, Path.unlink

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 import sys
 from collections.abc import Iterable, Mapping
@@ -138,7 +139,7 @@ class Writing:
 
 
 def _is_name(text: str) -> bool:
-    return text.replace("_", "a").isalnum() and text.isascii()
+    return re.fullmatch("[A-Za-z][A-Za-z0-9_]*", text) is not None
 
 
 def _flag(parameter: str) -> str:

@@ -15,8 +15,11 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import Action, Change, How, Written
 from swarmdsl.output.disk import Disk, report_os_error
+from swarmdsl.output.leaving import drop_stale
+from swarmdsl.output.moves import add_strays, find_moves, find_renamed
 from swarmdsl.output.plan import Plan
 from swarmdsl.output.stale import report_stale
+from swarmdsl.output.updating import update
 
 _AS_IS = How()
 
@@ -32,7 +35,7 @@ def write(
     None when something stands in the way: it is reported and nothing is changed.
     """
     plan = Plan(Disk(out), manifest.read(out), how, report)
-    plan.add_all(output)
+    decide(plan, output)
     if report.has_errors:
         return None
     if how.check:
@@ -46,6 +49,20 @@ def write(
             return None
     report.include(plan.remarks)
     return plan.written
+
+
+def decide(plan: Plan, output: Mapping[str, Sequence[OutputFile]]) -> None:
+    """Decide about all files of these targets, and about those that they have no more."""
+    made = {f"{target}/{file.path}": file for target, files in output.items() for file in files}
+    find_moves(plan, made)
+    for path, file in made.items():
+        try:
+            update(plan, path, file)
+        except OSError as error:
+            report_os_error(plan.disk.out / path, error, plan.report)
+    drop_stale(plan, output.keys())
+    add_strays(plan, output.keys(), made)
+    find_renamed(plan, made)
 
 
 __all__ = ["Action", "Change", "How", "Written", "write"]

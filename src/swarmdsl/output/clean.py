@@ -11,6 +11,7 @@ from swarmdsl.output import texts
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import How, Written
 from swarmdsl.output.disk import Disk, report_os_error
+from swarmdsl.output.leaving import remove_generated
 from swarmdsl.output.plan import Plan
 
 
@@ -23,7 +24,7 @@ def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool
     something stands in the way, which is reported.
     """
     plan = Plan(Disk(out), manifest.read(out), How(dry=dry), report)
-    plan.clean(targets or {path.partition("/")[0] for path in plan.before.files})
+    remove_generated(plan, targets or {path.partition("/")[0] for path in plan.before.files})
     if not dry:
         try:
             carry_out(plan)

@@ -12,10 +12,7 @@ _WORD = re.compile(r"\w+")
 
 
 class Names:
-    """Two names of an element, in all the forms in which generated code has them.
-
-    Raises ValueError for a name that has no letters.
-    """
+    """Two names of an element, in all the forms in which generated code has them."""
 
     def __init__(self, old: str, new: str) -> None:
         forms_of_old, forms_of_new = _forms(old), _forms(new)
@@ -77,7 +74,5 @@ class _Replacement:
 
 
 def _forms(name: str) -> tuple[str, ...]:
-    snake = snake_case(name)
-    if not snake:
-        raise ValueError(name)
-    return snake, camel_case(name), snake.upper(), name
+    snake = snake_case(name) or name
+    return snake, camel_case(name) or name, snake.upper(), name

@@ -1,0 +1,81 @@
+"""Files that are not generated any more: they go, or are put aside with the lines of the user."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from contextlib import suppress
+
+from swarmdsl.output import remarks
+from swarmdsl.output.changes import Action, Change
+from swarmdsl.output.plan import PARKED, Plan
+from swarmdsl.output_path import clash_key
+
+
+def drop_stale(plan: Plan, targets: Collection[str]) -> None:
+    """Decide about what was generated before for these targets and is not any more."""
+    for path in [path for path in plan.parked if not plan.is_there(f"{PARKED}/{path}")]:
+        del plan.parked[path]
+    new = {clash_key(path): path for path in plan.hashes}
+    moved = {source for source, _ in plan.moved.values()}
+    for path, old in plan.before.files.items():
+        if path.partition("/")[0] not in targets:
+            plan.hashes[path] = old
+        elif path not in new.values() and path not in moved:
+            _drop(plan, path, old, new.get(clash_key(path)))
+    _keep_what_is_known(plan)
+
+
+def remove_generated(plan: Plan, targets: Collection[str]) -> None:
+    """Decide to remove what was generated for these targets and not edited."""
+    for path, hash_ in plan.before.files.items():
+        plan.hashes[path] = hash_
+        with suppress(OSError):
+            content = plan.disk.content(path) if plan.leads_inside(path) else None
+            of_target = path.partition("/")[0] in targets
+            if content is None or not of_target:
+                continue
+            if plan.disk.is_link(path) or not plan.is_pristine(path, content, hash_):
+                plan.edited.append(path)
+                continue
+            del plan.hashes[path]
+            plan.changes.append(Change(Action.REMOVE, path, content, None))
+    _keep_what_is_known(plan)
+
+
+def _keep_what_is_known(plan: Plan) -> None:
+    """Of files that are no more looked at, but there."""
+    for path, owner in plan.before.owners.items():
+        if path in plan.hashes or path in plan.parked:
+            plan.owners.setdefault(path, owner)
+    for path, map_ in plan.before.maps.items():
+        if path in plan.hashes:
+            plan.maps.setdefault(path, map_)
+
+
+def _drop(plan: Plan, path: str, old: str, successor: str | None) -> None:
+    """Remove a file, or put it aside where it has lines of the user."""
+    with suppress(OSError):
+        if plan.disk.is_link(path) or not plan.leads_inside(path):
+            return
+        if successor is not None and plan.disk.same(path, successor):
+            return  # one file under two names, where case does not count
+        content = plan.disk.content(path)
+        if content is None:
+            return
+        if plan.is_pristine(path, content, old):
+            plan.changes.append(Change(Action.REMOVE, path, content, None))
+        else:
+            _park(plan, path, content, old)
+
+
+def _park(plan: Plan, path: str, content: bytes, old: str) -> None:
+    aside, number = f"{PARKED}/{path}", 1
+    while plan.is_there(aside) and plan.disk.content(aside) != content:
+        aside, number = f"{PARKED}/{path}.{number}", number + 1
+    if not plan.is_inside(aside):
+        return
+    plan.parked[aside.removeprefix(f"{PARKED}/")] = old
+    mode = plan.disk.mode(path)
+    plan.changes.append(Change(Action.PARK, aside, content, content, path, mode=mode))
+    out = plan.disk.out
+    remarks.report_parked(out / path, out / aside, plan.remarks)

@@ -1,0 +1,194 @@
+"""Files that are generated: what stands in their place is followed, kept or merged.
+
+A file is as swarmc wrote it when its text was generated, now or before, and no region of it has
+lines of the user. Such a file follows the model, whoever it belongs to later. Any other has been
+worked on: it is kept where it is there to be filled in, else merged with what is generated now.
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+
+from swarmdsl import regions
+from swarmdsl.dataclass import replace
+from swarmdsl.fitting_code import mark_of, outdated
+from swarmdsl.generator import OutputFile
+from swarmdsl.manifest import content_hash
+from swarmdsl.output import remarks
+from swarmdsl.output.changes import Action
+from swarmdsl.output.merge import merge
+from swarmdsl.output.moves import renamed
+from swarmdsl.output.names import Names
+from swarmdsl.output.plan import PARKED, Found, Plan
+from swarmdsl.output.remarks import NEW, NOTE
+
+
+def update(plan: Plan, path: str, file: OutputFile) -> None:
+    """Decide about a file; what stands in the way is reported, or is an OSError."""
+    if not plan.is_inside(path):
+        return
+    try:
+        new = file.text.encode()
+        found = _found(plan, path)
+    except UnicodeEncodeError:
+        reason = "it has characters that are not Unicode"
+        plan.report.report("cannot-write", path=str(plan.disk.out / path), reason=reason)
+    except NotADirectoryError:
+        reason = "it is a file where a folder is needed"
+        obstacle = str(plan.disk.obstacle(path))
+        plan.report.report("cannot-write", path=obstacle, reason=reason)
+    else:
+        plan.hashes[path] = plan.texts.add(file.text)
+        plan.maps[path] = plan.positions.file_map(file)
+        if file.facts:
+            plan.texts.add_facts(file.facts)
+        if file.owner and file.keep:
+            plan.owners[path] = f"{file.owner} {mark_of(file.facts)}"
+        if found is None:
+            plan.change(Action.CREATE, path, None, new, file)
+        elif file.keep:
+            _keep(plan, path, file, new, found)
+        else:
+            _update(plan, path, file, new, found)
+
+
+def _keep(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> None:
+    """Leave a file that is the user's as it is, once there is something of the user in it."""
+    if plan.is_pristine(path, found.content, found.base):
+        _settle(plan, path, file, found, new)
+        return
+    found = renamed(plan, path, file, new, found)
+    marks = outdated(found.content, new)
+    if marks is not None:
+        # What its code builds on is still the old text.
+        plan.hashes[path] = found.base or plan.hashes[path]
+        base = plan.texts.get(found.base)
+        facts = plan.texts.facts(marks[0])
+        note = remarks.changed_below(path, file, found.content, base, facts)
+        place = plan.disk.out / path
+        plan.add_neighbour(f"{path}{NOTE}", note)
+        remarks.report_outdated(place, file, marks, facts, plan.remarks)
+    if found.source is None:
+        plan.kept.append(path)
+    else:
+        plan.bring(path, found, found.content)
+
+
+def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> None:
+    """Bring a file up to date that is swarmc's, with what the user has written in it."""
+    pristine = plan.is_generated(found.content, found.base)
+    if pristine:
+        found = replace(found, base=content_hash(found.content))
+    found = renamed(plan, path, file, new, found)
+    try:
+        of_user = regions.kept(found.content)
+    except regions.RegionError:
+        of_user = {}
+    filled, lost = regions.filled(new, of_user)
+    if found.content == filled or (pristine and not lost):
+        _settle(plan, path, file, found, filled)
+        return
+    if plan.how.force:
+        plan.change(Action.OVERWRITE, path, found.content, filled, file, found.source)
+        return
+    if found.base is None and found.source is None:
+        _report_foreign(plan, path)
+        return
+    _merge(plan, path, file, filled, found, of_user)
+
+
+def _merge(
+    plan: Plan, path: str, file: OutputFile, filled: bytes, found: Found, of_user: regions.Texts
+) -> None:
+    base_hash, neighbour = found.base, f"{path}{NEW}"
+    offered = plan.before.files.get(neighbour)
+    if offered is not None and plan.disk.content(neighbour) is None:
+        # It was deleted: the user has taken over what is wanted of it.
+        base_hash = offered
+    base = plan.texts.get(base_hash)
+    if base is None and base_hash == plan.hashes[path]:
+        base = file.text.encode()
+    if base is not None:
+        base = _base_as_edited(plan, base, found, filled, of_user)
+    place = plan.disk.out / path
+    merged = merge(base, found.content, filled) if base is not None else None
+    if base is None or merged is None or merged.text is None:
+        # Where nothing is known of it, all of it is the user's: it was made from nothing.
+        plan.hashes[path] = base_hash or plan.texts.add("")
+        plan.add_neighbour(neighbour, filled)
+        remarks.report_conflict(place, found.content, merged, plan.remarks)
+        if found.source is None:
+            plan.conflicts.append(path)
+        else:
+            plan.bring(path, found, found.content)
+        return
+    remarks.report_edited(place, found.content, base, merged.taken, plan.remarks)
+    if found.source is not None:
+        plan.bring(path, found, merged.text)
+    elif merged.text == found.content:
+        plan.edited.append(path)
+    else:
+        plan.change(Action.MERGE, path, found.content, merged.text, file)
+
+
+def _base_as_edited(
+    plan: Plan, base: bytes, found: Found, filled: bytes, of_user: regions.Texts
+) -> bytes:
+    """The text from before with the regions of the user that stay, and under the new name."""
+    if found.names is not None:
+        text, _ = found.names.rewritten(base.decode(), filled.decode(errors="surrogateescape"))
+        base = text.encode(errors="surrogateescape")
+    with suppress(regions.RegionError):
+        staying = regions.ids(filled)
+        base, _ = regions.filled(
+            base, {id_: text for id_, text in of_user.items() if id_ in staying}
+        )
+    return base
+
+
+def _settle(plan: Plan, path: str, file: OutputFile, found: Found, new: bytes) -> None:
+    """Write a text in place of one that has nothing of the user but what is in it too."""
+    if found.source is not None:
+        plan.bring(path, found, new)
+        return
+    has_mode = not file.executable or plan.disk.is_executable(path)
+    if found.content == new and has_mode:
+        plan.unchanged.append(path)
+    else:
+        plan.change(Action.CHANGE, path, found.content, new, file)
+
+
+def _found(plan: Plan, path: str) -> Found | None:
+    content = plan.disk.content(path)
+    base = plan.before.files.get(path)
+    if path in plan.moved:
+        source, names = plan.moved[path]
+        if content is None or plan.is_pristine(path, content, base):
+            return _found_elsewhere(plan, source, names)
+        reason = f"`{plan.disk.out / path}` has lines of yours already"
+        help_ = f"move them away, or put those of `{plan.disk.out / source}` there by hand"
+        plan.report.report("bad-rename", old=names.old, new=names.new, fault=reason, help=help_)
+        return None
+    if content is not None:
+        return Found(content, base)
+    aside = f"{PARKED}/{path}"
+    content = plan.disk.content(aside) if plan.leads_inside(aside) else None
+    if content is None:
+        return None
+    return Found(content, plan.parked.pop(path, None), aside)
+
+
+def _found_elsewhere(plan: Plan, source: str, names: Names) -> Found | None:
+    content = plan.disk.content(source)
+    if content is None:
+        return None
+    path = source.removeprefix(f"{PARKED}/")
+    base = plan.before.parked.get(path) if path != source else plan.before.files.get(path)
+    return Found(content, base, source, names)
+
+
+def _report_foreign(plan: Plan, path: str) -> None:
+    reason = "it is not from swarmc"
+    help_ = "move it away, or overwrite it with `--force`"
+    place = str(plan.disk.out / path)
+    plan.report.report("would-overwrite", path=place, reason=reason, help=help_)
