@@ -25,6 +25,7 @@ _COLOURS = {
     "head": ("#e3ecf6", "#243344"),
     "accent": ("#1f6fb2", "#62b0f0"),
 }
+_CLASS = "swarm-diagram"
 _FONT = "Helvetica, Arial, 'Liberation Sans', sans-serif"
 _RULES = f"""
 text {{ font-family: {_FONT}; fill: @ink; }}
@@ -80,7 +81,7 @@ class _Drawing:
         picture, frame = self.picture, self.picture.diagram.frame
         wide, high = picture.width + 2 * _MARGIN, picture.height + 2 * _MARGIN
         yield (
-            f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" '
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" width="{wide}" height="{high}" '
             f'viewBox="{-_MARGIN} {-_MARGIN} {wide} {high}" role="img">'
         )
         yield f"<title>{_text(f'{frame.keyword} {frame.name}')}</title>"
@@ -202,21 +203,26 @@ class _Drawing:
 
 
 def _style() -> str:
-    """Rules with colours as numbers, for programs that know no variables, and as variables."""
-    light = "".join(f"--{name}: {pair[0]}; " for name, pair in _COLOURS.items())
-    dark = "".join(f"--{name}: {pair[1]}; " for name, pair in _COLOURS.items())
-    lines = [f":root {{ {light}}}", f"@media (prefers-color-scheme: dark) {{ :root {{ {dark}}} }}"]
+    """Rules with colours as numbers, for programs that know no variables, and as variables.
+
+    They are about this picture alone, also where it stands in a page.
+    """
+    light, dark = (
+        "".join(f"--{name}: {pair[which]}; " for name, pair in _COLOURS.items()) for which in (0, 1)
+    )
+    lines = [
+        f".{_CLASS} {{ {light}}}",
+        f"@media (prefers-color-scheme: dark) {{ .{_CLASS} {{ {dark}}} }}",
+    ]
     for rule in _RULES.strip().splitlines():
-        plain = re.sub(r"@(\w+)", lambda found: _COLOURS[found[1]][0], rule)
-        head, _, body = plain.partition(" { ")
-        coloured = [
-            re.sub(r"@(\w+)", r"var(--\1)", each) + ";"
-            for each in rule.partition(" { ")[2].rstrip("} ").split("; ")
-            if "@" in each
-        ]
-        body = body.rstrip("} ").rstrip(";")
-        more = f"; {' '.join(coloured)}".replace(";;", ";") if coloured else ";"
-        lines.append(f"{head} {{ {body}{more} }}")
+        selectors, _, body = rule.rstrip("} ").partition(" { ")
+        where = ", ".join(f".{_CLASS} {each}" for each in selectors.split(", "))
+        facts = []
+        for fact in body.rstrip(";").split("; "):
+            facts.append(re.sub(r"@(\w+)", lambda found: _COLOURS[found[1]][0], fact))
+            if "@" in fact:
+                facts.append(re.sub(r"@(\w+)", r"var(--\1)", fact))
+        lines.append(f"{where} {{ {'; '.join(facts)}; }}")
     return "\n" + "\n".join(lines) + "\n"
 
 

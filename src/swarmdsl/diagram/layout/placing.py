@@ -97,6 +97,8 @@ def _weight(segment: Segment, fixed: set[int]) -> int:
     Less at a cell on which its end can still be moved, and least at the link's target: where
     it must bend, it does so once, and away from its label.
     """
+    if segment.turns:
+        return 1  # it cannot be straight
     start, end = _is_node(segment.start.vertex), _is_node(segment.end.vertex)
     if start and end:
         return 12
