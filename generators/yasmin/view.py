@@ -19,7 +19,7 @@ STEP = "    "
 _CONTAINERS = (Kind.CONCURRENCE, Kind.MACHINE)
 _OWN = (
     *(("following", "Chart"), ("following", "Way"), ("node", "run")),
-    *(("runner", "Fsm"), ("runner", "in_yasmin_node")),
+    *(("runner", "Fsm"), ("runner", "in_node_of_its_own")),
 )
 
 

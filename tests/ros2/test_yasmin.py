@@ -125,7 +125,7 @@ def test_signals_cancel_goals(robot: Callable[..., Any], fakes: Any, number: int
 def test_a_machine_in_a_program_of_somebody_else(
     robot: Callable[..., Any], ros: Any, fakes: Any, tmp_path: Path
 ) -> None:
-    """It is fed by the node of YASMIN, and begins anew each time."""
+    """It has a node of its own there, and begins anew each time."""
     robot("examples/search_and_rescue", "", "")
     program = tmp_path / "program.py"
     program.write_text(PROGRAM, encoding="utf-8")

@@ -116,7 +116,7 @@ def build(
         fakes = {
             module: {"BEHAVIOR": behavior},
             "node": {"run": None},
-            "runner": {"Fsm": None, "in_yasmin_node": lambda behavior: None},
+            "runner": {"Fsm": None, "in_node_of_its_own": lambda behavior, name: None},
         }
         importlib.import_module(package)
         for name, content in fakes.items():

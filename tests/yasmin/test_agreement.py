@@ -82,10 +82,11 @@ class Host:
         self.model = Model(self.subject, self.told)
         self.settle()
 
-    def end(self) -> None:
+    def end_engine(self) -> None:
         if self.model is not None and self.model.instance.running:
             self.model.instance.stop()
         self.settle()
+        self.chart.released()
 
     def take(self, step: Step) -> None:
         assert self.model is not None

@@ -5,12 +5,12 @@ from yasmin import Concurrence, StateMachine
 
 from .following import ActionState, Chart, ServiceState, State, Way
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 from .work import BEHAVIOR
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'work'),
     ways={
         'Main': (Way('done_Landing', 'Main'), Way('done_Stop', 'Main')),
         'Main.A.Go': (

@@ -6,11 +6,11 @@ from yasmin import StateMachine
 from .b import BEHAVIOR
 from .following import ActionState, Chart, Junction, ServiceState, State, Way
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'b'),
     ways={
         'A': (Way('done', 'A'),),
         'A.A': (Way('succeeded', 'A.A'), Way('aborted', 'A.A')),

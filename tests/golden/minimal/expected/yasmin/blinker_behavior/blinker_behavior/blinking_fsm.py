@@ -6,11 +6,11 @@ from yasmin import StateMachine
 from .blinking import BEHAVIOR
 from .following import ActionState, Chart, Way
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'blinking'),
     ways={'Blink': (Way('succeeded', 'Blink'), Way('aborted', 'Blink'), Way('Stop', 'Blink'))},
     entries={},
 )

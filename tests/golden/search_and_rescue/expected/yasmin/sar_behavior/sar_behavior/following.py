@@ -62,7 +62,7 @@ class Chart:
             for transition, way in zip(state.transitions, ways[state.id], strict=True)
         }
         self._entries = entries
-        self._is_running = self._has_begun = False
+        self._is_running = self._has_begun = self._is_canceling = False
         self._event = None
         self._clear()
 
@@ -95,19 +95,28 @@ class Chart:
         if activation.run is not None:
             self.host.begin_activity(activation)
         with self.changed:
-            self.changed.wait_for(lambda: activation.outcome is not None)
+            self.changed.wait_for(
+                lambda: activation.outcome is not None and not self._is_canceling
+            )
         return activation.outcome
 
     def cancel(self):
-        """Let the engine leave all states."""
+        """Let the engine leave all states; they are over when no server works any more."""
         if self.host is not None:
-            self.host.end()
+            self._is_canceling = True
+            self.host.end_engine()
 
     # ---- what the host calls
 
     def begun(self):
         """Take note that the engine has begun: from now on it says how long it runs."""
         self._has_begun = True
+
+    def released(self):
+        """Take note that no server works any more."""
+        with self.changed:
+            self._is_canceling = False
+            self.changed.notify_all()
 
     def holds(self, run):
         """Keep an activity until YASMIN has come to its state; say whether that is so."""
@@ -139,7 +148,7 @@ class Chart:
         with self.changed:
             for activation in self._current.values():
                 activation.outcome = activation.outcome or CANCELED
-            self._has_begun = True
+            self._has_begun, self._is_canceling = True, False
             self.settle(False)
 
     # ---- what the engine tells

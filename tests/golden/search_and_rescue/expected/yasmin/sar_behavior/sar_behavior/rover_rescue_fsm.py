@@ -6,11 +6,11 @@ from yasmin import Concurrence, StateMachine
 from .following import ActionState, Chart, State, Way
 from .node import run
 from .rover_rescue import BEHAVIOR
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'rover_rescue'),
     ways={
         'Idle': (Way('MissionStart', 'Idle'),),
         'Mission': (Way('done_Idle', 'Mission'), Way('done_Parked', 'Mission')),

@@ -2,12 +2,15 @@
 """Runs a machine of YASMIN in a node, and the engine that it follows."""
 
 from threading import Thread
+import time
 import traceback
 from typing import Any, NamedTuple
 
+import rclpy
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.node import Node
 import yasmin
 from yasmin_ros import set_ros_loggers
-from yasmin_ros.yasmin_node import YasminNode
 from yasmin_viewer import YasminViewerPub
 
 from . import host
@@ -74,7 +77,12 @@ class Follower:
 
 
 class Engine(host.Host):
-    """The engine of a machine in some node, for states that are in YASMIN."""
+    """
+    The engine of a machine in some node, for states that are in YASMIN.
+
+    Threads of YASMIN hand over to the executor what they want done: an action client may lose
+    what a server answers while it sends.
+    """
 
     def __init__(self, node, behavior, chart, on_end):
         self._chart = chart
@@ -86,11 +94,15 @@ class Engine(host.Host):
 
     def begin_engine(self):
         """Start the machine from its beginning, when YASMIN does."""
-        host.Host.begin(self)
+        self._hand_over(lambda: host.Host.begin(self))
 
     def begin_activity(self, activation):
         """Begin the activity of a state that YASMIN has come to."""
-        self.post(lambda: self._begin_activity(activation))
+        self._hand_over(lambda: self.post(lambda: self._begin_activity(activation)))
+
+    def end_engine(self):
+        """Let the engine leave all states."""
+        self._hand_over(lambda: host.Host.end(self, self._chart.released))
 
     def start(self, run):
         """Begin an activity, as soon as YASMIN has come to its state."""
@@ -107,6 +119,11 @@ class Engine(host.Host):
     def observer(self):
         """Let the chart hear of the states as well."""
         return Follower(self._chart, super().observer())
+
+    def _hand_over(self, action):
+        while self._node.executor is None:  # which is there as soon as the node is
+            time.sleep(0.01)
+        self._node.executor.create_task(action)
 
     def _begin(self):
         super()._begin()
@@ -172,12 +189,28 @@ class Host(Engine):
         self._has_failed = self._has_failed or failed
 
 
-def in_yasmin_node(behavior):
-    """Return what makes an engine in the node of YASMIN, for machines that others execute."""
+def in_node_of_its_own(behavior, name):
+    """Return what makes an engine and a node for it, for machines that others execute."""
 
     def make(chart):
-        engine = Engine(YasminNode.get_instance(), behavior, chart, lambda failed: None)
+        if not rclpy.ok():
+            rclpy.init()
+        node = Node(name)
+        engine = Engine(node, behavior, chart, lambda failed: None)
         engine.configure()
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        Thread(target=_spin, args=(executor, chart), name='engine', daemon=True).start()
         return engine
 
     return make
+
+
+def _spin(executor, chart):
+    try:
+        executor.spin()
+    except ExternalShutdownException:
+        pass
+    finally:
+        chart.is_closed = True
+        chart.stop()

@@ -5,12 +5,12 @@ from yasmin import StateMachine
 
 from .following import ActionState, Chart, ServiceState, State, Way
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 from .uav_search import BEHAVIOR
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'uav_search'),
     ways={
         'Mission': (Way('MissionAbort', 'Mission'),),
         'Mission.Idle': (Way('MissionStart', 'Mission.Idle'),),

@@ -6,11 +6,11 @@ from yasmin import StateMachine
 from .following import Chart, ServiceState, Way
 from .insist import BEHAVIOR
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'insist'),
     ways={
         'Try': (Way('succeeded', 'Try'), Way('aborted_Try', 'Try'), Way('aborted_Failed', 'Try')),
     },

@@ -5,12 +5,12 @@ from yasmin import StateMachine
 
 from .following import Chart, ServiceState, State, Way
 from .node import run
-from .runner import Fsm, in_yasmin_node
+from .runner import Fsm, in_node_of_its_own
 from .twice import BEHAVIOR
 
 CHART = Chart(
     BEHAVIOR.machine,
-    in_yasmin_node(BEHAVIOR),
+    in_node_of_its_own(BEHAVIOR, 'twice'),
     ways={
         'First': (Way('First_Ok', 'First'), Way('First_Failed', 'First')),
         'First.Try': (
