@@ -81,8 +81,9 @@ class _Drawing:
         picture, frame = self.picture, self.picture.diagram.frame
         wide, high = picture.width + 2 * _MARGIN, picture.height + 2 * _MARGIN
         yield (
-            f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" width="{wide}" height="{high}" '
-            f'viewBox="{-_MARGIN} {-_MARGIN} {wide} {high}" role="img">'
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" role="img" '
+            f'width="{wide}" height="{high}" '
+            f'viewBox="{-_MARGIN} {-_MARGIN} {wide} {high}">'
         )
         yield f"<title>{_text(f'{frame.keyword} {frame.name}')}</title>"
         if frame.doc:
