@@ -15,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import cold
+import editing
 import engine
 import generation
 import importing
@@ -31,6 +32,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "generation": generation.section,
     "workspace": large.section,
     "engine": engine.section,
+    "lsp": editing.section,
     "import": importing.section,
 }
 

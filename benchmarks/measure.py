@@ -10,7 +10,7 @@ from statistics import median
 from time import perf_counter
 
 # Modules are compiled once, not by every process, as where programs are used.
-_ENVIRONMENT = {
+ENVIRONMENT = {
     name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
 }
 
@@ -43,7 +43,7 @@ def process(command: Sequence[str]) -> Cost:
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         encoding="utf-8",
-        env=_ENVIRONMENT,
+        env=ENVIRONMENT,
     ) as running:
         assert running.stdout is not None
         output = running.stdout.read()

@@ -37,6 +37,11 @@ MOST_HINTS = 50
 """How many of one kind of mistake are reported with what may be meant, at most."""
 
 
+_NOTHING: dict[Diagnostic, None] = {}
+_NO_COUNTS: dict[str, int] = {}
+_NO_LEVELS: Mapping[str, Level] = {}
+
+
 @dataclass(frozen=True, slots=True)
 class Label:
     """A place and what to say about it."""
@@ -80,10 +85,13 @@ class Diagnostics:
     `levels` says by name, or for ALL_WARNINGS, what becomes of warnings.
     """
 
+    # In an editor there are many, most of them empty.
+    __slots__ = ("_counts", "_found", "_levels")
+
     def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
-        self._found: dict[Diagnostic, None] = {}
-        self._counts: dict[str, int] = {}
-        self._levels = levels or {}
+        self._found: dict[Diagnostic, None] = _NOTHING
+        self._counts: dict[str, int] = _NO_COUNTS
+        self._levels = levels or _NO_LEVELS
 
     def report(
         self,
@@ -126,6 +134,8 @@ class Diagnostics:
                 return
             if level is Level.DENY:
                 found = replace(found, severity=Severity.ERROR)
+        if self._found is _NOTHING:
+            self._found, self._counts = {}, {}
         self._found.setdefault(found)
         self._counts[found.name] = self.count_of(found.name) + 1
 

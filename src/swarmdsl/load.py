@@ -266,7 +266,7 @@ def parsed_interface(interface: InterfacePath, source: Source, report: Diagnosti
     whole = Span(source, 0, len(source.text))
     parsed = Parsed(Model(whole, None, [], [read.declaration], []))
     if read.damaged:
-        parsed.damaged.add(read.declaration)
+        parsed.damaged |= {read.declaration}
     return parsed
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.dataclass import dataclass
 from swarmdsl.syntax import Expression, Model, TopLevel
 
 # Deeper than any model a person writes, and what the parser takes without overflow.
@@ -21,7 +21,7 @@ class Parsed:
     """
 
     model: Model
-    damaged: set[TopLevel] = field(default_factory=set)
-    lost_names: set[str] = field(default_factory=set)
-    repaired: set[Expression] = field(default_factory=set)
-    unnamed: set[str] = field(default_factory=set)
+    damaged: frozenset[TopLevel] = frozenset()
+    lost_names: frozenset[str] = frozenset()
+    repaired: frozenset[Expression] = frozenset()
+    unnamed: frozenset[str] = frozenset()

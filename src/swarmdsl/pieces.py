@@ -159,4 +159,4 @@ def _lose_references(parsed: Parsed) -> None:
     for owner in (*model.declarations, *model.optimizations):
         for _, ref in references(owner):
             if ref.kind in parsed.unnamed:
-                parsed.lost_names.update({ref.name} - names)
+                parsed.lost_names |= {ref.name} - names

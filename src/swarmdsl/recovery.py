@@ -69,7 +69,7 @@ class _Recovery:
             if isinstance(result, Model):
                 parsed.repaired |= draft.restore(result, source)
                 if damaged:
-                    parsed.damaged.update(result.declarations, result.optimizations)
+                    parsed.damaged |= {*result.declarations, *result.optimizations}
                 # What a broken import leads to is anyone's guess.
                 result.imports = [
                     one
@@ -77,7 +77,7 @@ class _Recovery:
                     if not any(start <= one.span.start < end for start, end in doubtful)
                 ]
                 self._lose(draft, known)
-                parsed.unnamed.update(_unnamed(result))
+                parsed.unnamed |= {*_unnamed(result)}
                 parsed.model = result
                 return parsed
             silent = Diagnostics()
@@ -117,7 +117,7 @@ class _Recovery:
             self._lose_names(draft.text[statement.start : statement.header])
 
     def _lose_names(self, text: str) -> None:
-        self._parsed.lost_names.update(_IDENTIFIER.findall(text))
+        self._parsed.lost_names |= {*_IDENTIFIER.findall(text)}
 
 
 def _blamed(text: str, at: int, expected: frozenset[str]) -> Statement:

@@ -66,6 +66,7 @@ def emacs(tmp_path):
 def test_a_session(emacs, tmp_path):
     (tmp_path / "patrol.swarm").write_text(MODEL.replace("aborted -> Home", "aborted -> Hone"))
     [configuration] = re.findall(r"```lisp\n(.*?)```", PAGE.read_text(), re.DOTALL)
+    configuration = configuration.replace("/path/to/swarmdsl", str(PAGE.parents[1]))
     told = emacs(configuration + SESSION).splitlines()
     assert "no state called `Hone`" in next(line for line in told if "DIAGNOSTIC" in line)
     assert "DEFINITION   state Round {" in told

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
+
 from swarmdsl.peg.analysis import Analysis
 from swarmdsl.peg.emission import Emission
 from swarmdsl.peg.grammar import Grammar, Terminal, inside
@@ -39,11 +42,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, in
 {functions}
 {tables}
 
-    model = r_{start}()
-    if model is None or ahead.start() < len(text):
-        return None
-    return model, {result}
+    try:
+        model = r_{start}()
+        if model is None or ahead.start() < len(text):
+            return None
+        return model, {result}
+    finally:
+        # They refer to each other: so they are gone at once, without the garbage collector.
+        {names} = None
 '''
+_FUNCTION = re.compile(r" {4}def (\w+)\(")
 
 
 def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
@@ -69,7 +77,15 @@ def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
         begin=target.begin,
         functions="\n".join(emission.lines),
         tables="\n".join(f"    {name} = {table}" for name, table in look.tables.items()),
+        names=" = ".join([*_functions(emission.lines), *look.tables]),
         start=grammar.start,
         result=target.result,
     )
     return text, sorted(rule.name for rule in nodes)
+
+
+def _functions(lines: Iterable[str]) -> Iterator[str]:
+    """The names of the functions that are defined in lines of source."""
+    for line in lines:
+        if found := _FUNCTION.match(line):
+            yield found[1]

@@ -12,7 +12,6 @@ from swarmdsl.server.trial import WORD
 from swarmdsl.syntax import (
     NODES,
     Activity,
-    BehaviorUse,
     Component,
     Constant,
     Container,
@@ -125,17 +124,14 @@ class Candidates:
 
     def _parts(self) -> list[Part]:
         """The parts with operations of a member that runs the machine."""
-        for node in self._visible((Member,)):
-            uses = all_items(node, BehaviorUse) if isinstance(node, Member) else ()
-            if any(use.machine.target is self._around for use in uses):
-                assert isinstance(node, Member)
-                parts = all_items(node, Part)
-                return [
-                    part
-                    for part in parts
-                    if part.component.target and all_items(part.component.target, Operation)
-                ]
-        return []
+        if not isinstance(self._around, StateMachine):
+            return []
+        return [
+            part
+            for runner in self._workspace.runners(self._around)[:1]
+            for part in all_items(runner, Part)
+            if part.component.target and all_items(part.component.target, Operation)
+        ]
 
     def _containers(self) -> list[Container]:
         """The machine and the states around the offset, the innermost last."""

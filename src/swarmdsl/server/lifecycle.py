@@ -73,7 +73,7 @@ def _changed(session: Session, params: Json) -> bool:
     except (KeyError, TypeError, ValueError) as error:
         raise RequestError(INVALID_PARAMS, f"a change is not understood: {error}") from error
     document.version = found.get("version")
-    session.models.edit(path, document.text)
+    session.edit(path)
     return True
 
 

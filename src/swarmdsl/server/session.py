@@ -41,6 +41,7 @@ class Session:
         self.painter = Painter()
         self._uris: dict[Path, str] = {}
         self._told: dict[str, list[Diagnostic]] = {}
+        self._changed: set[str] = set()
         self._requests = 0
 
     def agree(self, capabilities: Any) -> str:
@@ -91,11 +92,16 @@ class Session:
         """Take a file for one that the client shows."""
         self._uris[path] = uri
         self.documents[path] = document
-        self.models.edit(path, document.text)
+        self.edit(path)
+
+    def edit(self, path: Path) -> None:
+        """Take the text of a document as it is now."""
+        self._changed.add(self.uri(path))
+        self.models.edit(path, self.documents[path].text)
 
     def close(self, path: Path) -> None:
         """Take what is on disk for a file again."""
-        self._uris.pop(path, None)
+        self._changed.discard(self._uris.pop(path, ""))
         if self.documents.pop(path, None) is not None:
             self.models.close(path)
             self.painter.forget(str(path))
@@ -163,16 +169,17 @@ class Session:
         self.connection.send({"id": self._requests, "method": method, "params": params})
 
     def tell(self) -> None:
-        """Send what is wrong with each file of which something else was sent before."""
+        """Send what is wrong with the files that changed, or of which something else was sent."""
         found: dict[str, list[Diagnostic]] = {}
         for workspace, name, diagnostics in self.models.diagnostics():
             # What concerns no place in a file is told of one that is open.
             for path in [Path(name)] if name else self.models.opened(workspace)[:1]:
                 found.setdefault(self.uri(path), []).extend(diagnostics)
-        for uri in {**self._told, **found}:
+        for uri in {**self._told, **found, **dict.fromkeys(self._changed)}:
             now = found.get(uri, [])
-            if now != self._told.get(uri, []):
+            if uri in self._changed or now != self._told.get(uri, []):
                 self._publish(uri, now)
+        self._changed.clear()
         self._told = {uri: told for uri, told in found.items() if told}
 
     def _publish(self, uri: str, found: Sequence[Diagnostic]) -> None:

@@ -15,7 +15,7 @@ from swarmdsl.load import File
 from swarmdsl.parse import parse_piece
 from swarmdsl.scopes import Scopes
 from swarmdsl.source import Source
-from swarmdsl.syntax import Component, Member, StateMachine, TopLevel
+from swarmdsl.syntax import StateMachine, TopLevel
 from swarmdsl.workspace import Workspace
 from swarmdsl.workspace.occurrences import owners
 
@@ -40,13 +40,17 @@ def tried(
     `instead` is the declaration of the file whose place they take.
     """
     head, tail = around
+    linker = _linker(workspace, instead)
     for word in words:
         for rest in ("\n" + closers(head), tail):
             source = Source(file.source.name, head + word + rest)
             model = parse_piece(source, Diagnostics()).model
             for owner in (*model.declarations, *model.optimizations):
                 if WORD in owner.span.text:
-                    _link(workspace, file, owner, instead)
+                    linker.link_outside(file, owner, Diagnostics())
+                    if isinstance(owner, StateMachine) and isinstance(instead, StateMachine):
+                        linker.replace(instead, owner)
+                    linker.link_inside(file, owner, Diagnostics())
                     yield owner
 
 
@@ -70,11 +74,9 @@ def owner_around(file: File, offset: int) -> TopLevel | None:
     return None
 
 
-def _link(workspace: Workspace, file: File, owner: TopLevel, instead: TopLevel | None) -> None:
+def _linker(workspace: Workspace, instead: TopLevel | None) -> Linker:
+    """What links a declaration in the place of another one."""
     linker = Linker(workspace.project, Scopes(workspace.project))
-    linker.link_outside(file, owner, Diagnostics())
-    declared = (node for _, node in workspace.project.declarations())
-    linker.gather(node for node in declared if isinstance(node, (Member, Component)))
-    if isinstance(owner, StateMachine) and isinstance(instead, StateMachine):
-        linker.replace(instead, owner)
-    linker.link_inside(file, owner, Diagnostics())
+    if isinstance(instead, StateMachine):
+        linker.gather(workspace.runners(instead))
+    return linker

@@ -97,7 +97,7 @@ def by_class(owner: TopLevel) -> Mapping[type[Node], Sequence[Any]]:
         found: dict[type[Node], list[Any]] = defaultdict(list)
         for node in walk(owner):
             found[type(node)].append(node)
-        owner.by_class = dict(found)
+        owner.by_class = {kind: tuple(nodes) for kind, nodes in found.items()}
     return owner.by_class
 
 

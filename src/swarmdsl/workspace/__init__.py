@@ -20,7 +20,7 @@ from swarmdsl.load import File, Project, expanded, load
 from swarmdsl.parse import no_garbage_collection
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import Source, Span
-from swarmdsl.syntax import StateMachine
+from swarmdsl.syntax import Component, Member, StateMachine
 from swarmdsl.validate import (
     check_alone,
     check_optimization,
@@ -127,6 +127,11 @@ class Workspace:
         whole = Span(file.source, 0, len(file.source.text))
         spans = (Span(unit.source, 0, len(unit.source.text)).absolute for unit in reversed(units))
         return next((span for span in spans if span.start <= offset), whole)
+
+    def runners(self, machine: StateMachine) -> list[Member | Component]:
+        """The members and components that run a machine, or what reuses it."""
+        units = self._units.values()
+        return [each for unit in units if machine in unit.runs for each in unit.runners()]
 
     @property
     def report(self) -> Diagnostics:

@@ -24,6 +24,7 @@ from swarmdsl.syntax import (
 from swarmdsl.workspace.units import Unit
 
 Units = Mapping[Source, Unit]
+_NONE: frozenset[StateMachine] = frozenset()
 
 
 class Seen(set[Source]):
@@ -44,7 +45,8 @@ def link_outside(project: Project, units: Units, affected: set[Unit]) -> Linking
             linking.linker.link_outside(unit.file, owner, unit.outside)
         linking.take_seen(unit)
     for unit in affected:
-        unit.runs = {machine for runner in unit.runners() for machine in machines_of(runner)}
+        runs = [machine for runner in unit.runners() for machine in machines_of(runner)]
+        unit.runs = frozenset(runs) if runs else _NONE
         driven = {units[machine.span.source] for machine in unit.runs}
         linking.driven |= driven - affected
     return linking
@@ -147,12 +149,16 @@ class _WatchedScope(FileScope):
         return found
 
 
-class _Lost(set[str]):
+class _Lost(frozenset[str]):
     """Names that may be declared in what could not be read; remembers that one was asked for."""
 
-    def __init__(self, names: set[str], seen: Seen) -> None:
-        super().__init__(names)
-        self._seen = seen
+    def __new__(cls, names: frozenset[str], seen: Seen) -> _Lost:
+        """Make them of names."""
+        lost = super().__new__(cls, names)
+        lost._seen = seen
+        return lost
+
+    _seen: Seen
 
     def __contains__(self, name: object) -> bool:
         found = super().__contains__(name)

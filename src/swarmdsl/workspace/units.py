@@ -33,7 +33,7 @@ class Unit:
     levels: Levels
     uses: set[Unit] = field(default_factory=set)
     users: set[Unit] = field(default_factory=set)
-    runs: set[StateMachine] = field(default_factory=set)
+    runs: frozenset[StateMachine] = frozenset()
 
     def __post_init__(self) -> None:
         self.syntax = Diagnostics(self.levels)
@@ -52,7 +52,7 @@ class Unit:
         self.outside = Diagnostics(self.levels)
         self.inside = Diagnostics(self.levels)
         self.checked = Diagnostics(self.levels)
-        self.runs = set()
+        self.runs = frozenset()
         self.hushed = False
         self.use(())
 

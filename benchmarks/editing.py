@@ -1,0 +1,175 @@
+"""Measures language servers: what an editor waits for, from the start on.
+
+Time is that of the processor that the threads of the server take, from a message to its answer.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from random import Random
+from statistics import median, quantiles
+from time import perf_counter
+
+import peers
+import workspace
+from client import Client
+from measure import Section, spread
+
+ROUNDS = 5
+KEYS = 60
+SEED = 13
+LINES_OF_A_FILE = 10_000
+_WORD = "moved"
+_PEERS = peers.FOLDER
+
+
+@dataclass(frozen=True)
+class Server:
+    """A language server to be measured."""
+
+    name: str
+    peer: str | None
+    command: Sequence[str]
+
+
+OURS = Server("swarmdsl", None, [str(Path(sys.executable).with_name("swarmc")), "lsp"])
+LANGIUM = Server(
+    "Langium",
+    "langium",
+    ["node", str(_PEERS / "langium_server.mjs"), str(_PEERS / "swarm.langium"), "--stdio"],
+)
+
+
+def section(folder: Path) -> Section:
+    """Start servers, type in a large file, and open a large workspace."""
+    small, single, large = folder / "small", folder / "single", folder / "large"
+    workspace.write(small, 2)
+    single.mkdir()
+    workspace.write_file(single / "single.swarm", LINES_OF_A_FILE)
+    lines = workspace.write(large)
+    present, absent = peers.divide((OURS, LANGIUM))
+    found = Section(
+        "Milliseconds of the processor from a message to what comes of it (least / middle / "
+        f"greatest). Keys are {KEYS} in a file of {LINES_OF_A_FILE:,} lines. The server of Langium "
+        "is the one that it brings for every language: by the grammar that it has here it links "
+        "no names, and it checks no rules.",
+        ["what", *(peers.title(each.name, each.peer) for each in present)],
+    )
+    starts: dict[str, list[float]] = {each.name: [] for each in present}
+    clock: dict[str, list[float]] = {each.name: [] for each in present}
+    for _ in range(ROUNDS):
+        for each in present:
+            cpu, seconds = _start(each, small)
+            starts[each.name].append(cpu)
+            clock[each.name].append(seconds)
+    typed = {each.name: _typed(each, single / "single.swarm") for each in present}
+    peaks = {each.name: _peak(each, large) for each in present}
+
+    def row(what: str, value: Callable[[Server], str]) -> None:
+        found.rows.append([what, *(value(each) for each in present)])
+
+    row("start to what is wrong in 300 lines", lambda each: _figures(starts[each.name]))
+    row("the same by the clock", lambda each: _figures(clock[each.name]))
+    row("a key to what is wrong", lambda each: _figures(typed[each.name].keys))
+    row("completion", lambda each: _figures(typed[each.name].completions))
+    row("hover", lambda each: _figures(typed[each.name].hovers))
+    row(
+        f"peak of the memory with {lines:,} lines, MB", lambda each: f"{peaks[each.name] / 1e6:.0f}"
+    )
+    ours = typed[OURS.name]
+    slow = "the slowest twentieth left out"
+    found.goal("start to what is wrong, in ms", median(starts[OURS.name]) * 1e3, 400, "{:.0f}")
+    found.goal(f"a key to what is wrong, in ms, {slow}", _high(ours.keys) * 1e3, 50, "{:.1f}")
+    found.goal(f"completion, in ms, {slow}", _high(ours.completions) * 1e3, 30, "{:.1f}")
+    found.goal(f"hover, in ms, {slow}", _high(ours.hovers) * 1e3, 30, "{:.1f}")
+    found.goal("the peak of the memory, in MB", peaks[OURS.name] / 1e6, 150, "{:.0f}")
+    found.notes += absent
+    return found
+
+
+def _start(server: Server, folder: Path) -> tuple[float, float]:
+    """Seconds from the start of a server to what is wrong with the file that is opened.
+
+    The first are of the processor, the second of the clock.
+    """
+    file = folder / "area0.swarm"
+    client = Client(server.command, folder)
+    client.open(file, f"{file.read_text(encoding='utf-8')}\nwrong\n")
+    seconds, cpu = perf_counter() - client.started, client.cpu
+    client.close()
+    return cpu, seconds
+
+
+@dataclass
+class Typed:
+    """Seconds of the processor for each of some actions."""
+
+    keys: list[float]
+    completions: list[float]
+    hovers: list[float]
+
+
+def _typed(server: Server, file: Path) -> Typed:
+    """Type a word that is no declaration in many places, and take it away again."""
+    text = file.read_text(encoding="utf-8")
+    rows = text.split("\n")
+    client = Client(server.command, file.parent)
+    client.open(file, text)
+    dice = Random(SEED)
+    blank = [line for line, row in enumerate(rows) if not row]
+    keys: list[float] = []
+    version = 1
+    while len(keys) < KEYS:
+        line = dice.choice(blank)
+        for index, letter in enumerate([*_WORD, *_WORD]):
+            typing = index < len(_WORD)
+            place = index if typing else 2 * len(_WORD) - index - 1
+            version += 1
+            start = client.cpu
+            client.type(file, version, line, place, letter if typing else "")
+            client.wait_for_diagnostics(file)
+            keys.append(client.cpu - start)
+    actions = {}
+    for name in ("completion", "hover"):
+        actions[name] = [
+            _asked(client, file, f"textDocument/{name}", *_place(rows, dice)) for _ in range(KEYS)
+        ]
+    client.close()
+    return Typed(keys, actions["completion"], actions["hover"])
+
+
+def _place(rows: Sequence[str], dice: Random) -> tuple[int, int]:
+    """A place in a line with something in it."""
+    while not rows[line := dice.randrange(len(rows))].strip():
+        pass
+    return line, dice.randrange(len(rows[line]))
+
+
+def _asked(client: Client, file: Path, method: str, line: int, character: int) -> float:
+    start = client.cpu
+    place = {"line": line, "character": character}
+    client.ask(method, {"textDocument": {"uri": file.as_uri()}, "position": place})
+    return client.cpu - start
+
+
+def _peak(server: Server, folder: Path) -> int:
+    """The peak of a server's memory with a file of a large workspace open, in bytes."""
+    file = folder / "area5.swarm"
+    client = Client(server.command, folder)
+    client.open(file, f"{file.read_text(encoding='utf-8')}\nwrong\n")
+    client.ask("workspace/symbol", {"query": "area5"})
+    memory = client.memory
+    client.close()
+    return memory
+
+
+def _figures(seconds: list[float]) -> str:
+    return spread(seconds, "{:.1f}", 1e3)
+
+
+def _high(seconds: list[float]) -> float:
+    """What 19 of 20 stay below."""
+    return quantiles(seconds, n=20)[-1]
