@@ -87,16 +87,19 @@ def _plain(function: Function) -> Function:
             if port.direction == direction
             and types.setdefault((direction, port.topic), port.type) == port.type
         ),
-        params=tuple(map(_param, function.params)),
+        params=tuple(_param(param, function) for param in function.params),
     )
 
 
-def _param(param: Param) -> Param:
-    """A number is a number in the file, of whatever type, and a duration one of seconds."""
+def _param(param: Param, function: Function) -> Param:
+    """A number is a number in the file, of whatever type, and a duration one of seconds.
+
+    What a library says itself of other defaults is left out: programs take numbers only.
+    """
     types: dict[str, Type] = {"string": STRING, "boolean": BOOL}
     type_ = types.get(value_class(param.type), FLOAT)
-    if param.default is None:
-        return replace(param, type=type_)
+    if param.default is None or (function.in_library and type_ != FLOAT):
+        return replace(param, type=type_, default=None)
     value = constant(param.default, {})
     assert value is not None
     kind = INT if type(value) is int else type_

@@ -26,7 +26,7 @@ def systems() -> Mapping[str, ir.System]:
 
 def page() -> str:
     """The page: what somebody wrote above the first section, and what the library has."""
-    lines = [PLACE.read_text(encoding="utf-8").partition("\n## ")[0], ""]
+    lines = [PLACE.read_text(encoding="utf-8").partition("\n## ")[0].rstrip(), ""]
     for name, system in systems().items():
         lines += [f"## {name}", "", f"{PACKAGES[name][:1].upper()}{PACKAGES[name][1:]}.", ""]
         for package in packages(name):
