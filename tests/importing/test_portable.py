@@ -16,20 +16,24 @@ from swarmdsl.exchange import scxml
 from swarmdsl.exchange.scxml import ecmascript
 from swarmdsl.exchange.scxml.ids import data_ids
 from swarmdsl.importing import import_scxml
+from swarmdsl.importing.expressions import Expressions
 from swarmdsl.ir import (
+    Binary,
     DoneTrigger,
     EventTrigger,
     Expression,
     Literal,
     OutcomeTrigger,
+    ParamRef,
     Send,
     State,
     StateKind,
     StateMachine,
     System,
     Transition,
+    Type,
 )
-from swarmdsl.ir.types import DURATION
+from swarmdsl.ir.types import BOOL, DURATION, INT
 from swarmdsl.printer import normalized
 from swarmdsl.source import Source
 from swarmdsl.translate import Dialect, translate
@@ -275,3 +279,28 @@ def test_whatever_a_system_is_made_of(tmp_path: Path, system: System) -> None:
         # A sum of lengths that have been rounded may be 0, which nothing is divided by.
         assume(compiles(rounded, tmp_path))
         raise
+
+
+@pytest.mark.parametrize(
+    ("text", "length"),
+    [("n * 5", 5), ("5 * n", 5), ("n * 5 * -1.1e285", 5), ("n * 0x10", 16), ("5 * 1e300", 5)],
+)
+def test_which_number_is_a_length_of_time(text: str, length: int) -> None:
+    """One that no duration has is a number."""
+
+    def refer(name: str, _wanted: Type) -> ParamRef:
+        return ParamRef(name, INT)
+
+    known = Expressions({"n": INT}, refer, lambda _, __: None, lambda _: Literal(True, BOOL))
+    found = [
+        each.value
+        for each in literals(known.read(text, DURATION))
+        if isinstance(each.value, int) and each.type == DURATION
+    ]
+    assert found == [length * 1_000_000]
+
+
+def literals(expression: Expression) -> list[Literal]:
+    if isinstance(expression, Binary):
+        return literals(expression.left) + literals(expression.right)
+    return [expression] if isinstance(expression, Literal) else []

@@ -41,6 +41,9 @@ from swarmdsl.scxml.ecmascript import Unreadable, parse, unquoted
 _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1}
 _NO_NAMES = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
 
+# In milliseconds: it has as many nanoseconds as 64 bits can hold.
+_LONGEST = 2**63 // 1_000_000
+
 _SHOWN = 80
 _TEXTS = ("string", "wstring")
 
@@ -207,7 +210,8 @@ class _Reading:
         elif DURATION in (first, second) or wanted == DURATION:
             # A duration times a number, or divided by one; of two numbers, the first is meant.
             is_second = first != DURATION and (
-                second == DURATION or (left.data != "number" and operator == "*")
+                second == DURATION
+                or (left.data != "number" and operator == "*" and not _is_too_long(right))
             )
             both = operator == "/" and (second == DURATION or wanted not in (None, BOOL, DURATION))
             values = [
@@ -244,3 +248,13 @@ class _Reading:
         if inner is not None:
             return self.expression(inner, wanted)
         raise UnsayableError("only some functions of `Math` can be called")
+
+
+def _is_too_long(tree: Any) -> bool:
+    """Whether it is a number of milliseconds that no duration has."""
+    while tree.data == "sign" and str(tree.children[0]) in "+-":
+        tree = tree.children[1]
+    if tree.data != "number":
+        return False
+    value = number(str(tree.children[0]), None).value
+    return isinstance(value, (int, float)) and value > _LONGEST
