@@ -124,6 +124,21 @@ def test_a_plug_in_is_a_target_like_any_other(installed, folder):
     assert (folder / "made/roster/Blinkers.txt").read_text() == "- blinker [2..*]\n"
 
 
+def test_a_new_project_works(installed, folder):
+    run_ok(installed / "swarmc", "new", "yard", cwd=folder)
+    assert "no errors" in run_ok(installed / "swarmc", "check", "yard", cwd=folder)
+    run_ok(
+        installed / "swarmc",
+        "add",
+        "event",
+        "Dark",
+        "std_msgs/Empty",
+        "--model",
+        "yard",
+        cwd=folder,
+    )
+
+
 def test_libraries_are_found_the_shipped_one_and_those_of_other_packages(installed, folder):
     model = """import cpswarm.functions.*
 import warehouse.shelves.*

@@ -195,6 +195,24 @@ def test_a_part_and_a_role_are_added_too(swarmc, model) -> None:
     assert swarmc("check").out == ""
 
 
+def test_a_way_leads_to_a_new_state(swarmc, model) -> None:
+    assert swarmc("fmt").code == 0
+    before = model.read_text()
+    ways = ["--from", "Busy: MissionStart", "--from", "Idle: after 5 s", "--final"]
+    ran = swarmc("add", "state", "Going.Late", *ways)
+    text = model.read_text()
+
+    assert (ran.code, ran.err) == (0, "")
+    assert "    on MissionAbort -> Over\n    on MissionStart -> Late\n" in text
+    assert "on MissionStart -> Busy\n    after 5 s -> Late" in text
+    assert set(before.split()) <= set(text.split())
+    assert swarmc("check", "--deny", "warnings").out == ""
+
+    assert swarmc("add", "state", "Going.X", "--final", "--from", "Idel: Bump").code == 1
+    assert swarmc("add", "state", "Going.X", "--final", "--from", "Idle Bump").code == 2
+    assert model.read_text() == text
+
+
 def test_a_behaviour_is_made_where_there_is_none(swarmc, model) -> None:
     assert swarmc("add", "component", "Arm", "--kind", "virtual", "--behavior", "Reach").code == 0
     assert swarmc("add", "member", "Van", "--behavior", "Going").code == 0

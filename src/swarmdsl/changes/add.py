@@ -19,7 +19,18 @@ from swarmdsl.project import find_settings
 from swarmdsl.scaffold.names import given
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Source
-from swarmdsl.syntax import Declaration, Member, Part, Role, StateMachine, Swarm, Vertex
+from swarmdsl.syntax import (
+    Declaration,
+    Member,
+    Parallel,
+    Part,
+    Role,
+    State,
+    StateMachine,
+    Swarm,
+    Transition,
+    Vertex,
+)
 from swarmdsl.workspace import Workspace
 
 Found = tuple[File, Change]
@@ -171,8 +182,7 @@ def state(path: str, text: str) -> Place:
             _report_taken(name, Named(found.file, taken, (*found.path, name)), report)
             return None
         if "{" not in node.span.text:
-            reason, way = f"{found} has no braces", f"write them: `{node.span.text} {{ }}`"
-            report.report("cannot-add", found.place, what=f"`{name}`", reason=reason, help=way)
+            _report_no_braces(name, found, report)
             return None
         wrapped = f"statemachine M {{\n  initial {name}\n{text}\n}}"
         machine = _parsed(name, wrapped, report)
@@ -182,6 +192,24 @@ def state(path: str, text: str) -> Place:
             _report_several(name, text, report)
             return None
         return found.file, placing.state(found.file, node, name, text)
+
+    return place
+
+
+def transition(source: str, text: str) -> Place:
+    """A transition below the others of a state."""
+
+    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+        found = _container(workspace, text, source, (State, Parallel), report)
+        if found is None:
+            return None
+        node = found.node
+        assert isinstance(node, (State, Parallel))
+        if "{" not in node.span.text:
+            _report_no_braces(text, found, report)
+            return None
+        others = [each for each in node.items if isinstance(each, Transition)]
+        return found.file, placing.line_in(found.file, node, others or node.items, text)
 
     return place
 
@@ -231,6 +259,11 @@ def _report_several(name: str, text: str, report: Diagnostics) -> None:
     way = "add one thing at a time"
     reason = "it is more than one thing"
     report.report("cannot-add", given(text), what=f"`{name}`", reason=reason, help=way)
+
+
+def _report_no_braces(name: str, found: Named, report: Diagnostics) -> None:
+    reason, way = f"{found} has no braces", f"write them: `{found.node.span.text} {{ }}`"
+    report.report("cannot-add", found.place, what=f"`{name}`", reason=reason, help=way)
 
 
 def _file(workspace: Workspace, name: str, path: Path, report: Diagnostics) -> File | None:

@@ -17,6 +17,8 @@ _PART = re.compile(r"(\w+)\s*:\s*([\w.]+)")
 _CONNECTOR = re.compile(r"([\w.]+)\s*->\s*([\w.]+)")
 _ROLE = re.compile(r"(?:(\w+)\s*:\s*)?([\w.]+)(?:=([0-9.*]+))?")
 
+_WAY_IN = re.compile(r"([\w.]+)\s*:\s*(.+)")
+
 
 @dataclass(frozen=True)
 class Ports:
@@ -84,6 +86,13 @@ def roles(given: Iterable[str]) -> Iterable[str]:
         name, member, count = _match(_ROLE, each, "--member", "MEMBER=NUMBER or ROLE:MEMBER=NUMBER")
         role = name or snake_case(member.rpartition(".")[2])
         yield f"{role} : {member}" + (f"[{count}]" if count else "")
+
+
+def way_in(given: str, name: str) -> tuple[str, str]:
+    """The state that a transition to another one begins in, and the transition."""
+    source, trigger = _match(_WAY_IN, given, "--from", '"STATE: TRIGGER"')
+    word = "" if trigger.startswith(("after ", "monitor ", "[", "on ")) else "on "
+    return source, f"{word}{trigger} -> {name}"
 
 
 def machine(name: str, doc: str) -> str:

@@ -269,6 +269,13 @@ def swarm(**given: Any) -> int:
 @click.option("--runs", metavar="MACHINE[(...)]", default="", help="The machine that it reuses.")
 @click.option("--on", "transitions", metavar='"TRIGGER -> STATE"', multiple=True)
 @click.option("--after", "delays", metavar='"DELAY -> STATE"', multiple=True)
+@click.option(
+    "--from",
+    "ways_in",
+    metavar='"STATE: TRIGGER"',
+    multiple=True,
+    help="A way that leads to it: `Idle: MissionStart`, `Busy: after 5 s`.",
+)
 @click.option("--final", is_flag=True, help="It is an end.")
 @_doc
 @_common
@@ -276,6 +283,7 @@ def state(**given: Any) -> int:
     """A state of a state machine, of a region or of another state."""
     from swarmdsl.changes import writing
     from swarmdsl.changes.add import state as state_at
+    from swarmdsl.changes.add import transition
     from swarmdsl.importing.update.merging import commented
 
     owner, _, name = given["name"].rpartition(".")
@@ -283,6 +291,8 @@ def state(**given: Any) -> int:
     def places() -> list[Place]:
         if not owner:
             raise UsageError(f"say where `{name}` is to be: MACHINE.{name}")
+        ways = [writing.way_in(each, name) for each in given["ways_in"]]
+        led = [transition(f"{owner}.{source}", text) for source, text in ways]
         lines = [f"do {given['activity']}"] if given["activity"] else []
         lines += [f"on {each}" for each in given["transitions"]]
         lines += [f"after {each}" for each in given["delays"]]
@@ -290,9 +300,9 @@ def state(**given: Any) -> int:
             if lines or given["runs"]:
                 raise UsageError("a final state does nothing and leads nowhere")
             doc = f"{commented(given['doc'])}\n" if given["doc"] else ""
-            return [state_at(given["name"], f"{doc}final {name}")]
+            return [state_at(given["name"], f"{doc}final {name}"), *led]
         head = f"state {name}" + (f" = {given['runs']}" if given["runs"] else "")
-        return [state_at(given["name"], writing.block(given["doc"], head, lines))]
+        return [state_at(given["name"], writing.block(given["doc"], head, lines)), *led]
 
     return _run(places, given)
 
