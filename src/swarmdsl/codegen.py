@@ -15,6 +15,7 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.files import package_of, read_sources
 from swarmdsl.importing.names import type_names
+from swarmdsl.importing.origins import Origins
 from swarmdsl.importing.repair import read
 from swarmdsl.importing.text import checked, text_of
 from swarmdsl.ir import Environment, Member, Multiplicity, Role, Swarm, System
@@ -64,7 +65,10 @@ def codegen(
         of_skeletons = {"language": language, "only": ",".join(wanted), "interfaces": "false"}
         requests.append(Request("skeleton", of_skeletons))
     made = emit(lower(project), requests, report)
-    packages = _by_package(made, report)
+    origins = Origins(documents, adfs)
+    packages = _by_package(
+        {target: [origins.told(file) for file in files] for target, files in made.items()}, report
+    )
     if report.has_errors:
         return Result(report, files)
     return Result(report, files, written=write(packages, out, report, how))
