@@ -17,6 +17,7 @@ from swarmdsl.source_map import MappedText
 from swarmdsl.templates import environment, fill
 
 from ..ros2 import render as ros2
+from ..ros2.imports import Imports
 from ..ros2.options import Options
 from ..ros2.view import MachineView, PackageView, Variant, package_view
 from . import names
@@ -80,12 +81,23 @@ def _behavior(package: PackageView, views: list[FsmView], options: Options) -> I
     for module in ("following", "runner"):
         text = _fill(f"package/{module}.py", **values)
         yield OutputFile(f"{root}/{root}/{module}.py", text)
-    text = _fill("test/test_yasmin.py", **values)
+    imports = _imports_of_test(package, views)
+    text = _fill("test/test_yasmin.py", imports=imports, **values)
     yield OutputFile(f"{root}/test/test_yasmin.py", text)
     for fsm, machine in zip(views, package.machines, strict=True):
         yield _module(fsm, machine, package, ros2.legal_head(options))
         path = f"{root}/state_machines/{fsm.chart}.xml"
         yield OutputFile(path, fsm.xml, origin=fsm.origin)
+
+
+def _imports_of_test(package: PackageView, views: list[FsmView]) -> list[str]:
+    imports = Imports({})
+    imports.name("pathlib", "Path")
+    for module in ("pytest", "yasmin", "yasmin_factory"):
+        imports.module(module)
+    for fsm in views:
+        imports.name(package.name, fsm.module)
+    return imports.lines()
 
 
 def _module(fsm: FsmView, machine: MachineView, package: PackageView, legal: str) -> OutputFile:

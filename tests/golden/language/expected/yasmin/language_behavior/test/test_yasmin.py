@@ -3,12 +3,10 @@
 
 from pathlib import Path
 
+from language_behavior import b_fsm
 import pytest
-
-pytest.importorskip('yasmin_viewer')
-factory = pytest.importorskip('yasmin_factory')
-
-from language_behavior import b_fsm  # noqa: E402, I100
+import yasmin
+import yasmin_factory
 
 FOLDER = Path(__file__).resolve().parents[1] / 'state_machines'
 MACHINES = {
@@ -40,5 +38,8 @@ def test_machine_is_complete(name):
 @pytest.mark.parametrize('name', MACHINES)
 def test_xml_says_the_same(name):
     """The factory makes the same machine."""
-    made = factory.YasminFactory().create_sm_from_file(str(FOLDER / f'{name}.xml'))
+    path = FOLDER / f'{name}.xml'
+    if not hasattr(yasmin.State, 'set_description') and '<Concurrence' in path.read_text():
+        pytest.skip('the factory has parallel states since YASMIN 5.0')
+    made = yasmin_factory.YasminFactory().create_sm_from_file(str(path))
     assert described(made) == described(MACHINES[name]())
