@@ -218,7 +218,7 @@ def test_a_behaviour_is_made_where_there_is_none(swarmc, model) -> None:
     assert swarmc("add", "member", "Van", "--behavior", "Going").code == 0
     text = model.read_text()
 
-    assert "/// How a Arm behaves.\nstatemachine Reach {\n  initial Ready" in text
+    assert "/// The behaviour of `Arm`.\nstatemachine Reach {\n  initial Ready" in text
     assert "virtual Arm {\n  behavior Reach\n}" in text
     assert text.count("statemachine") == 2
     assert swarmc("check", "--deny", "warnings").out == ""

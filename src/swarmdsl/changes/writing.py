@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.importing.update.merging import commented
-from swarmdsl.naming import camel_case, snake_case
+from swarmdsl.naming import snake_case
 from swarmdsl.project.command_line import UsageError
 
 _PORT = re.compile(r"(\w+)\s*:\s*([^@]+?)\s*(?:@\s*(\S+))?")
@@ -99,11 +99,6 @@ def machine(name: str, doc: str) -> str:
     """A state machine to begin with: from its first state to its end."""
     lines = ["initial Ready", "", "state Ready { on done -> Done }", "final Done"]
     return block(doc, f"statemachine {name}", lines)
-
-
-def machine_name(name: str) -> str:
-    """What the behaviour of something is called."""
-    return f"{camel_case(name)}Behavior"
 
 
 def _match(form: re.Pattern[str], given: str, option: str, shape: str) -> tuple[str, ...]:

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.project.command_line import UsageError
-
-if TYPE_CHECKING:
-    from swarmdsl.changes.add import Place
 
 _FILE = click.Path(path_type=Path)
 _name = click.argument("name")
@@ -95,33 +91,7 @@ def add() -> None:
 @_common
 def component(**given: Any) -> int:
     """A sensor, actuator, controller or virtual component."""
-    from swarmdsl.changes import writing
-    from swarmdsl.changes.add import declaration, part_of
-    from swarmdsl.naming import snake_case
-    from swarmdsl.syntax import Member
-
-    name = given["name"]
-    ports = writing.Ports(given["incoming"], given["outgoing"], given["both"])
-
-    def places() -> list[Place]:
-        lines = [
-            *ports.lines(),
-            *writing.params(given["params"]),
-            *(f"operation {each}" for each in given["operations"]),
-            *_behaviour(given),
-        ]
-        head = f"{given['kind']} {name}{_base(given)}"
-        made = [
-            *_machine(given),
-            declaration(name, writing.block(given["doc"], head, lines), given["file"]),
-        ]
-        if given["to"]:
-            owner, _, part = given["to"].partition(".")
-            part = part or snake_case(name)
-            made.append(part_of(owner, part, Member, f"{part} : {name}"))
-        return made
-
-    return _run(places, given)
+    return _run("component", given)
 
 
 @add.command(epilog="Example: swarmc add member Rover --part wheels:Wheels --to Rescue=1..5")
@@ -142,29 +112,7 @@ def component(**given: Any) -> int:
 @_common
 def member(**given: Any) -> int:
     """A type of robot."""
-    from swarmdsl.changes import writing
-    from swarmdsl.changes.add import declaration, part_of
-    from swarmdsl.naming import snake_case
-    from swarmdsl.syntax import Swarm
-
-    name = given["name"]
-    ports = writing.Ports(given["incoming"], given["outgoing"], given["both"])
-
-    def places() -> list[Place]:
-        connectors = list(writing.connectors(given["connectors"]))
-        head = [*_behaviour(given), *writing.params(given["params"]), *ports.lines()]
-        parts = list(writing.parts(given["parts"]))
-        groups = [group for group in (head, parts, connectors) if group]
-        lines = [line for group in groups for line in ("", *group)][1:]
-        text = writing.block(given["doc"], f"member {name}{_base(given)}", lines)
-        made = [*_machine(given), declaration(name, text, given["file"])]
-        if given["to"]:
-            swarm, _, count = given["to"].partition("=")
-            (line,) = writing.roles([f"{name}={count}" if count else name])
-            made.append(part_of(swarm, snake_case(name), Swarm, line))
-        return made
-
-    return _run(places, given)
+    return _run("member", given)
 
 
 @add.command(epilog="Example: swarmc add function land --service cmd/land:std_srvs/Empty")
@@ -185,22 +133,7 @@ def member(**given: Any) -> int:
 @_common
 def function(**given: Any) -> int:
     """Something that a robot can do."""
-    from swarmdsl.changes import writing
-    from swarmdsl.changes.add import declaration
-
-    name = given["name"]
-
-    def places() -> list[Place]:
-        lines = [
-            writing.call(given["action"], given["service"]),
-            *writing.topics("in", given["incoming"]),
-            *writing.topics("out", given["outgoing"]),
-            *writing.params(given["params"]),
-        ]
-        text = writing.block(given["doc"], f"function {name} : {given['category']}", lines)
-        return [declaration(name, text, given["file"])]
-
-    return _run(places, given)
+    return _run("function", given)
 
 
 @add.command(
@@ -215,19 +148,7 @@ def function(**given: Any) -> int:
 @_common
 def event(**given: Any) -> int:
     """Something that state machines react to."""
-    from swarmdsl.changes.add import declaration
-    from swarmdsl.importing.update.merging import commented
-
-    name = given["name"]
-
-    def places() -> list[Place]:
-        head = f"{commented(given['doc'])}\n" if given["doc"] else ""
-        kind = "swarm event" if given["swarm"] else "event"
-        topic = f' on "{given["topic"]}"' if given["topic"] else ""
-        text = f"{head}{kind} {name} : {given['type_']}{topic}"
-        return [declaration(name, text, given["file"])]
-
-    return _run(places, given)
+    return _run("event", given)
 
 
 @add.command(epilog="Example: swarmc add swarm Fleet --member Uav=3 --member base:Rover")
@@ -240,19 +161,7 @@ def event(**given: Any) -> int:
 @_common
 def swarm(**given: Any) -> int:
     """Robots that work together."""
-    from swarmdsl.changes import writing
-    from swarmdsl.changes.add import declaration
-
-    name = given["name"]
-
-    def places() -> list[Place]:
-        lines = [*writing.roles(given["members"])]
-        lines += [f"{word} {given[word]}" for word in ("environment", "fitness") if given[word]]
-        return [
-            declaration(name, writing.block(given["doc"], f"swarm {name}", lines), given["file"])
-        ]
-
-    return _run(places, given)
+    return _run("swarm", given)
 
 
 @add.command(
@@ -281,61 +190,21 @@ def swarm(**given: Any) -> int:
 @_common
 def state(**given: Any) -> int:
     """A state of a state machine, of a region or of another state."""
-    from swarmdsl.changes import writing
-    from swarmdsl.changes.add import state as state_at
-    from swarmdsl.changes.add import transition
-    from swarmdsl.importing.update.merging import commented
-
-    owner, _, name = given["name"].rpartition(".")
-
-    def places() -> list[Place]:
-        if not owner:
-            raise UsageError(f"say where `{name}` is to be: MACHINE.{name}")
-        ways = [writing.way_in(each, name) for each in given["ways_in"]]
-        led = [transition(f"{owner}.{source}", text) for source, text in ways]
-        lines = [f"do {given['activity']}"] if given["activity"] else []
-        lines += [f"on {each}" for each in given["transitions"]]
-        lines += [f"after {each}" for each in given["delays"]]
-        if given["final"]:
-            if lines or given["runs"]:
-                raise UsageError("a final state does nothing and leads nowhere")
-            doc = f"{commented(given['doc'])}\n" if given["doc"] else ""
-            return [state_at(given["name"], f"{doc}final {name}"), *led]
-        head = f"state {name}" + (f" = {given['runs']}" if given["runs"] else "")
-        return [state_at(given["name"], writing.block(given["doc"], head, lines)), *led]
-
-    return _run(places, given)
+    return _run("state", given)
 
 
-def _base(given: dict[str, Any]) -> str:
-    return f" extends {given['extends']}" if given["extends"] else ""
-
-
-def _behaviour(given: dict[str, Any]) -> list[str]:
-    return [f"behavior {given['behavior']}"] if given["behavior"] else []
-
-
-def _machine(given: dict[str, Any]) -> Sequence[Place]:
-    """The state machine that something is to run, if there is none yet."""
-    if not given["behavior"]:
-        return ()
-    from swarmdsl.changes.add import unless_there
-    from swarmdsl.changes.writing import machine
-
-    name = given["behavior"]
-    return (unless_there(name, machine(name, f"How a {given['name']} behaves.")),)
-
-
-def _run(places: Callable[[], Sequence[Place]], given: dict[str, Any]) -> int:
+def _run(kind: str, given: dict[str, Any]) -> int:
     from swarmdsl.changes.add import add as added
+    from swarmdsl.changes.things import THINGS
     from swarmdsl.cli.outcome import exit_code
+    from swarmdsl.project.command_line import UsageError
     from swarmdsl.render import render
 
     try:
-        made = places()
+        places = THINGS[kind](given)
     except UsageError as error:
         raise click.UsageError(str(error)) from error
-    done = added(given["paths"], made, dry_run=given["dry_run"])
+    done = added(given["paths"], places, dry_run=given["dry_run"])
     render(done.report, given["format_"], sys.stderr)
     for layout in done.layouts:
         click.echo(layout.diff() if given["dry_run"] else layout.name, nl=not given["dry_run"])
