@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import subprocess
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -132,9 +131,12 @@ def test_a_machine_in_a_program_of_somebody_else(
     fakes.action(*TAKE_OFF, "never", "never")
     words = ["--ros-args", "-r", "__ns:=/sar/uav_0", "-p", "altitude:=3.5"]
     process = ros.start(program, *words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    state = "/sar/uav_0/uav_search/state"
+    fakes.do("subscribe", topic=state, kind="std_msgs/msg/String", latched=True)
     fakes.listeners("/sar/mission_start")
     for number in (1, 2):
-        time.sleep(0.3)  # until it has begun anew
+        # It begins, takes off, ends, and begins anew.
+        fakes.wait("message", state, 1 + 3 * (number - 1))
         fakes.publish("/sar/mission_start")
         assert fakes.wait("goal", TAKE_OFF[0], number)["data"] == {"altitude": 3.5}
         process.stdin.write("cancel\n")
