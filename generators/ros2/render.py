@@ -10,7 +10,7 @@ from textwrap import wrap
 from jinja2 import Environment
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
@@ -86,8 +86,9 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
         )
         yield OutputFile(f"{root}/{root}/{module}.py", text)
     if package.callbacks:
-        text = _fill("package/package/callbacks.py", **values)
-        yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True)
+        facts = tuple(f"{name}({parameters})" for name, parameters in package.callbacks)
+        text = _fill("package/package/callbacks.py", stamp=fits(facts), **values)
+        yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True, owner=root, facts=facts)
     for machine in package.machines:
         yield _machine(machine, package, legal)
     for test in ("copyright", "flake8", "machines", "pep257"):
@@ -108,7 +109,8 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
             yield OutputFile(f"{path}.yaml", configuration(role, about), origin=launch.origin)
             for number in range(min(role.least, _MOST_FILES)):
                 text = _fill("package/config/instance.yaml", role=role, number=number)
-                yield OutputFile(f"{path}_{number}.yaml", text, keep=True, origin=launch.origin)
+                own = f"{path}_{number}.yaml"
+                yield OutputFile(own, text, keep=True, owner=role.name, origin=launch.origin)
 
 
 def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFile:

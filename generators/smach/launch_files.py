@@ -30,7 +30,9 @@ def launch_files(package: PackageView) -> Iterator[OutputFile]:
                 one = f"{team.role.name}_{number}"
                 text = own_params(team.robot, fleet, one)
                 path = f"{root}/param/{fleet.name}/{one}.yaml"
-                yield OutputFile(path, text, keep=True, origin=team.role.origin)
+                yield OutputFile(
+                    path, text, keep=True, owner=team.role.name, origin=team.role.origin
+                )
         world = world_file(fleet) if package.simulation else None
         if world is not None:
             path = f"{root}/launch/{fleet.name}_simulation.launch"

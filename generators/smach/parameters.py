@@ -28,7 +28,7 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
     """The params of one robot of a swarm: the user's file, with what can stand in it."""
     lines = [
         f"# Params of {name} in swarm {fleet.swarm.name}; they go before those of its type.",
-        "# This file is yours: swarmc writes it once and never again.",
+        "# This file is yours, once you have written in it.",
     ]
     for node in robot.nodes:
         lines += ["#", f"# {node.name}:"]

@@ -10,7 +10,7 @@ from jinja2 import Environment
 
 import swarmdsl
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
@@ -79,8 +79,9 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
     if package.events:
         yield OutputFile(f"{source}/events.py", _fill("package/src/package/events.py", **common))
     if package.callbacks:
-        text = _fill("package/src/package/callbacks.py", **common)
-        yield OutputFile(f"{source}/callbacks.py", text, keep=True)
+        facts = tuple(f"{name}({parameters})" for name, parameters in package.callbacks)
+        text = _fill("package/src/package/callbacks.py", stamp=fits(facts), **common)
+        yield OutputFile(f"{source}/callbacks.py", text, keep=True, owner=root, facts=facts)
     for machine in package.machines:
         text = _fill("package/src/package/machine.py", machine=machine, **common)
         yield OutputFile(f"{source}/{machine.module}.py", text, origin=machine.origin)

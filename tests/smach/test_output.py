@@ -144,7 +144,7 @@ def test_dependencies(files: Files) -> None:
     ]
     cmake = files["CMakeLists.txt"].text
     assert "catkin_python_setup()" in cmake
-    assert "message" not in cmake
+    assert "message_generation" not in cmake
     assert "  scripts/watch\n" in cmake
 
 
