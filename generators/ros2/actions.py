@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import Action, Event, Message, Named, System
 
-from .names import TARGET
+from .names import TARGET, type_name
 
 _PARTS = {
     "Goal": "Goal",
@@ -33,7 +33,7 @@ def messages_of_actions(system: System) -> Mapping[Named, str]:
     actions |= {each.type for each in system.interfaces if isinstance(each, Action)}
     described = {each.type for each in system.interfaces if isinstance(each, Message)}
     return {
-        made: f"{action.package}.action.{action.name}.{part}"
+        made: f"{action.package}.action.{type_name(action.name)}.{part}"
         for action in sorted(actions, key=str)
         for end, part in _PARTS.items()
         if (made := Named(action.package, action.name + end)) not in described

@@ -9,6 +9,7 @@ from __future__ import annotations
 import keyword
 from dataclasses import replace as with_names
 
+from swarmdsl.bounds import bound_of
 from swarmdsl.dataclass import replace
 from swarmdsl.ir import (
     Array,
@@ -23,10 +24,12 @@ from swarmdsl.ir import (
     Type,
     Unary,
 )
+from swarmdsl.ir.expressions import parts
 from swarmdsl.ir.types import DURATION, FLOATS, STRING
 from swarmdsl.translate import Dialect, python_literal, translate
 
 from .imports import Imports
+from .names import field_name
 
 MACHINE = "machine"
 EVENT = "event"
@@ -37,7 +40,7 @@ _HELD_OTHERWISE = ("byte", "duration", "time")
 def python_expression(expression: Expression, imports: Imports, data: str = DATA) -> str:
     """The expression in a function of `machine` and `event`; `data` has variables and params."""
     made = _for_python(expression)
-    for part in _parts(made):
+    for part in parts(made):
         if isinstance(part, Call) and part.function == "sqrt":
             imports.module("math")
         if isinstance(part, Call) and part.function == _GET:
@@ -46,9 +49,14 @@ def python_expression(expression: Expression, imports: Imports, data: str = DATA
     return translate(made, with_names(_DIALECT, variable=name, param=name))
 
 
-def stored(expression: Expression, imports: Imports, data: str = DATA) -> str:
-    """A value that is kept: a copy, as ROS has it, and durations in whole nanoseconds."""
+def stored(expression: Expression, wanted: Type, imports: Imports, data: str = DATA) -> str:
+    """A value that is kept in a variable of the type `wanted`.
+
+    It is a copy, as ROS has it, durations are in whole nanoseconds, and whole numbers fit.
+    """
     text = python_expression(expression, imports, data)
+    if (bound := bound_of(expression, wanted)) is not None:
+        return f"{imports.own('engine', 'bounded')}({text}, {bound!r})"
     if expression.type == DURATION:
         return text if isinstance(expression, Literal) else f"round({text})"
     if isinstance(expression.type, Primitive) or isinstance(expression, Literal):
@@ -64,7 +72,7 @@ def attribute(base: str, field: str) -> str:
 
 def uses_event(expression: Expression) -> bool:
     """Whether it needs the message of the triggering event."""
-    return any(isinstance(part, EventData) for part in _parts(expression))
+    return any(isinstance(part, EventData) for part in parts(expression))
 
 
 def default_value(type_: Type, imports: Imports) -> str:
@@ -89,12 +97,12 @@ def _for_python(expression: Expression) -> Expression:
     """The same with fields as ROS has them."""
     match expression:
         case FieldAccess(base=base, field=field, type=type_):
-            inner = _for_python(base)
+            inner, field = _for_python(base), field_name(field)
             plain = isinstance(type_, Named | Array) or (
                 isinstance(type_, Primitive) and type_.name not in _HELD_OTHERWISE
             )
             if plain and not keyword.iskeyword(field):
-                return replace(expression, base=inner)
+                return replace(expression, base=inner, field=field)
             return Call(_GET, (inner, Literal(field, STRING)), type_)
         case Unary(operand=operand):
             return replace(expression, operand=_for_python(operand))
@@ -103,22 +111,6 @@ def _for_python(expression: Expression) -> Expression:
         case Call(arguments=arguments):
             return replace(expression, arguments=tuple(map(_for_python, arguments)))
     return expression
-
-
-def _parts(expression: Expression) -> list[Expression]:
-    """The expression and all inside it."""
-    found: list[Expression] = [expression]
-    match expression:
-        case FieldAccess(base=base):
-            found += _parts(base)
-        case Unary(operand=operand):
-            found += _parts(operand)
-        case Binary(left=left, right=right):
-            found += _parts(left) + _parts(right)
-        case Call(arguments=arguments):
-            for argument in arguments:
-                found += _parts(argument)
-    return found
 
 
 def _literal(literal: Literal) -> str:

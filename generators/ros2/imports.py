@@ -7,6 +7,8 @@ from collections.abc import Iterable, Mapping
 
 from swarmdsl.ir import Named
 
+from .names import type_name
+
 WIDTH = 99
 
 
@@ -37,7 +39,7 @@ class Imports:
             self.module(f"{type_.package}.action")
             return self.messages_of_actions[type_]
         self.module(f"{type_.package}.{kind}")
-        return f"{type_.package}.{kind}.{type_.name}"
+        return f"{type_.package}.{kind}.{type_name(type_.name)}"
 
     def lines(self) -> list[str]:
         """The import statements, sorted as the linters of ROS want it, and blank lines between.

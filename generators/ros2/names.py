@@ -17,7 +17,7 @@ from swarmdsl.ir import (
     System,
     Variable,
 )
-from swarmdsl.naming import is_python_name, is_ros_package_name, snake_case
+from swarmdsl.naming import camel_case, is_python_name, is_ros_package_name, snake_case
 from swarmdsl.source import Span
 
 TARGET = "ros2"
@@ -36,6 +36,8 @@ _PARAMETERS = ("use_sim_time", "start_type_description_service")
 _PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
 _OF_AN_ACTION = ("Goal", "Result", "Feedback", "SendGoal", "GetResult", "FeedbackMessage")
 _OF_A_SERVICE = ("Request", "Response", "Event")
+_INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
+_FIELD = re.compile(r"[a-z](_?[a-z0-9])*")
 _TOPIC = re.compile(r"(~/|/)?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
@@ -157,6 +159,16 @@ def bad(
     report.report(
         "bad-identifier", at, target=TARGET, name=name, use=use, related=related, help=help
     )
+
+
+def type_name(name: str) -> str:
+    """The name of an interface of others in ROS 2, which does not take all that ROS 1 does."""
+    return name if _INTERFACE.fullmatch(name) else camel_case(name)
+
+
+def field_name(name: str) -> str:
+    """The name of a field of others in ROS 2: in lower case."""
+    return name if _FIELD.fullmatch(name) else snake_case(name)
 
 
 def fresh(name: str, used: Iterable[str]) -> str:

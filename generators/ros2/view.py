@@ -18,7 +18,8 @@ from .actions import messages_of_actions
 from .expressions import default_value, stored
 from .imports import WIDTH, Imports
 from .launch import Launch, launches
-from .machine import STEP, Function, Row, Table
+from .machine import Row, Table
+from .module import STEP, Function, Module
 from .options import Options
 from .params import parameters
 from .topics import topics
@@ -150,8 +151,9 @@ def _machine_view(
     imports.own("engine", "Machine")
     if not variant.suffix:
         imports.own("node", "run")
-    table = Table(machine, system, imports)
-    for callback, signature, origin in table.callbacks:
+    made = Module(machine, system, imports)
+    table = Table(machine, made)
+    for callback, signature, origin in made.callbacks:
         names.check_callback(callback, signature, callbacks, origin, report)
     declared = parameters(machine, report)
     if declared:
@@ -170,10 +172,10 @@ def _machine_view(
         topics=tuple(_item(call, event.origin, event.doc) for event, call in heard),
         functions=functions,
         values=values,
-        steps=tuple(table.functions),
+        steps=tuple(made.functions),
         rows=tuple(table.rows),
         initial=machine.initial,
-        callbacks=tuple(dict.fromkeys(name for name, _, _ in table.callbacks)),
+        callbacks=tuple(dict.fromkeys(name for name, _, _ in made.callbacks)),
         header=header(system, [machine]),
         origin=machine.origin,
     )
@@ -208,7 +210,7 @@ def _values(machine: StateMachine, imports: Imports) -> tuple[Entry, ...]:
         found.append(Entry(comments(param.origin, param.doc), text))
     for variable in machine.variables:
         value = (
-            stored(variable.initial, imports, "self")
+            stored(variable.initial, variable.type, imports, "self")
             if variable.initial is not None
             else default_value(variable.type, imports)
         )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from swarmdsl.bounds import bound_of_any
+from swarmdsl.defaults import sent_types
 from swarmdsl.ir import Activity, Communication, Literal, State
 from swarmdsl.python_source import Call, Source, comments, layout
 
-from .expressions import field_name, python_expression
+from .expressions import field_name
 from .module import Module
-from .statements import STEP, assign
+from .statements import STEP, assign, kept, within
 
 Keywords = tuple[tuple[str, object], ...]
 
@@ -39,11 +41,12 @@ def _sent(
     if not activity.arguments:
         return ()
     kind = "msg" if word == "goal" else "srv"
+    types = sent_types(module.system.interface(call.type))
     message = Call(
         module.imports.interface(call.type, kind, word.capitalize()),
         (),
         tuple(
-            (field_name(name), Source(python_expression(value, module.imports)))
+            (field_name(name), Source(kept(value, types.get(name), module)))
             for name, value in activity.arguments
         ),
     )
@@ -69,7 +72,8 @@ def _got(state: State, activity: Activity, word: str, module: Module) -> Keyword
         return ()
     lines: list[str] = []
     for result in activity.results:
-        value = f"{word}.{field_name(result.field)}"
+        bound = bound_of_any(module.held(result.variable, result.path))
+        value = within(f"{word}.{field_name(result.field)}", bound, module)
         lines += assign(result.variable, result.path, value, 1, module)
     said = comments(activity.origin)
     name = module.add_function((state.id, word), f"userdata, {word}", lines, said)

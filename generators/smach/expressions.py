@@ -17,6 +17,7 @@ from swarmdsl.ir import (
     Type,
     Unary,
 )
+from swarmdsl.ir.expressions import parts
 from swarmdsl.ir.types import DURATION, FLOATS
 from swarmdsl.translate import Dialect, python_literal, translate
 
@@ -34,22 +35,6 @@ def python_expression(expression: Expression, imports: Imports) -> str:
         if isinstance(part, Call) and part.function == "sqrt":
             imports.module("math")
     return translate(_for_python(expression), _DIALECT)
-
-
-def parts(expression: Expression) -> list[Expression]:
-    """The expression and all inside it."""
-    found: list[Expression] = [expression]
-    match expression:
-        case FieldAccess(base=base):
-            found += parts(base)
-        case Unary(operand=operand):
-            found += parts(operand)
-        case Binary(left=left, right=right):
-            found += parts(left) + parts(right)
-        case Call(arguments=arguments):
-            for argument in arguments:
-                found += parts(argument)
-    return found
 
 
 def field_name(name: str) -> str:

@@ -21,6 +21,7 @@ _TAKEN = (
     "ServiceState",
     "State",
     "StateMachine",
+    "bounded",
     "build",
     "callbacks",
     "concurrence",

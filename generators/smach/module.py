@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass, field
+from swarmdsl.defaults import field_type
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import StateMachine, System
+from swarmdsl.ir import StateMachine, System, Type
 from swarmdsl.naming import snake_case
 from swarmdsl.source import Span
 
@@ -60,6 +61,11 @@ class Module:
     callbacks: list[tuple[str, str, Span | None]] = field(default_factory=list)
     sent: dict[str, None] = field(default_factory=dict)
     _names: set[str] = field(default_factory=set)
+
+    def held(self, variable: str, path: tuple[str, ...]) -> Type | None:
+        """The type of a variable or of a field of one; None where nothing is known of it."""
+        types = {each.name: each.type for each in self.machine.variables}
+        return field_type(types.get(variable), path, self.system)
 
     def function_name(self, *words: str) -> str:
         """A name for a private function, unlike those given before."""

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.ir import Assignment, Effect, Named, Send
+from swarmdsl.bounds import bound_of
+from swarmdsl.defaults import field_type
+from swarmdsl.ir import Assignment, Effect, Expression, Named, Send, Type
 from swarmdsl.python_source import Call, Source, layout
 
 from .expressions import USERDATA, field_name, python_expression
@@ -19,12 +21,24 @@ def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[
     for effect in effects:
         match effect:
             case Assignment(variable=variable, path=path, value=value):
-                lines += assign(
-                    variable, path, python_expression(value, module.imports), depth, module
-                )
+                text = kept(value, module.held(variable, path), module)
+                lines += assign(variable, path, text, depth, module)
             case Send():
                 lines.append(_send(effect, depth, module))
     return lines
+
+
+def kept(value: Expression, wanted: Type | None, module: Module) -> str:
+    """A value for what is of the type `wanted`, if that is known: a whole number has to fit."""
+    return within(python_expression(value, module.imports), bound_of(value, wanted), module)
+
+
+def within(text: str, bound: str | None, module: Module) -> str:
+    """The value if it fits into the type of whole numbers, where one has to."""
+    if bound is None:
+        return text
+    bounded = module.imports.name(f"{module.imports.types.package}.engine", "bounded")
+    return f"{bounded}({text}, {bound!r})"
 
 
 def assign(
@@ -56,7 +70,10 @@ def _send(send: Send, depth: int, module: Module) -> str:
         module.imports.interface(event.type, "msg"),
         (),
         tuple(
-            (field_name(name), Source(python_expression(value, module.imports)))
+            (
+                field_name(name),
+                Source(kept(value, field_type(event.type, (name,), module.system), module)),
+            )
             for name, value in send.arguments
         ),
     )

@@ -6,7 +6,18 @@ from collections.abc import Iterable
 from typing import Any
 
 from swarmdsl.interfaces import Interfaces
-from swarmdsl.ir import Array, Field, Message, Named, Primitive, System, Type
+from swarmdsl.ir import (
+    Action,
+    Array,
+    Field,
+    Interface,
+    Message,
+    Named,
+    Primitive,
+    Service,
+    System,
+    Type,
+)
 
 
 def default_value(type_: Type, system: System) -> Any:
@@ -30,6 +41,29 @@ def default_value(type_: Type, system: System) -> Any:
             }
     described = system.interface(type_)
     return default_fields(described.fields, system) if isinstance(described, Message) else {}
+
+
+def field_type(type_: Type | None, path: Iterable[str], system: System) -> Type | None:
+    """The type of what lies at a path in a value; None where nothing is known of it."""
+    for name in path:
+        if not isinstance(type_, Named):
+            return None
+        described = system.interface(type_)
+        if isinstance(described, Message):
+            types = {field.name: field.type for field in described.fields}
+        else:
+            known = Interfaces(()).fields(type_) or ()
+            types = {str(field.name): field.type.type for field in known if field.type.type}
+        type_ = types.get(name)
+    return type_
+
+
+def sent_types(interface: Interface | None) -> dict[str, Type]:
+    """The types of the fields of a goal or request, as far as they are known."""
+    match interface:
+        case Action(goal=fields) | Service(request=fields):
+            return {field.name: field.type for field in fields}
+    return {}
 
 
 def default_fields(fields: Iterable[Field], system: System) -> dict[str, Any]:

@@ -269,6 +269,19 @@ def test_the_launch_file_starts_every_member(
         content[-1].keywords["function"]({**context, "left_count": "5"})
 
 
+def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:
+    files = generate(
+        BARE.replace("on Go -> Gone", "on Go / n = n * n, wide = n, n = m -> Gone").replace(
+            "initial", "var n : int32 = 2  var m : int32 = 3  var wide : int64 = 0  initial"
+        )
+    )
+
+    lines = [line.strip() for line in files["bare_behavior/bare_behavior/wait.py"].text.split("\n")]
+    assert "machine.data.n = bounded(machine.data.n * machine.data.n, 'int32')" in lines
+    # What only is handed on fits.
+    assert "machine.data.n = machine.data.m" in lines
+
+
 def test_the_engine_is_whole(generate: Generate) -> None:
     """Each class and function of the engine is in the file, with the same code."""
     import swarmdsl.runtime

@@ -438,6 +438,50 @@ def test_a_guard_without_a_value_does_not_hold(run: Start) -> None:
     assert m.world.errors == ["division by zero"]
 
 
+def test_a_whole_number_stays_in_its_type(run: Start) -> None:
+    """What is too large is not stored, and the effects after it are not done."""
+    m = run("""
+      endless statemachine M {
+        var n    : int32 = 50000
+        var tiny : uint8 = 255
+        var told : Report
+        var all  : int64 = 0
+        initial A
+        state A {
+          on Start / all = n * n, n = n * n, all = 7 -> B
+          on Found / told.level = event.level, tiny = tiny + 1 -> B
+        }
+        state B {
+          on Stop / send Found(id = "a", level = n * n) -> A
+        }
+      }
+    """)
+
+    assert m.hear("Start") == ["B"]
+    assert (m["n"], m["all"]) == (50_000, 2_500_000_000)
+    assert m.hear("Stop") == ["A"]
+    assert m.hear("Found", id="a", level=3) == ["B"]
+    assert (m["told"]["level"], m["tiny"]) == (3, 255)
+    assert m.world.errors == [
+        *("2500000000 is no int32", "2500000000 is no int32", "256 is no uint8"),
+    ]
+
+
+def test_a_result_that_is_too_large_is_not_stored(run: Start) -> None:
+    m = run("""
+      statemachine M {
+        var n : int32 = 1
+        initial A
+        state A { do go(speed = 1.0) gives (count => n)  on succeeded, aborted -> B }
+        final B
+      }
+    """)
+
+    m.end("go", "succeeded", reached=True, count=2**31)
+    assert m["n"] == 1
+    assert m.world.errors == ["2147483648 is no int32"]
+
+
 def test_a_trace_leads_back_to_the_model(run: Start) -> None:
     m = run("statemachine M { initial A state A { on Start -> B } final B }")
     state = m.instance.machine.states[1]

@@ -418,7 +418,7 @@ def test_what_is_said_of_lines_in_a_state_stands_where_they_are_done(generate: G
         above = lines[lines.index(f"# {each}") - 1]
         assert above.startswith("# model.swarm:"), each
     doing = [lines[lines.index(f"# {each}") + 1] for each in ("Counted.", "At first.", "At last.")]
-    counted = "userdata.seen = userdata.seen + 1"
+    counted = "userdata.seen = bounded(userdata.seen + 1, 'int32')"
     assert doing == [counted, "userdata.seen = 0", counted]
 
 

@@ -657,6 +657,24 @@ def test_result_callback_that_fails(callback: Any, robot: Run) -> None:
     assert work.ended() == "End"
 
 
+def test_a_whole_number_stays_in_its_type(robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        statemachine Work {
+          var n : int32 = 50000
+          initial A
+          state A { on Stop / n = n * n -> B }
+          choice B { [n == 50000] -> Kept  else -> Grown }
+          final Kept
+          final Grown
+        }"""
+    )
+    work.start()
+    work.world.publish("stop")
+    assert work.ended() == "Kept"
+
+
 def test_goal_preempted_by_its_server(robot: Run) -> None:
     work = robot(
         HEADER

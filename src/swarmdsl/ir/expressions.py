@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from swarmdsl.dataclass import dataclass
 from swarmdsl.dataclass import field as dataclass_field
 from swarmdsl.ir.types import DURATION, Type
@@ -94,18 +96,22 @@ class Call:
 Expression = Literal | VariableRef | ParamRef | EventData | FieldAccess | Unary | Binary | Call
 
 
+def parts(expression: Expression) -> Iterator[Expression]:
+    """The expression and all inside it."""
+    yield expression
+    match expression:
+        case FieldAccess(base=base):
+            yield from parts(base)
+        case Unary(operand=operand):
+            yield from parts(operand)
+        case Binary(left=left, right=right):
+            yield from parts(left)
+            yield from parts(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from parts(argument)
+
+
 def reads(expression: Expression) -> set[str]:
     """Names of the variables an expression reads."""
-    match expression:
-        case VariableRef(name=name):
-            return {name}
-        case FieldAccess(base=base):
-            return reads(base)
-        case Unary(operand=operand):
-            return reads(operand)
-        case Binary(left=left, right=right):
-            return reads(left) | reads(right)
-        case Call(arguments=arguments):
-            return set().union(*map(reads, arguments))
-        case _:
-            return set()
+    return {part.name for part in parts(expression) if isinstance(part, VariableRef)}

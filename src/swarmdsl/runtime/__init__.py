@@ -10,7 +10,7 @@ from .activity import Run, Servers
 from .configuration import Configuration
 from .instance import Instance
 from .table import Activity, Effect, Event, Guard, Kind, Machine, State, TableError, Transition
-from .world import ExecutionError, LoopError, Observer, World
+from .world import ExecutionError, LoopError, Observer, World, bounded
 
 __all__ = [
     "Activity",
@@ -30,4 +30,5 @@ __all__ = [
     "TableError",
     "Transition",
     "World",
+    "bounded",
 ]

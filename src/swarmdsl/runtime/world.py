@@ -18,6 +18,25 @@ FAILURES = (ExecutionError, ArithmeticError, ValueError)
 """What a guard or an effect may raise; anything else is a mistake in it."""
 
 
+_RANGES = {
+    f"{sign}int{bits}": (0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    for sign in ("", "u")
+    for bits in (8, 16, 32, 64)
+}
+
+
+def bounded(value: Any, type_: str) -> Any:
+    """Return a whole number that the type can hold.
+
+    Raises ExecutionError for one that it cannot: a model that multiplies in a circle would make
+    ever longer ones.
+    """
+    lowest, greatest = _RANGES[type_]
+    if isinstance(value, int) and not lowest <= value <= greatest:
+        raise ExecutionError(f"{value} is no {type_}")
+    return value
+
+
 class LoopError(Exception):
     """One event led to more and more steps; `states` are those of the last ones."""
 

@@ -84,9 +84,9 @@ def values(
     found: dict[str, Any] = {}
     for param in _owner_params(subject, robot, part):
         if param.default is not None:
-            found[param.name] = stored(param.default)(found, None)
+            found[param.name] = stored(param.default, param.type)(found, None)
     for name, value in part.values if part is not None else ():
-        found[name] = stored(value)(found, None)
+        found[name] = stored(value, None)(found, None)
     for word in words(robot, part):
         found.update(scenario.params.get(word, {}))
     return found

@@ -12,10 +12,19 @@ from copy import deepcopy
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.defaults import default_value
+from swarmdsl.bounds import bound_of, bound_of_any
+from swarmdsl.defaults import default_value, field_type, sent_types
 from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.inward import inward, region_entered
-from swarmdsl.ir import Assignment, Expression, Primitive, Send, StateKind, System
+from swarmdsl.ir import (
+    Assignment,
+    Expression,
+    Primitive,
+    Send,
+    StateKind,
+    System,
+    Type,
+)
 from swarmdsl.ir.types import DURATION
 from swarmdsl.runtime import (
     Activity,
@@ -28,6 +37,7 @@ from swarmdsl.runtime import (
     Machine,
     State,
     Transition,
+    bounded,
 )
 from swarmdsl.simulate.expressions import Value, function_of
 
@@ -61,12 +71,12 @@ def first_data(
         if param.name in params:
             data[param.name] = deepcopy(params[param.name])
         elif (default := first_value(param)) is not None:
-            data[param.name] = stored(default)(data, None)
+            data[param.name] = stored(default, param.type)(data, None)
         else:
             raise ValueError(f"param `{param.name}` of `{machine.name}` has no value")
     for variable in machine.variables:
         if variable.initial is not None:
-            data[variable.name] = stored(variable.initial)(data, None)
+            data[variable.name] = stored(variable.initial, variable.type)(data, None)
         else:
             data[variable.name] = default_value(variable.type, system)
     return data
@@ -82,6 +92,7 @@ class _Maker:
 
     def __init__(self, machine: ir.StateMachine, system: System) -> None:
         self.system = system
+        self.types = {variable.name: variable.type for variable in machine.variables}
         self.events = Events(machine, {state.id: state.id for state in machine.walk()})
 
     def state(self, state: ir.State, around: ir.State | None = None) -> State:
@@ -145,17 +156,31 @@ class _Maker:
 
     def activity(self, state: ir.State, activity: ir.Activity) -> Activity:
         """What a state does; what callbacks fill in is left out."""
-        goal = [(name, stored(value)) for name, value in activity.arguments]
+        call = self.system.function(activity.function).communication
+        sent = sent_types(self.system.interface(call.type))
+        goal = [(name, stored(value, sent.get(name))) for name, value in activity.arguments]
 
         def make_goal(instance: Instance) -> dict[str, Any]:
             return {name: value(instance.data, None) for name, value in goal}
 
         return Activity(
             activity.function,
-            self.system.function(activity.function).communication.name,
+            call.name,
             {outcome: self.events.outcome(state, outcome) for outcome in OUTCOMES},
             make_goal,
-            _store_results(activity.results) if activity.results else None,
+            self.results(activity.results) if activity.results else None,
+        )
+
+    def results(self, results: Iterable[ir.ResultMapping]) -> Effect:
+        """What stores the results of an activity."""
+        return _store_results(
+            [
+                (
+                    each,
+                    bound_of_any(field_type(self.types.get(each.variable), each.path, self.system)),
+                )
+                for each in results
+            ]
         )
 
     def effects(self, effects: Iterable[ir.Effect]) -> Effect:
@@ -174,7 +199,8 @@ class _Maker:
         """One effect."""
         match effect:
             case Assignment(variable=variable, path=path, value=expression):
-                value = stored(expression)
+                held = field_type(self.types.get(variable), path, self.system)
+                value = stored(expression, held)
 
                 def assign(instance: Instance, event: Event) -> None:
                     _store(instance.data, variable, path, value(instance.data, event.data))
@@ -182,7 +208,10 @@ class _Maker:
                 return assign
             case Send(event=name, arguments=arguments):
                 type_ = self.system.event(name).type
-                fields = [(field, stored(value)) for field, value in arguments]
+                fields = [
+                    (field, stored(value, field_type(type_, (field,), self.system)))
+                    for field, value in arguments
+                ]
 
                 def send(instance: Instance, event: Event) -> None:
                     message = default_value(type_, self.system)
@@ -204,9 +233,15 @@ def _guard(expression: Expression | None) -> Guard | None:
     return lambda instance, event: value(instance.data, event.data)
 
 
-def stored(expression: Expression) -> Value:
-    """A value that is kept or sent: a copy, as ROS has it, and durations in whole nanoseconds."""
+def stored(expression: Expression, wanted: Type | None) -> Value:
+    """A value that is kept or sent, in what is of the type `wanted` if that is known.
+
+    It is a copy, as ROS has it, durations are in whole nanoseconds, and whole numbers fit.
+    """
     value = function_of(expression)
+    bound = bound_of(expression, wanted)
+    if bound is not None:
+        return lambda data, message: bounded(value(data, message), bound)
     if expression.type == DURATION:
         return lambda data, message: round(value(data, message))
     if isinstance(expression.type, Primitive):
@@ -226,15 +261,17 @@ def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: An
     held[path[-1]] = value
 
 
-def _store_results(results: Iterable[ir.ResultMapping]) -> Effect:
+def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Effect:
     def store(instance: Instance, event: Event) -> None:
-        for result in results:
+        for result, bound in results:
             try:
                 value = event.data[result.field]
             except (KeyError, TypeError):
                 raise ExecutionError(
                     f"there is no field `{result.field}` in {event.data!r}"
                 ) from None
+            if bound is not None:
+                bounded(value, bound)
             _store(instance.data, result.variable, result.path, deepcopy(value))
 
     return store

@@ -8,7 +8,7 @@ import full.msg
 import full.srv
 import sensor_msgs.msg
 
-from .engine import Activity, Event, Kind, Machine, State, Transition
+from .engine import Activity, bounded, Event, Kind, Machine, State, Transition
 from .functions import Action, Service
 from .host import Behavior, outcomes, tree
 from .parameters import Parameter
@@ -81,7 +81,7 @@ def guard_main_a_pick_2(machine, event):
 
 def effect_main_a_pick(machine, event):
     # model.swarm:69
-    machine.data.tries = machine.data.tries + 1
+    machine.data.tries = bounded(machine.data.tries + 1, 'int32')
 
 
 def guard_main_b_ok(machine, event):
@@ -96,7 +96,7 @@ def enter_landing(machine, event):
 
 def effect_landing_down(machine, event):
     # model.swarm:40
-    machine.data.landing_tries = machine.data.landing_tries + 1
+    machine.data.landing_tries = bounded(machine.data.landing_tries + 1, 'int32')
 
 
 def guard_landing_down(machine, event):
@@ -106,7 +106,7 @@ def guard_landing_down(machine, event):
 
 def effect_landing_down_2(machine, event):
     # model.swarm:41
-    machine.data.landing_tries = machine.data.landing_tries + 1
+    machine.data.landing_tries = bounded(machine.data.landing_tries + 1, 'int32')
 
 
 def goal_landing_down(machine):

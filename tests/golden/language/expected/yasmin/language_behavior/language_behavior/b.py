@@ -11,7 +11,7 @@ import my_msgs.msg
 import std_msgs.msg
 import swarmros.msg
 
-from .engine import Activity, Event, Kind, Machine, State, Transition
+from .engine import Activity, bounded, Event, Kind, Machine, State, Transition
 from .functions import Action, Service
 from .host import Behavior, outcomes, tree
 from .topics import Topic
@@ -39,7 +39,7 @@ def enter_a(machine, event):
 
 def effect_a_a(machine, event):
     # model.swarm:51
-    machine.data.a_k = machine.data.a_k + 1
+    machine.data.a_k = bounded(machine.data.a_k + 1, 'int32')
 
 
 def goal_a_a(machine):

@@ -5,7 +5,7 @@
 
 import std_srvs.srv
 
-from .engine import Activity, Kind, Machine, State, Transition
+from .engine import Activity, bounded, Kind, Machine, State, Transition
 from .functions import Service
 from .host import Behavior, outcomes, tree
 from .node import run
@@ -29,7 +29,7 @@ def guard_try(machine, event):
 
 def effect_try(machine, event):
     # model.swarm:18
-    machine.data.tries = machine.data.tries + 1
+    machine.data.tries = bounded(machine.data.tries + 1, 'int32')
 
 
 STATES = tree(

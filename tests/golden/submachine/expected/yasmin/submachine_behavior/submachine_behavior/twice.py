@@ -3,7 +3,7 @@
 
 import std_srvs.srv
 
-from .engine import Activity, Event, Kind, Machine, State, Transition
+from .engine import Activity, bounded, Event, Kind, Machine, State, Transition
 from .functions import Service
 from .host import Behavior, outcomes, tree
 
@@ -32,7 +32,7 @@ def guard_first_try(machine, event):
 
 def effect_first_try(machine, event):
     # model.swarm:18
-    machine.data.first_tries = machine.data.first_tries + 1
+    machine.data.first_tries = bounded(machine.data.first_tries + 1, 'int32')
 
 
 def tell_first_ok(machine, event):
@@ -47,7 +47,7 @@ def tell_first_failed(machine, event):
 
 def effect_second(machine, event):
     # model.swarm:35
-    machine.data.tries = machine.data.tries + 1
+    machine.data.tries = bounded(machine.data.tries + 1, 'int32')
 
 
 def enter_second(machine, event):
@@ -62,7 +62,7 @@ def guard_second_try(machine, event):
 
 def effect_second_try(machine, event):
     # model.swarm:18
-    machine.data.second_tries = machine.data.second_tries + 1
+    machine.data.second_tries = bounded(machine.data.second_tries + 1, 'int32')
 
 
 STATES = tree(

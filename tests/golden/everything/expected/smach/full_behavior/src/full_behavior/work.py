@@ -9,6 +9,7 @@ from full.srv import Beep, BeepRequest
 from full_behavior import events
 from full_behavior.actions import ActionState
 from full_behavior.containers import Concurrence, Machine, StateMachine
+from full_behavior.engine import bounded
 from full_behavior.services import ServiceState
 from full_behavior.states import AT_ONCE, Final, On, State, param
 
@@ -211,18 +212,18 @@ def _main_a_go_result(userdata, result):
 
 def _main_a_pick_go_effect(userdata, event):
     # model.swarm:69
-    userdata.tries = userdata.tries + 1
+    userdata.tries = bounded(userdata.tries + 1, 'int32')
 
 
 def _landing_down_succeeded_effect(userdata, event):
     # model.swarm:40
     # Every try counts.
-    userdata.landing_tries = userdata.landing_tries + 1
+    userdata.landing_tries = bounded(userdata.landing_tries + 1, 'int32')
 
 
 def _landing_down_aborted_effect(userdata, event):
     # model.swarm:41
-    userdata.landing_tries = userdata.landing_tries + 1
+    userdata.landing_tries = bounded(userdata.landing_tries + 1, 'int32')
 
 
 def _landing_entry(userdata):

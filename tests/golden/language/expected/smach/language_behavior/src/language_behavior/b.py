@@ -10,6 +10,7 @@ from my_acts.msg import GoAction, GoGoal
 from language_behavior import events
 from language_behavior.actions import ActionState
 from language_behavior.containers import Machine, StateMachine
+from language_behavior.engine import bounded
 from language_behavior.services import ServiceState
 from language_behavior.states import AT_ONCE, Final, History, On, State
 
@@ -136,7 +137,7 @@ def _d():
 
 def _a_a_succeeded_effect(userdata, event):
     # model.swarm:51
-    userdata.a_k = userdata.a_k + 1
+    userdata.a_k = bounded(userdata.a_k + 1, 'int32')
 
 
 def _a_entry(userdata):

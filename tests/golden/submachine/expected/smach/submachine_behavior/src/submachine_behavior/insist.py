@@ -5,6 +5,7 @@ import smach
 from std_srvs.srv import Empty
 
 from submachine_behavior.containers import Machine, StateMachine
+from submachine_behavior.engine import bounded
 from submachine_behavior.services import ServiceState
 from submachine_behavior.states import On, param
 
@@ -53,4 +54,4 @@ def initial_userdata():
 
 def _try_aborted_effect(userdata, event):
     # model.swarm:18
-    userdata.tries = userdata.tries + 1
+    userdata.tries = bounded(userdata.tries + 1, 'int32')

@@ -5,6 +5,7 @@ import smach
 from std_srvs.srv import Empty
 
 from submachine_behavior.containers import Machine, StateMachine
+from submachine_behavior.engine import bounded
 from submachine_behavior.services import ServiceState
 from submachine_behavior.states import Final, On
 
@@ -115,7 +116,7 @@ def _second():
 
 def _first_try_aborted_effect(userdata, event):
     # model.swarm:18
-    userdata.first_tries = userdata.first_tries + 1
+    userdata.first_tries = bounded(userdata.first_tries + 1, 'int32')
 
 
 def _first_entry(userdata):
@@ -125,12 +126,12 @@ def _first_entry(userdata):
 
 def _second_done_effect(userdata, event):
     # model.swarm:35
-    userdata.tries = userdata.tries + 1
+    userdata.tries = bounded(userdata.tries + 1, 'int32')
 
 
 def _second_try_aborted_effect(userdata, event):
     # model.swarm:18
-    userdata.second_tries = userdata.second_tries + 1
+    userdata.second_tries = bounded(userdata.second_tries + 1, 'int32')
 
 
 def _second_entry(userdata):

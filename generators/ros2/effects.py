@@ -1,0 +1,64 @@
+"""Effects as statements of Python, and messages that are filled."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from keyword import iskeyword
+
+from swarmdsl.ir import Assignment, Effect, Expression, Named, Send
+from swarmdsl.python_source import Call, Source, layout
+
+from .expressions import DATA, attribute, python_expression, stored
+from .imports import WIDTH
+from .module import BOTH, STEP, Module
+from .names import field_name
+
+
+def effects_of(what: str, state: str, effects: Sequence[Effect], module: Module) -> Source:
+    """A function that does the effects in their order."""
+    lines = [line for each in effects for line in _effect(each, module)]
+    return module.function(what, state, BOTH, lines, effects[0].origin)
+
+
+def _effect(effect: Effect, module: Module) -> list[str]:
+    match effect:
+        case Assignment(variable=variable, path=path, value=value):
+            return [_store(variable, path, value, module)]
+        case Send(event=name, arguments=arguments):
+            type_ = module.system.event(name).type
+            assert isinstance(type_, Named)
+            message = filled(module.imports.interface(type_, "msg"), arguments, module)
+            module.imports.own("engine", "Event")
+            call = Call("machine.emit", (Call("Event", (name, message)),))
+            return [layout(call, 1, STEP, width=WIDTH)]
+
+
+def _store(variable: str, path: tuple[str, ...], value: Expression, module: Module) -> str:
+    if not path:
+        return f"{STEP}{DATA}.{variable} = {stored(value, module.types[variable], module.imports)}"
+    return put(variable, path, python_expression(value, module.imports), module)
+
+
+def put(variable: str, path: tuple[str, ...], value: str, module: Module) -> str:
+    """Store a value in a field of a variable."""
+    module.imports.own("values", "put")
+    base = f"{DATA}.{variable}"
+    *way, last = map(field_name, path)
+    for field in way:
+        base = attribute(base, field)
+    call = Call("put", (Source(base), last, Source(value)))
+    return layout(call, 1, STEP, width=WIDTH)
+
+
+def filled(type_: str, arguments: Iterable[tuple[str, Expression]], module: Module) -> Call:
+    """A new message with these fields."""
+    values = [
+        (field_name(name), python_expression(value, module.imports)) for name, value in arguments
+    ]
+    if not values:
+        return Call(type_)
+    module.imports.own("values", "filled")
+    # What Python has a keyword for is no name of an argument.
+    odd = [Source(f"**{{{name!r}: {value}}}") for name, value in values if iskeyword(name)]
+    plain = [(name, Source(value)) for name, value in values if not iskeyword(name)]
+    return Call("filled", (Call(type_), *odd), tuple(plain))

@@ -1,0 +1,53 @@
+"""What gathers while a state machine becomes a module: its functions, imports and callbacks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.ir import StateMachine, System
+from swarmdsl.naming import snake_case
+from swarmdsl.python_source import Source, comments
+from swarmdsl.source import Span
+
+from .imports import Imports
+from .names import fresh
+
+STEP = "    "
+BOTH = "machine, event"
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function of the module: `parameters`, `comments` and `body` are text."""
+
+    name: str
+    parameters: str
+    comments: tuple[str, ...]
+    body: tuple[str, ...]
+
+
+class Module:
+    """The module of one state machine; `callbacks` are those of the user, with their parameters."""
+
+    def __init__(self, machine: StateMachine, system: System, imports: Imports) -> None:
+        self.system = system
+        self.imports = imports
+        self.types = {variable.name: variable.type for variable in machine.variables}
+        self.functions: list[Function] = []
+        self.callbacks: list[tuple[str, str, Span | None]] = []
+        self._used: set[str] = set()
+
+    def new_event(self, name: str) -> str:
+        """An event of the engine."""
+        self.imports.own("engine", "Event")
+        return f"Event({name!r})"
+
+    def function(
+        self, what: str, state: str, parameters: str, lines: Iterable[str], origin: Span | None
+    ) -> Source:
+        """Add a function that does something for a state; what it is called."""
+        name = fresh(f"{what}_{snake_case(state.replace('.', '_'))}", self._used)
+        self._used.add(name)
+        self.functions.append(Function(name, parameters, comments(origin), tuple(lines)))
+        return Source(name)
