@@ -125,6 +125,16 @@ def test_what_cannot_be_renamed(old, new, code, said, swarmc, yard) -> None:
     assert (yard / "yard.swarm").read_text() == MODEL
 
 
+def test_a_file_that_is_not_there(swarmc, yard) -> None:
+    for command in (["rename", "Camera", "Eye", "yrd.swarm"], ["add", "member", "X"]):
+        more = ["--model", "yrd.swarm"] if command[0] == "add" else []
+        ran = swarmc(*command, *more)
+
+        assert (ran.code, ran.out) == (1, "")
+        assert "error[SW0001]" in ran.err
+        assert "did you mean `yard.swarm`?" in ran.err
+
+
 def test_tests_and_scenarios_that_have_the_old_name_are_told(swarmc, yard) -> None:
     (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n')
     (yard / "other.toml").write_text('text = "Driver"\n')

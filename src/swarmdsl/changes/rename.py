@@ -40,6 +40,9 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     if report.has_errors:
         return Renamed(report, 0)
     workspace = Workspace(paths or settings.sources, settings)
+    if all(file.library for file in workspace.project.files):
+        report.include(workspace.report)
+        return Renamed(report, workspace.files)
     found = _found(workspace, old, report)
     if found is None:
         return Renamed(report, workspace.files)
