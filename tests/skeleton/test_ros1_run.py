@@ -264,6 +264,36 @@ def test_cpp_skeletons_end_each_goal(catkin: Path, start: Any) -> None:
     assert start(cpp_commands(catkin), [])("skeletons") == SKELETONS
 
 
+def test_a_log_of_roscpp_leads_to_the_model(
+    graph: Any,
+    catkin: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfdbinary: pytest.CaptureFixture[bytes],
+) -> None:
+    """The files were compiled in another folder than the one with the source map."""
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(MODEL, tmp_path)
+    options = ["--option", "skeleton.language=cpp", "-o", "src"]
+    assert swarmc(["build", MODEL.name, "--target", "skeleton", *options]) == 0
+    environment = graph.environment(
+        ROS_NAMESPACE="/no_param_cpp",
+        ROSCONSOLE_FORMAT="[${severity}] [${file}:${line}]: ${message}",
+    )
+    run = subprocess.run(
+        cpp_commands(catkin)["climb"], env=environment, capture_output=True, timeout=60, check=False
+    )
+    (tmp_path / "node.log").write_bytes(run.stderr)
+    capfdbinary.readouterr()
+
+    assert run.returncode == 1
+    assert b"ROS parameter /no_param_cpp/climb/frame has no value" in run.stderr
+    assert swarmc(["trace", "node.log"]) == 0
+    said = capfdbinary.readouterr().out.decode()
+    assert "  --> model.swarm:28:10\n" in said
+    assert "`climb_base.cpp` as a whole is made for this" in said
+
+
 def test_cpp_tests_of_users_pass(graph: Any, catkin: Path) -> None:
     for name in NODES:
         run = subprocess.run(
