@@ -8,10 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from swarmdsl.dataclass import dataclass
 from swarmdsl.exchange.constants import Value
 from swarmdsl.ir import Component, Member, Part, Role, StateMachine, Swarm, System
-from swarmdsl.naming import snake_case
+from swarmdsl.naming import fresh, snake_case
 from swarmdsl.source import Span
 
-from .names import fresh
 from .params import given
 
 

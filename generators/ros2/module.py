@@ -6,12 +6,11 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.naming import snake_case
+from swarmdsl.naming import fresh, snake_case
 from swarmdsl.python_source import Source, comments
 from swarmdsl.source import Span
 
 from .imports import Imports
-from .names import fresh
 
 STEP = "    "
 BOTH = "machine, event"

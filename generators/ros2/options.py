@@ -8,13 +8,9 @@ from dataclasses import dataclass
 from swarmdsl.generator import option
 from swarmdsl.ros_package import PackageOptions
 
-from .names import package_fault
+from .names import NAMES
 
 _COPYRIGHT = re.compile(r"[0-9]{4}(-[0-9]{4})? \S.*")
-
-
-def _package_fault(value: str) -> str | None:
-    return package_fault(value) if value else None
 
 
 def _copyright_fault(value: str) -> str | None:
@@ -28,7 +24,7 @@ class Options(PackageOptions):
     """The options of the target."""
 
     package: str = option(
-        "", "name of the package; made from the model's name when empty", check=_package_fault
+        "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
     )
     copyright: str = option(
         "", "year and holder of the copyright, for the head of each file", check=_copyright_fault

@@ -20,6 +20,7 @@ from .imports import WIDTH, Imports
 from .launch import Launch, launches
 from .machine import Row, Table
 from .module import STEP, Function, Module
+from .names import NAMES
 from .options import Options
 from .params import parameters
 from .topics import topics
@@ -93,10 +94,10 @@ def package_view(
     machines = chosen_machines(system)
     if not machines:
         return None
-    name = names.package_name(system, options.package, report)
-    modules = names.module_names(machines, report)
+    name = NAMES.package(system, options.package, report)
+    modules = NAMES.of_modules(machines, report)
     interfaces = packages_of((each for each in system.interfaces if not each.external), 2)
-    names.check_interfaces(system, interfaces, name, report)
+    NAMES.check_interfaces(system, interfaces, name, report)
     sent = {event for machine in machines for event in package.sent_events(machine)}
     callbacks: dict[str, str] = {}
     for machine in machines:
@@ -154,7 +155,7 @@ def _machine_view(
     made = Module(machine, system, imports)
     table = Table(machine, made)
     for callback, signature, origin in made.callbacks:
-        names.check_callback(callback, signature, callbacks, origin, report)
+        NAMES.check_callback(callback, signature, callbacks, origin, report)
     declared = parameters(machine, report)
     if declared:
         imports.own("parameters", "Parameter")

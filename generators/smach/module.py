@@ -8,7 +8,7 @@ from swarmdsl.dataclass import dataclass, field
 from swarmdsl.defaults import field_type
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import StateMachine, System, Type
-from swarmdsl.naming import snake_case
+from swarmdsl.naming import fresh, snake_case
 from swarmdsl.source import Span
 
 from .imports import Imports
@@ -104,12 +104,3 @@ class Module:
         self.report.report(
             "unsupported-construct", at, target=TARGET, construct=construct, help=hint
         )
-
-
-def fresh(name: str, taken: Iterable[str]) -> str:
-    """The name, with a number where it is taken."""
-    known, number, found = set(taken), 1, name
-    while found in known:
-        number += 1
-        found = f"{name}_{number}"
-    return found

@@ -7,11 +7,7 @@ from dataclasses import dataclass
 from swarmdsl.generator import option
 from swarmdsl.ros_package import PackageOptions
 
-from .names import package_fault
-
-
-def _package_fault(value: str) -> str | None:
-    return package_fault(value) if value else None
+from .names import NAMES
 
 
 def _seconds_fault(value: int) -> str | None:
@@ -23,7 +19,7 @@ class Options(PackageOptions):
     """The options of the target."""
 
     package: str = option(
-        "", "name of the package; made from the model's name when empty", check=_package_fault
+        "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
     )
     simulation: bool = option(
         False, "whether to write launch files for Gazebo, with the worlds of the environments"

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from swarmdsl.ir import State, StateKind, doc_of
+from swarmdsl.naming import fresh
 from swarmdsl.python_source import Call, Source, comments, layout
 
 from .activities import activity_call
-from .module import PREEMPTED, Container, Entry, Module, fresh
+from .module import PREEMPTED, Container, Entry, Module
 from .statements import STEP, effect_lines
 from .transitions import TransitionMaker, Transitions
 from .ways import Scope, Way, way_into

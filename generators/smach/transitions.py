@@ -18,10 +18,11 @@ from swarmdsl.ir import (
     Transition,
     Trigger,
 )
+from swarmdsl.naming import fresh
 from swarmdsl.python_source import Call, Source, comments
 
 from .expressions import python_expression
-from .module import PREEMPTED, Module, fresh
+from .module import PREEMPTED, Module
 from .statements import STEP, effect_lines
 from .ways import Way, Ways, named, way_into
 

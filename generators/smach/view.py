@@ -28,6 +28,7 @@ from .expressions import USERDATA, default_value, python_expression
 from .imports import Imports, RosTypes, ros_types
 from .launch import world_file
 from .module import TARGET, Container, Function, Module
+from .names import NAMES
 from .options import Options
 from .readme import Rows, uses
 from .robots import Fleet, Robot, fleets, robots
@@ -128,10 +129,10 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     machines = chosen_machines(system)
     if not machines:
         return None
-    name = names.package_name(system, options.package, report)
-    modules = names.module_names(machines, report)
+    name = NAMES.package(system, options.package, report)
+    modules = NAMES.of_modules(machines, report)
     interfaces = packages_of((each for each in system.interfaces if not each.external), 1)
-    names.check_interfaces(system, interfaces, name, report)
+    NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
     events = _events(system, machines, report)
     constants = names.event_constants(events, (type_.name for type_, _ in used), report)
@@ -193,7 +194,7 @@ def _machine_view(
     module = Module(system, machine, imports, report, events)
     build(module)
     for callback, parameters, origin in module.callbacks:
-        names.check_callback(callback, parameters, callbacks, origin, report)
+        NAMES.check_callback(callback, parameters, callbacks, origin, report)
     values = _values(module)
     required = dict.fromkeys(f"{name}({parameters})" for name, parameters, _ in module.callbacks)
     require = module.own("states", "require") if required else ""

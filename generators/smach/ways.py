@@ -6,8 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir import State, StateKind, StateMachine, Transition
+from swarmdsl.naming import fresh
 
-from .module import PREEMPTED, Entry, fresh
+from .module import PREEMPTED, Entry
 
 
 @dataclass(frozen=True)

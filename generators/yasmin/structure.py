@@ -8,10 +8,10 @@ from enum import Enum
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import State, StateKind, StateMachine
-from swarmdsl.naming import camel_case
+from swarmdsl.naming import camel_case, fresh
 from swarmdsl.source import Span
 
-from .ways import CANCELED, TARGET, Way, Ways, fresh
+from .ways import CANCELED, TARGET, Way, Ways
 
 # What the generated module has besides the classes of its states.
 _RESERVED = (

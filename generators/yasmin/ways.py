@@ -7,7 +7,7 @@ has one meaning in all states that it passes, and is no name of a state in them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
@@ -22,6 +22,7 @@ from swarmdsl.ir import (
     TimeTrigger,
     Trigger,
 )
+from swarmdsl.naming import fresh
 
 from .domains import Domains, Move, is_in
 from .reach import Reach
@@ -188,15 +189,6 @@ class Ways:
             return [each for each in finals if final in (None, each.id)]
         regions = [self._completed(region, None) for region in self.reach.inside(state)]
         return [each for region in regions for each in region] if all(regions) else []
-
-
-def fresh(name: str, taken: Iterable[str]) -> str:
-    """The name, with a number where it is taken."""
-    known, number, found = set(taken), 1, name
-    while found in known:
-        number += 1
-        found = f"{name}_{number}"
-    return found
 
 
 def _around(state: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+from collections.abc import Iterable
 from functools import lru_cache
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
@@ -33,3 +34,12 @@ def is_python_name(name: str) -> bool:
 def is_ros_package_name(name: str) -> bool:
     """Whether it is a package name by REP 144: lower case, digits and `_`, a letter first."""
     return re.fullmatch(r"[a-z][a-z0-9_]*", name) is not None and not name.endswith("_")
+
+
+def fresh(name: str, taken: Iterable[str]) -> str:
+    """The name, with a number behind it where it is taken."""
+    known, number, made = set(taken), 1, name
+    while made in known:
+        number += 1
+        made = f"{name}_{number}"
+    return made

@@ -62,7 +62,7 @@ def test_unsupported(reported: Reported) -> None:
             f"{_machine(SMALL)}\naction Go {{ }}\nstruct GoGoal {{ x : int32 }}",
             "GoGoal",
             "GoGoal",
-            "two messages of a package",
+            "two types of a package",
         ),
         (
             f"{_machine(SMALL)}\nstruct S {{ x : int32 }}\nmessage p/T {{ x : int32 }}",
