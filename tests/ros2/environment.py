@@ -14,8 +14,10 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from swarmdsl.generators.ros2.actions import messages_of_actions
+from swarmdsl.generators.ros2.names import field_name, type_name
 from swarmdsl.generators.ros2.options import Options
 from swarmdsl.generators.ros2.package import (
     called_functions,
@@ -29,13 +31,12 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_files import named, parts
 from swarmdsl.interface_packages import InterfacePackage, packages_of
-from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
+from swarmdsl.ir import Action, Array, Field, Interface, Message, Named, Service, System, Type
 from swarmdsl.ir.types import STRING
-from swarmdsl.naming import snake_case
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-_EXAMPLES = ("minimal", "search_and_rescue", "storage", "flocking", "emergency_exit")
+_EXAMPLES = (*("minimal", "search_and_rescue", "storage", "flocking", "emergency_exit", "cpswarm"),)
 MODELS = [*(ROOT / "examples" / name for name in _EXAMPLES), HERE / "models"]
 _IN_WHEELS = ("builtin_interfaces", "geometry_msgs", "sensor_msgs", "std_msgs", "std_srvs")
 _READY = "ready.txt"
@@ -55,6 +56,7 @@ def make(folder: Path) -> None:
     """Make what is missing."""
     if ready(folder):
         return
+    today = _fingerprint()
     python = folder / "venv" / "bin" / "python"
     if not python.exists():
         subprocess.run([sys.executable, "-m", "venv", folder / "venv"], check=True)
@@ -67,7 +69,7 @@ def make(folder: Path) -> None:
         if not (source / path).exists() or (source / path).read_text(encoding="utf-8") != text:
             (source / path).write_text(text, encoding="utf-8")
     build(folder)
-    (folder / _READY).write_text(_fingerprint())
+    (folder / _READY).write_text(today)
 
 
 def build(folder: Path, *packages: str) -> None:
@@ -152,12 +154,15 @@ def _in_fields(interface: Interface) -> Iterator[Named]:
 
 
 def _merged(one: Interface, other: Interface) -> Interface:
-    """The fields of both, by names that ROS 2 can have."""
+    """The fields of both, by names that ROS 2 can have, as is that of the interface."""
 
     def fields(first: Iterable[Field], second: Iterable[Field]) -> tuple[Field, ...]:
-        together = {snake_case(f.name): f for f in (*second, *first)}
-        return tuple(replace(field, name=name) for name, field in together.items())
+        together = {field_name(f.name): f for f in (*second, *first)}
+        return tuple(
+            replace(field, name=name, type=_ported(field.type)) for name, field in together.items()
+        )
 
+    one = replace(one, type=_ported(one.type))
     match one, other:
         case Message(), Message():
             return replace(one, fields=fields(one.fields, other.fields))
@@ -175,6 +180,16 @@ def _merged(one: Interface, other: Interface) -> Interface:
                 feedback=fields(one.feedback, other.feedback),
             )
     raise TypeError(f"{one.type} is of two kinds")
+
+
+def _ported(type_: Type) -> Any:
+    """The type by a name that ROS 2 can have."""
+    match type_:
+        case Named(package=package, name=name):
+            return Named(package, type_name(name))
+        case Array(element=element):
+            return replace(type_, element=_ported(element))
+    return type_
 
 
 def _relocate(python: Path) -> None:
