@@ -37,8 +37,11 @@ class Manifest:
 
 
 def content_hash(content: bytes) -> str:
-    """What identifies the content of a file, without what stands in regions of the user."""
-    return sha256(regions.generated(content)).hexdigest()
+    """What identifies the content of a file, without what stands in regions of the user.
+
+    Line ends do not count: a version control system may have made others of them.
+    """
+    return sha256(regions.generated(content).replace(b"\r\n", b"\n")).hexdigest()
 
 
 def read(out: Path) -> Manifest:

@@ -177,6 +177,16 @@ def test_what_is_no_text_is_not_lost(tmp_path: Path) -> None:
     assert (tmp_path / "t/f").read_bytes() == b"\xff\x00\r\nmine"
 
 
+def test_other_line_ends_are_no_edit(tmp_path: Path) -> None:
+    build(tmp_path, plain(text()))
+    (tmp_path / "t/f").write_bytes(text().replace("\n", "\r\n").encode())
+
+    written, found = build(tmp_path, plain(text()))
+    assert (written and written.changes, found) == ((), [])
+    assert names(build(tmp_path, plain(text(l2="new\n")))) == []
+    assert (tmp_path / "t/f").read_bytes() == text(l2="new\n").encode()
+
+
 # ---- files to fill in
 
 

@@ -152,7 +152,8 @@ def _settle(plan: Plan, path: str, file: OutputFile, found: Found, new: bytes) -
         plan.bring(path, found, new)
         return
     has_mode = not file.executable or plan.disk.is_executable(path)
-    if found.content == new and has_mode:
+    same = found.content == new or found.content.replace(b"\r\n", b"\n") == new
+    if same and has_mode:
         plan.unchanged.append(path)
     else:
         plan.change(Action.CHANGE, path, found.content, new, file)
