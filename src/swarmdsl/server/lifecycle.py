@@ -22,8 +22,7 @@ CAPABILITIES: Json = {
 
 def open_folders(session: Session, params: Json) -> None:
     """Take the folders that are open in the editor when it starts the server."""
-    folders = params.get("workspaceFolders")
-    uris = [each.get("uri") for each in folders or () if isinstance(each, dict)]
+    uris = _uris(params.get("workspaceFolders"))
     if not uris and params.get("rootUri") is not None:
         uris = [params["rootUri"]]
     session.models.open_folders(_paths(session, uris))
@@ -42,16 +41,15 @@ def _initialized(session: Session, _params: Json) -> bool:
 
 
 def _folders_changed(session: Session, params: Json) -> bool:
-    event = params.get("event") or {}
-    gone = _paths(session, [each["uri"] for each in event.get("removed", ())])
-    new = _paths(session, [each["uri"] for each in event.get("added", ())])
+    event = _object(params, "event")
+    gone, new = (_paths(session, _uris(event.get(name))) for name in ("removed", "added"))
     kept = [each for each in session.models.folders if each not in gone]
     session.models.open_folders([*kept, *new])
     return True
 
 
 def _opened(session: Session, params: Json) -> bool:
-    document = params.get("textDocument") or {}
+    document = _object(params, "textDocument")
     path = session.path(document.get("uri"))
     if path is None:
         return False
@@ -63,7 +61,7 @@ def _opened(session: Session, params: Json) -> bool:
 
 
 def _changed(session: Session, params: Json) -> bool:
-    found = params.get("textDocument") or {}
+    found = _object(params, "textDocument")
     path = session.path(found.get("uri"))
     document = session.documents.get(path) if path is not None else None
     if path is None or document is None:
@@ -78,17 +76,28 @@ def _changed(session: Session, params: Json) -> bool:
 
 
 def _closed(session: Session, params: Json) -> bool:
-    path = session.path((params.get("textDocument") or {}).get("uri"))
+    path = session.path(_object(params, "textDocument").get("uri"))
     if path is not None:
         session.close(path)
     return path is not None
 
 
 def _on_disk(session: Session, params: Json) -> bool:
-    changes = params.get("changes")
-    uris = [each.get("uri") for each in changes or () if isinstance(each, dict)]
-    session.models.refresh(_paths(session, uris))
+    session.models.refresh(_paths(session, _uris(params.get("changes"))))
     return True
+
+
+def _object(params: Json, name: str) -> Json:
+    found = params.get(name)
+    if not isinstance(found, dict):
+        raise RequestError(INVALID_PARAMS, f"`{name}` is missing")
+    return found
+
+
+def _uris(named: Any) -> list[Any]:
+    """The URIs of folders or of changes, as far as there are some."""
+    found = named if isinstance(named, list) else []
+    return [each["uri"] for each in found if isinstance(each, dict) and "uri" in each]
 
 
 def _paths(session: Session, uris: list[Any]) -> list[Path]:

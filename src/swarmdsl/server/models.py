@@ -18,6 +18,9 @@ from swarmdsl.server.territory import Territory
 from swarmdsl.source import Source
 from swarmdsl.workspace import Workspace
 
+# Some 80,000 lines: beyond that nobody waits for an answer after a key.
+_MOST_BYTES = 2 * 2**20
+
 
 @dataclass
 class _Project:
@@ -103,6 +106,10 @@ class Models:
         if not self._changed:
             return
         changed, self._changed = self._changed, {}
+        known = [workspace.file for workspace in self._workspaces.values()]
+        for path in changed:
+            # One that could not be read is looked at as if it were new.
+            changed[path] |= all(file(path) is None for file in known)
         try:
             if any(path.name == FILE_NAME for path in changed):
                 self._workspaces.clear()
@@ -178,7 +185,9 @@ class Models:
     def _made(self, settings: Settings, home: Path) -> Workspace:
         territory = Territory([*self.folders, home], settings)
         models = {path: self._texts[path] for path in self._models()}
-        workspace = Workspace(settings.sources, settings, texts=models, within=territory)
+        workspace = Workspace(
+            settings.sources, settings, texts=models, within=territory, most=_MOST_BYTES
+        )
         self._workspaces[settings.sources] = workspace
         gc.collect()
         gc.freeze()

@@ -102,6 +102,9 @@ class Server:
 
     def _answer(self, identity: Any, method: Any, params: Any) -> None:
         try:
+            if not isinstance(identity, (int, str)):
+                identity = None
+                raise RequestError(rpc.INVALID_REQUEST, "the id is no number and no text")
             if identity in self._connection.cancelled:
                 raise RequestError(rpc.CANCELLED, "cancelled")
             result = self._result(method, params)

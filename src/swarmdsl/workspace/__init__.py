@@ -45,7 +45,7 @@ class Workspace:
     """The files of a model, those they import, and what is wrong with them.
 
     `paths` are files and folders, as for `compiler.check`; `texts` are taken for the contents of
-    files. What does not lie `within` some folders is not read.
+    files. What does not lie `within` some folders is not read, nor what has more than `most` bytes.
     """
 
     def __init__(
@@ -55,10 +55,11 @@ class Workspace:
         *,
         texts: Mapping[Path, str] = _NO_TEXTS,
         within: Container[Path] | None = None,
+        most: int | None = None,
     ) -> None:
         self._paths = paths
         self._settings = settings
-        self._desk = Desk(settings.levels, within)
+        self._desk = Desk(settings.levels, within, most)
         for path, text in texts.items():
             self._desk.edit(path, text)
         self._units: dict[Source, Unit] = {}

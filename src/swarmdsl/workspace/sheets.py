@@ -119,15 +119,18 @@ class Desk(Reader):
 
     `wanted` are the real paths of those that were asked for since it was last emptied, `asked`
     the paths of all, also of those that cannot be read, and of folders that were looked into.
-    What does not lie `within` some folders is not read.
+    What does not lie `within` some folders is not read, nor what has more than `most` bytes.
     """
 
-    def __init__(self, levels: Levels, within: Container[Path] | None = None) -> None:
+    def __init__(
+        self, levels: Levels, within: Container[Path] | None = None, most: int | None = None
+    ) -> None:
         self.sheets: dict[str, Sheet] = {}
         self.wanted: set[str] = set()
         self.asked: set[Path] = set()
         self._levels = levels
         self._within = within
+        self._most = most
         self._edited: dict[str, bytes] = {}
 
     def look(self, path: Path) -> None:
@@ -183,7 +186,10 @@ class Desk(Reader):
         """The text of a file; None for one that cannot be read, which is reported at `at`."""
         content = self._edited.get(os.path.realpath(path))
         if content is None and self.allows(path, at, report):
-            content = read_bytes(path, at, report)
+            content = read_bytes(path, at, report, most=self._most)
+        elif content is not None and self._most is not None and len(content) > self._most:
+            report.report("too-large", at, path=path, most=self._most // 2**20)
+            return None
         return decoded(path, content, at, report) if content is not None else None
 
     def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
