@@ -176,8 +176,8 @@ async def test_rename_across_files(client, editor, folder):
 async def test_names_that_cannot_be_given(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     for word, name, why in (
-        ("rounds =", "limit", "taken for something else"),
-        ("Idle {", "Home", "taken for something else"),
+        ("rounds =", "limit", "declared twice"),
+        ("Idle {", "Home", "declared twice"),
         ("Idle {", "2nd", "no name"),
         ("Idle {", "state", "a word of the language"),
         ("initial", "first", "no name of something"),

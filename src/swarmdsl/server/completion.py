@@ -17,10 +17,18 @@ from swarmdsl.scopes import FileScope, Scopes, bare, kind_of
 from swarmdsl.server.candidates import Candidates
 from swarmdsl.server.fields import is_name_on_trial, slots
 from swarmdsl.server.outcomes import outcomes_left
-from swarmdsl.server.trial import ARGUMENT, COMMENT_OR_TEXT, NAME, WORD, owner_around, tried
+from swarmdsl.server.trial import (
+    ARGUMENT,
+    COMMENT_OR_TEXT,
+    NAME,
+    WORD,
+    closers,
+    owner_around,
+    tried,
+)
 from swarmdsl.server.type_names import type_names
 from swarmdsl.statements import statement_at
-from swarmdsl.syntax import Node, ResultMapping, TopLevel, TypeRef, nodes_of
+from swarmdsl.syntax import Member, Node, ResultMapping, TopLevel, TypeRef, nodes_of
 from swarmdsl.workspace import Workspace
 from swarmdsl.workspace.occurrences import owners
 
@@ -125,7 +133,10 @@ class _Place:
 
     def names(self) -> Iterator[Completion]:
         """The names that can stand here."""
-        for words in (NAME, ARGUMENT):
+        # In parentheses, or in the braces of a part.
+        inside = closers(self._around[0]).split("\n")
+        given = inside[0] == ")" or (isinstance(self._owner, Member) and len(inside) > 1)
+        for words in (NAME, ARGUMENT) if given else (NAME,):
             for owner in tried(self._workspace, self._file, self._around, self._owner, words):
                 found = self._fitting(owner)
                 if found is not None:

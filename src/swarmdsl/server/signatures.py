@@ -6,7 +6,7 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.load import File
 from swarmdsl.server.completion import word_at
 from swarmdsl.server.fields import Given, Slots, is_name_on_trial, slots
-from swarmdsl.server.trial import ARGUMENT, NAME, WORD, owner_around, tried
+from swarmdsl.server.trial import ARGUMENT, NAME, WORD, closers, owner_around, tried
 from swarmdsl.syntax import Argument, PartValue, ResultMapping, TopLevel, nodes_of
 from swarmdsl.workspace import Workspace
 
@@ -26,6 +26,8 @@ def signature(workspace: Workspace, file: File, offset: int) -> Signature | None
     start, end = word_at(text, offset)
     _, first, last = workspace.piece(file, start)
     around = text[first:start], text[end : max(last, end)]
+    if not closers(around[0]).startswith(")"):
+        return None
     words = (*ARGUMENT, *NAME)
     for owner in tried(workspace, file, around, owner_around(file, start), words):
         found = slots(owner, workspace.project)
