@@ -15,6 +15,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import cold
+import drawing
 import editing
 import engine
 import generation
@@ -34,6 +35,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "engine": engine.section,
     "lsp": editing.section,
     "import": importing.section,
+    "diagram": drawing.section,
 }
 
 

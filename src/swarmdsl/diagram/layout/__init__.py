@@ -105,8 +105,8 @@ def _picture(compound: Compound) -> Picture:
             core_x, core_y, core_wide, core_high = 0, 0, wide, high
         core = (x + core_x, y + core_y, core_wide, core_high)
         divider = None
-        if node is not frame and compound.inside[compound.parents[node.id]].regions:
-            is_first = node is compound.nodes[compound.parents[node.id]].nodes[0]
+        if node is not frame and compound.inside[compound.passages.parents[node.id]].regions:
+            is_first = node is compound.passages.nodes[compound.passages.parents[node.id]].nodes[0]
             divider = f"v{high}" if compound.direction == "down" else f"h{wide}"
             divider = "" if is_first else divider
         boxes.append(Box(node, x, y, wide, high, core, inside.shape.block, divider))
@@ -148,7 +148,7 @@ def _line(
     boxes: dict[str, Box],
 ) -> Line:
     label = compound.labels.get(number)
-    if number not in compound.routes:
+    if number not in compound.passages.routes:
         x, y = corners[edge.source]
         loops = compound.inside[edge.source].own_loops
         loop = next(each for each in loops if each.edge == number)
@@ -157,7 +157,7 @@ def _line(
         return Line(edge, points, label, x + at[0], y + at[1])
     way: list[tuple[int, int]] = []
     label_at = (0, 0)
-    for container, _, _ in compound.routes[number].legs:
+    for container, _, _ in compound.passages.routes[number].legs:
         inside, (x, y) = compound.inside[container], corners[container]
         for place in inside.pieces[number]:
             dx, dy = _xy(compound, *place)

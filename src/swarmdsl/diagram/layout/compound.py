@@ -7,15 +7,14 @@ decided before, by which edges point backwards in the outer one. So Sander 1996,
 
 from __future__ import annotations
 
-from collections import defaultdict
 from dataclasses import dataclass, field
 
 from swarmdsl.diagram.content import Block, label_block
-from swarmdsl.diagram.graph import Diagram, Edge, Node
-from swarmdsl.diagram.layout.cycles import backward
+from swarmdsl.diagram.graph import Diagram, Node
 from swarmdsl.diagram.layout.layered import layered
 from swarmdsl.diagram.layout.level import Cell, Link, Placement, Point, Side
 from swarmdsl.diagram.layout.loops import Loop, loop_room
+from swarmdsl.diagram.layout.passages import Passages, Route
 from swarmdsl.diagram.layout.placing import END_GAP
 from swarmdsl.diagram.measure import width
 from swarmdsl.diagram.shapes import (
@@ -57,115 +56,20 @@ class Inside:
     regions: bool = False
 
 
-@dataclass
-class _Route:
-    """How an edge goes: the containers that it leaves, the one it is in, those it enters.
-
-    Each container comes with the nodes in it between which the edge goes, None for its border.
-    """
-
-    edge: Edge
-    legs: list[tuple[str, str | None, str | None]]
-    main: int
-    flipped: bool = False
-
-    def entry(self, leg: int) -> Side:
-        """The side on which it comes in; from the container itself, as from before."""
-        return "last" if self.flipped and leg != self.main else "first"
-
-    def exit(self, leg: int) -> Side:
-        """The side on which it goes out; to the container itself, as to after."""
-        return "first" if self.flipped and leg != self.main else "last"
-
-
 class Compound:
     """The layouts of all containers of a diagram."""
 
     def __init__(self, diagram: Diagram, direction: Direction) -> None:
         self.diagram = diagram
         self.direction = direction
-        self.nodes = {node.id: node for node in diagram.frame.walk()}
-        self.parents = {child.id: node.id for node in diagram.frame.walk() for child in node.nodes}
+        self.passages = Passages(diagram)
         self.labels: dict[int, Block] = {
             number: label_block(edge.label)
             for number, edge in enumerate(diagram.edges)
             if edge.label
         }
-        self.right_ports = self._right_ports()
-        self.loops: dict[str, list[int]] = defaultdict(list)
-        self.routes: dict[int, _Route] = {}
-        self.inner: dict[str, list[tuple[int, int]]] = defaultdict(list)
-        for number, edge in enumerate(diagram.edges):
-            if edge.source == edge.target and edge.source_port is None:
-                self.loops[edge.source].append(number)
-                continue
-            route = self._route(edge)
-            self.routes[number] = route
-            for leg, (container, _, _) in enumerate(route.legs):
-                self.inner[container].append((number, leg))
-        for node in diagram.frame.walk():
-            self._flip(node)
-        self.ends: dict[tuple[str, Side], int] = defaultdict(int)
-        self._count_ends()
         self.inside: dict[str, Inside] = {}
         self._lay_out(diagram.frame, 0)
-
-    def _right_ports(self) -> set[str]:
-        """Ports from which data go out, by their direction or, if that is both, by their use."""
-        sources = {edge.source_port for edge in self.diagram.edges}
-        targets = {edge.target_port for edge in self.diagram.edges}
-        found = set()
-        for node in self.nodes.values():
-            # At the border of the frame, what comes out of it is at the right as well.
-            inner = (targets, sources) if node.kind == "frame" else (sources, targets)
-            for port in node.ports:
-                both = port.id in inner[0] and port.id not in inner[1]
-                if port.direction == "out" or (port.direction == "inout" and both):
-                    found.add(port.id)
-        return found
-
-    def _above(self, node: str) -> list[str]:
-        """A node and the containers that it is in, to the frame."""
-        found = [node]
-        while found[-1] in self.parents:
-            found.append(self.parents[found[-1]])
-        return found
-
-    def _route(self, edge: Edge) -> _Route:
-        above_source, above_target = self._above(edge.source), self._above(edge.target)
-        common = next(
-            each for each in above_source if each in above_target and self.nodes[each].nodes
-        )
-        out = above_source[: above_source.index(common)]
-        into = above_target[: above_target.index(common)]
-        legs: list[tuple[str, str | None, str | None]] = [
-            (self.parents[node], node, None) for node in out[:-1]
-        ]
-        main = len(legs)
-        legs.append((common, out[-1] if out else None, into[-1] if into else None))
-        legs += ((self.parents[node], None, node) for node in reversed(into[:-1]))
-        return _Route(edge, legs, main)
-
-    def _flip(self, node: Node) -> None:
-        """Decide which edges in a container point backwards."""
-        index = {child.id: at for at, child in enumerate(node.nodes)}
-        found = []
-        for number, leg in self.inner[node.id]:
-            route = self.routes[number]
-            _, source, target = route.legs[leg]
-            if leg == route.main and source is not None and target is not None:
-                found.append((route, index[source], index[target]))
-        edges = [(source, target) for _, source, target in found]
-        for at in backward(len(index), edges, ()):
-            found[at][0].flipped = True
-
-    def _count_ends(self) -> None:
-        """Count edges on each side of each node, which has to be wide enough for them."""
-        for route in self.routes.values():
-            out: Side = "first" if route.flipped else "last"
-            into: Side = "last" if route.flipped else "first"
-            self.ends[route.edge.source, out] += 1
-            self.ends[route.edge.target, into] += 1
 
     def _along(self, wide: int, high: int) -> tuple[int, int]:
         """A size along and across, or coordinates."""
@@ -173,7 +77,7 @@ class Compound:
 
     def _lay_out(self, node: Node, title: int) -> None:
         """Lay out a node, and what is in it first; `title` is the least room for its name."""
-        shape = shape_of(node, self.direction, self.right_ports)
+        shape = shape_of(node, self.direction, self.passages.right_ports)
         first_title = max(title, shape.width) if node.kind == "parallel" else 0
         for at, child in enumerate(node.nodes):
             self._lay_out(child, 0 if at else first_title)
@@ -186,13 +90,13 @@ class Compound:
         self.inside[node.id] = inside
 
     def _loop_room(self, node: Node, wide: int, high: int) -> tuple[int, int, int, list[Loop]]:
-        loops = [(number, self.labels.get(number)) for number in self.loops[node.id]]
+        loops = [(number, self.labels.get(number)) for number in self.passages.loops[node.id]]
         return loop_room(loops, wide, high, self.direction)
 
     def _leaf(self, node: Node, shape: Shape) -> Inside:
         if node.kind in PSEUDO_STATES or node.ports:
             return Inside(shape, *self._along(shape.width, shape.height))
-        ends = max(self.ends[node.id, "first"], self.ends[node.id, "last"])
+        ends = max(self.passages.ends[node.id, "first"], self.passages.ends[node.id, "last"])
         length, breadth = self._along(shape.width, shape.height)
         wide, high = self._along(length, max(breadth, 2 * END_GAP + (ends - 1) * (END_GAP + 4)))
         wide, high, _, _ = self._loop_room(node, wide, high)
@@ -206,13 +110,13 @@ class Compound:
         ports: dict[str, int] = {}
         for port in node.ports:
             ports[port.id] = len(cells)
-            at_border: Side = "last" if port.id in self.right_ports else "first"
+            at_border: Side = "last" if port.id in self.passages.right_ports else "first"
             length = width(port_text(port), "line") + PORT + 8
             cells.append(Cell(length, 2 * _PORT_LINE, _PORT_LINE, _PORT_LINE, at_border))
         links: list[Link] = []
         numbers: list[int] = []
-        for number, leg in self.inner[node.id]:
-            route = self.routes[number]
+        for number, leg in self.passages.inner[node.id]:
+            route = self.passages.routes[number]
             _, source, target = route.legs[leg]
             ends: list[int] = []
             for end, port_id, side in (
@@ -231,7 +135,7 @@ class Compound:
             numbers.append(number)
         # Regions fill their state unless an edge has to be drawn between them.
         beside = node.kind == "parallel" and all(
-            leg != self.routes[number].main for number, leg in self.inner[node.id]
+            leg != self.passages.routes[number].main for number, leg in self.passages.inner[node.id]
         )
         entered = any(side == "first" for _, side in borders)
         if entered and self.direction == "down" and not beside:
@@ -263,7 +167,7 @@ class Compound:
         return Cell(inside.length, inside.breadth + inside.loops, low, high)
 
     def _link(
-        self, route: _Route, number: int, leg: int, source: int, target: int, cells: list[Cell]
+        self, route: Route, number: int, leg: int, source: int, target: int, cells: list[Cell]
     ) -> Link:
         _, source_id, target_id = route.legs[leg]
         edge = route.edge
@@ -274,9 +178,9 @@ class Compound:
         last = len(route.legs) - 1
         link.target_at = self._crossing(target_id, number, leg < last, edge.target_port)
         if edge.source_port is not None and source_id is not None:
-            link.source_side = "last" if edge.source_port in self.right_ports else "first"
+            link.source_side = "last" if edge.source_port in self.passages.right_ports else "first"
         if edge.target_port is not None and target_id is not None:
-            link.target_side = "last" if edge.target_port in self.right_ports else "first"
+            link.target_side = "last" if edge.target_port in self.passages.right_ports else "first"
         block = self.labels.get(number)
         if block is not None and leg == route.main:
             link.label = self._along(block.width, block.height)
@@ -314,7 +218,7 @@ class Compound:
         if node.kind == "region":
             pad = _REGION_PADDING
         before_along, before_across = (head + pad, pad) if down else (pad, head + pad)
-        sides = {"last" if port in self.right_ports else "first" for port in ports}
+        sides = {"last" if port in self.passages.right_ports else "first" for port in ports}
         if "first" in sides:
             before_along = 0
         length = before_along + placement.length + (0 if "last" in sides else pad)
@@ -341,7 +245,7 @@ class Compound:
                 points = [(length, points[0][1])]
             # It goes on to the border, through the head and the room around.
             if (number, "first") in borders or (number, "last") in borders:
-                route = self.routes[number]
+                route = self.passages.routes[number]
                 leg = next(at for at, each in enumerate(route.legs) if each[0] == node.id)
                 _, source, target = route.legs[leg]
                 if source is None:
@@ -351,17 +255,20 @@ class Compound:
                     first = (number, "first") in borders
                     points.append((0 if first else length, points[-1][1]))
             for at, port_id in (
-                (0, self.routes[number].edge.source_port),
-                (-1, self.routes[number].edge.target_port),
+                (0, self.passages.routes[number].edge.source_port),
+                (-1, self.passages.routes[number].edge.target_port),
             ):
                 if port_id in ports:
-                    points[at] = (length if port_id in self.right_ports else 0, points[at][1])
+                    points[at] = (
+                        length if port_id in self.passages.right_ports else 0,
+                        points[at][1],
+                    )
             inside.pieces[number] = points
             if label is not None:
                 inside.labels[number] = moved(label)
         for port_id, cell in ports.items():
             across = moved(placement.cells[cell])[1]
-            at_end = port_id in self.right_ports
+            at_end = port_id in self.passages.right_ports
             inside.ports[port_id] = (length if at_end else 0, across + _PORT_LINE)
         return inside
 
@@ -373,7 +280,7 @@ class Compound:
             region = self.inside[child.id]
             region.length = inside.length - before_along
             for number, points in region.pieces.items():
-                route = self.routes[number]
+                route = self.passages.routes[number]
                 leg = next(at for at, each in enumerate(route.legs) if each[0] == child.id)
                 _, source, target = route.legs[leg]
                 if source is None and points[0][0] > 0:

@@ -11,13 +11,15 @@ from bisect import bisect_left, insort
 
 from swarmdsl.diagram.layout.level import End, Layers, Vertex
 
-_SWEEPS, _PATIENCE = 16, 4
+_SWEEPS, _PATIENCE = 16, 3
+_ROUNDS = 10
 _WORK = 60_000
 """Vertices that are sorted: very large graphs are swept less often."""
 _EXCHANGED = 400
 """Vertices in layers in which neighbours are exchanged; in larger graphs it takes too long."""
 
-Neighbours = dict[int, list[tuple[End, End]]]
+Neighbours = dict[int, list[tuple[float, Vertex, float]]]
+"""By the id of a vertex: its neighbours, with how far along its side and theirs the edge ends."""
 
 
 def order(layers: Layers) -> None:
@@ -30,8 +32,9 @@ def order(layers: Layers) -> None:
         upper, lower = segment.start, segment.end
         if upper.side == "first":
             upper, lower = lower, upper
-        after.setdefault(id(upper.vertex), []).append((upper, lower))
-        before.setdefault(id(lower.vertex), []).append((lower, upper))
+        above, below = _part(upper), _part(lower)
+        after.setdefault(id(upper.vertex), []).append((above, lower.vertex, below))
+        before.setdefault(id(lower.vertex), []).append((below, upper.vertex, above))
     _begin(layers, before)
     best, least = [list(layer) for layer in layers.layers], _crossings(layers, after)
     count = sum(map(len, layers.layers))
@@ -73,12 +76,11 @@ def _number(layer: list[Vertex]) -> None:
         vertex.order = place
 
 
-def _place(end: End) -> float:
-    """Where a neighbour is: its number, and how far along its side the edge ends."""
-    vertex = end.vertex
-    if end.at is None or not vertex.breadth:
-        return vertex.order + 0.5
-    return vertex.order + end.at / (vertex.breadth + 1)
+def _part(end: End) -> float:
+    """How far along its side of a vertex an edge ends; with its number that is its place."""
+    if end.at is None or not end.vertex.breadth:
+        return 0.5
+    return end.at / (end.vertex.breadth + 1)
 
 
 def _sort(
@@ -95,9 +97,14 @@ def _sort(
     for vertex in layer:
         ends = neighbours.get(id(vertex))
         if ends:
-            keys[id(vertex)] = sum(_place(other) for _, other in ends) / len(ends)
+            total = 0.0
+            for _, other, part in ends:
+                total += other.order + part
+            keys[id(vertex)] = total / len(ends)
     moving = [vertex for vertex in layer if id(vertex) in keys]
     # Those that are equal change places in every other sweep, which may show a better order.
+    if len(moving) < 2:
+        return
     moving.sort(
         key=lambda vertex: (
             keys[id(vertex)],
@@ -112,33 +119,41 @@ def _sort(
 
 def _exchange(layers: Layers, before: Neighbours, after: Neighbours) -> None:
     """Exchange neighbours in a layer as long as fewer edges cross then."""
-    better = True
-    rounds = 0
-    while better and rounds < 10:
+    for _ in range(_ROUNDS):
         better = False
-        rounds += 1
         for layer in layers.layers:
+            # In the layers beside it, nothing changes meanwhile.
+            places = [
+                {
+                    id(vertex): [
+                        other.order + part for _, other, part in neighbours.get(id(vertex), ())
+                    ]
+                    for vertex in layer
+                }
+                for neighbours in (before, after)
+            ]
             for place in range(len(layer) - 1):
                 one, other = layer[place], layer[place + 1]
-                gain = 0
-                for neighbours in (before, after):
-                    ones = [_place(end) for _, end in neighbours.get(id(one), ())]
-                    others = [_place(end) for _, end in neighbours.get(id(other), ())]
-                    gain += sum(a > b for a in ones for b in others)
-                    gain -= sum(a < b for a in ones for b in others)
-                if gain > 0:
+                if sum(_gain(beside[id(one)], beside[id(other)]) for beside in places) > 0:
                     layer[place], layer[place + 1] = other, one
                     one.order, other.order = place + 1, place
                     better = True
+        if not better:
+            return
+
+
+def _gain(ones: list[float], others: list[float]) -> int:
+    """How many crossings fewer it makes that two vertices change places, by their neighbours."""
+    return sum((a > b) - (a < b) for a in ones for b in others)
 
 
 def _crossings(layers: Layers, after: Neighbours) -> int:
     total = 0
     for layer in layers.layers:
         pairs = sorted(
-            (_place(upper), _place(lower))
+            (vertex.order + part, other.order + end)
             for vertex in layer
-            for upper, lower in after.get(id(vertex), ())
+            for part, other, end in after.get(id(vertex), ())
         )
         seen: list[float] = []
         for _, place in pairs:

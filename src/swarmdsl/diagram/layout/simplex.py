@@ -12,7 +12,7 @@ from heapq import heapify, heappop, heappush
 Constraint = tuple[int, int, int, int]
 """Number `head` is at least number `tail` + length; each unit more costs weight."""
 
-_WORK = 1_000_000
+_WORK = 500_000
 """About how many steps are spent: an answer that is not the best is one, too."""
 _SEARCHED = 30
 
@@ -147,27 +147,31 @@ class _Solver:
     def number(self, root: int, parent: int, low: int) -> int:
         """Number the tree below a node in preorder; return how many nodes that are."""
         tail, head, tree, parents = self.tail, self.head, self.tree, self.parent
+        lows, lasts = self.low, self.last
         parents[root] = parent
         order = []
-        above = []
-        stack = [(root, root)]
+        stack = [root]
+        number = low
         while stack:
-            node, before = stack.pop()
+            node = stack.pop()
             order.append(node)
-            above.append(before)
+            lows[node] = lasts[node] = number
+            number += 1
             up = parents[node]
             for edge in tree[node]:
                 if edge != up:
-                    child = head[edge] if tail[edge] == node else tail[edge]
+                    child = tail[edge] if head[edge] == node else head[edge]
                     parents[child] = edge
-                    stack.append((child, node))
-        lows, lasts = self.low, self.last
-        for number, node in enumerate(order, low):
-            lows[node] = lasts[node] = number
-        for node, before in zip(reversed(order), reversed(above), strict=True):
+                    stack.append(child)
+        order.reverse()
+        order.pop()  # of the root, the last one is known
+        lasts[root] = number - 1
+        for node in order:
+            up = parents[node]
+            before = tail[up] if head[up] == node else head[up]
             if lasts[node] > lasts[before]:
                 lasts[before] = lasts[node]
-        return len(order)
+        return number - low
 
     def cut_values(self) -> None:
         """What it costs to make each edge of the tree longer, from the leaves to the root."""
