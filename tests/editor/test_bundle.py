@@ -81,6 +81,8 @@ async def test_it_serves_an_editor(client: LanguageClient, tmp_path: Path) -> No
     assert "Hone" in action.title
     symbols = await client.text_document_document_symbol_async(lsp.DocumentSymbolParams(document))
     assert [each.name for each in symbols or []] == ["Patrol"]
+    params = {"textDocument": {"uri": uri}}
+    assert await client.protocol.send_request_async("swarmdsl/pictures", params)
     options = lsp.FormattingOptions(tab_size=2, insert_spaces=True)
     edits = await client.text_document_formatting_async(
         lsp.DocumentFormattingParams(document, options)

@@ -4,11 +4,13 @@ import * as vscode from "vscode";
 
 import { selectInterpreter } from "./interpreter.ts";
 import { newModel } from "./models.ts";
+import { Preview } from "./preview.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
-import { simulate, type Subject } from "./simulate.ts";
+import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
+import type { Subject } from "./subject.ts";
 import { provideTasks } from "./tasks.ts";
 
 let server: Server | undefined;
@@ -17,10 +19,12 @@ export function activate(context: vscode.ExtensionContext): void {
   const log = vscode.window.createOutputChannel("Swarm", { log: true });
   const started = new Server(context.extensionUri, log);
   server = started;
+  const preview = new Preview(context.extensionUri, started);
   const refresh = (): void => void started.refresh();
   context.subscriptions.push(
     log,
     started,
+    preview,
     showStatus(started),
     provideTasks(started),
     command("restartServer", () => started.restart()),
@@ -30,6 +34,10 @@ export function activate(context: vscode.ExtensionContext): void {
     command("simulate", (file?: vscode.Uri | string, subject?: Subject) => {
       const uri = asked(file);
       return uri && simulate(started, uri, subject);
+    }),
+    command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
+      const uri = asked(file);
+      return uri && preview.show(uri, subject);
     }),
     command("references", (file: string, at: Place["range"]["start"], places: Place[]) =>
       showReferences(file, at, places),

@@ -117,7 +117,9 @@ export class Server implements vscode.Disposable {
         diagnosticCollectionName: "swarmdsl",
         outputChannel: this.log,
         // Those that the server may name above declarations.
-        initializationOptions: { commands: ["swarmdsl.references", "swarmdsl.simulate"] },
+        initializationOptions: {
+          commands: ["swarmdsl.references", "swarmdsl.preview", "swarmdsl.simulate"],
+        },
       },
     );
     client.onDidChangeState(({ newState }) => {

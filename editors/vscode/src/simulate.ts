@@ -6,13 +6,8 @@ import * as vscode from "vscode";
 
 import { tellBundled } from "./missing.ts";
 import type { Server } from "./server.ts";
+import type { Subject } from "./subject.ts";
 import { run } from "./tasks.ts";
-
-/** What of a model runs: a swarm or a state machine, by its name. */
-export interface Subject {
-  readonly kind: "swarm" | "machine";
-  readonly name: string;
-}
 
 interface Scenario extends vscode.QuickPickItem {
   readonly uri: vscode.Uri | undefined;

@@ -37,6 +37,7 @@ COMMANDS = (
     "lsp",
     "merge",
     "new",
+    "preview",
     "rename",
     "simulate",
     "targets",

@@ -15,7 +15,13 @@ from typing import Any
 
 from swarmdsl import __version__
 from swarmdsl.server import connection as rpc
-from swarmdsl.server import editing_answers, lifecycle, navigation_answers, reading_answers
+from swarmdsl.server import (
+    editing_answers,
+    lifecycle,
+    navigation_answers,
+    preview_answers,
+    reading_answers,
+)
 from swarmdsl.server.connection import Connection, Json, Reader, RequestError, Writer
 from swarmdsl.server.session import Session
 
@@ -25,6 +31,7 @@ REQUESTS: Mapping[str, Answer] = {
     **reading_answers.REQUESTS,
     **navigation_answers.REQUESTS,
     **editing_answers.REQUESTS,
+    **preview_answers.REQUESTS,
 }
 _CAPABILITIES: Json = {
     **lifecycle.CAPABILITIES,

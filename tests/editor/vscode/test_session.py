@@ -24,6 +24,17 @@ def text(window: Window, name: str) -> str:
     return (window.folder / name).read_text(encoding="utf-8")
 
 
+def photograph(window: Window, config: pytest.Config, folder: Path, name: str) -> None:
+    """Take a picture in light and in dark; with `--bless` they are those of the documentation."""
+    folder = PICTURES if config.getoption("--bless") else folder
+    for scheme, theme in (("light", "vs"), ("dark", "vs-dark")):
+        window.page.emulate_media(color_scheme=scheme)
+        expect(window.page.locator(f".monaco-workbench.{theme}")).to_have_count(1)
+        window.page.wait_for_timeout(1000)  # for what fades
+        window.page.screenshot(path=folder / f"{name}-{scheme}.png")
+    window.page.emulate_media(color_scheme="light")
+
+
 def test_the_server_of_the_extension_runs_with_any_python(window: Window) -> None:
     window.open("behaviours.swarm")
     window.server(__version__)
@@ -115,8 +126,6 @@ def test_outline(window: Window) -> None:
 
 
 def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -> None:
-    """With `--bless` they are those that the README shows."""
-    folder = PICTURES if pytestconfig.getoption("--bless") else tmp_path
     before = text(window, "behaviours.swarm")
     window.place("behaviours.swarm", "ing", after="on succeeded -> Track")
     window.command("Explorer: Focus on Outline View")
@@ -127,14 +136,7 @@ def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -
     window.page.wait_for_timeout(3000)  # what stands between the lines follows later
     window.press("Control+.")
     expect(window.page.locator(".action-widget .monaco-list-row")).not_to_have_count(0)
-    for scheme in ("light", "dark"):
-        window.page.emulate_media(color_scheme=scheme)
-        expect(
-            window.page.locator(f".monaco-workbench.vs{'-dark' * (scheme == 'dark')}")
-        ).to_have_count(1)
-        window.page.wait_for_timeout(1000)  # for what fades
-        window.page.screenshot(path=folder / f"vscode-{scheme}.png")
-    window.page.emulate_media(color_scheme="light")
+    photograph(window, pytestconfig, tmp_path, "vscode")
     window.press("Enter")
     window.saved("behaviours.swarm", lambda now: now == before)
 
@@ -145,6 +147,35 @@ def test_uses_stand_above_a_declaration_and_lead_there(window: Window) -> None:
     lens.click()
     expect(window.page.locator(".zone-widget")).to_be_visible()
     window.press("Escape")
+
+
+def test_the_preview_follows_the_text_and_leads_to_it(
+    window: Window, tmp_path: Path, pytestconfig: pytest.Config
+) -> None:
+    window.place("behaviours.swarm", "Bid {")
+    window.command("Swarm: Preview")
+    page = window.view()
+    page.locator("#which").select_option("RoverRescue.statechart")
+    picture = page.locator("#picture")
+    expect(picture).to_contain_text("Bid")
+    expect(picture.locator(".marked")).to_contain_text("Bid")
+
+    picture.get_by_text("Drive", exact=True).click()
+    line = text(window, "behaviours.swarm").split("\n").index("      state Drive {") + 1
+    window.at(line, len("      state ") + 1)
+    expect(picture.locator(".marked")).to_contain_text("Drive")
+
+    window.press("F2")
+    window.page.locator(".rename-box input").fill("Travel")
+    window.press("Enter")
+    expect(picture.get_by_text("Travel", exact=True)).to_be_visible()
+    window.page.keyboard.type("!")
+    expect(page.locator("#state")).to_contain_text("this is how it was before")
+    expect(picture.get_by_text("Travel", exact=True)).to_be_visible()
+    window.press("Backspace")
+    expect(page.locator("#state")).to_be_empty()
+    window.saved("behaviours.swarm", lambda now: "state Travel {" in now)
+    photograph(window, pytestconfig, tmp_path, "preview")
 
 
 def test_blocks_in_markdown_have_colours(window: Window) -> None:

@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import Locator, Page, expect, sync_playwright
+from playwright.sync_api import FrameLocator, Locator, Page, expect, sync_playwright
 
 from . import environment
 
@@ -113,6 +113,10 @@ class Window:
             self.status("swarmdsl.swarm.swarmdsl").hover()
             self.page.wait_for_timeout(1500)
         self.page.mouse.move(0, 0)
+
+    def view(self) -> FrameLocator:
+        """What an extension shows in a view of its own."""
+        return self.page.frame_locator("iframe.webview.ready").frame_locator("#active-frame")
 
     def line(self, text: str) -> Locator:
         """The lines in sight that have a text."""

@@ -1,0 +1,148 @@
+// The view beside the text that shows the diagrams of a model, as the text is now.
+
+import { randomBytes } from "node:crypto";
+
+import * as vscode from "vscode";
+
+import type { Server } from "./server.ts";
+import type { Subject } from "./subject.ts";
+
+/** What the page says. */
+interface Said {
+  readonly want?: string;
+  readonly reveal?: string;
+  readonly save?: { readonly name: string; readonly base64: string };
+}
+
+// Diagrams by what they are of, as swarmc calls them.
+const DIAGRAMS = { swarm: "composition", member: "internal", machine: "statechart" } as const;
+const PAUSE = 150;
+
+/** One view for all models: it follows the file in front. */
+export class Preview implements vscode.Disposable {
+  private panel: vscode.WebviewPanel | undefined;
+  private file: vscode.Uri | undefined;
+  private wanted: string | undefined;
+  private begins = false;
+  private timer: NodeJS.Timeout | undefined;
+  private readonly page: vscode.Uri;
+  private readonly server: Server;
+  private readonly listening: vscode.Disposable;
+
+  constructor(extension: vscode.Uri, server: Server) {
+    this.server = server;
+    this.page = vscode.Uri.joinPath(extension, "server", "swarmdsl", "preview", "page");
+    this.listening = vscode.Disposable.from(
+      vscode.workspace.onDidChangeTextDocument(({ document }) => this.follow(document)),
+      vscode.window.onDidChangeActiveTextEditor((each) => each && this.follow(each.document)),
+      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.point(textEditor)),
+      server.onChange(({ kind }) => kind === "running" && this.later()),
+    );
+  }
+
+  /** Show the diagrams of a file's model, beside it; that of `subject` if one is named. */
+  async show(file: vscode.Uri, subject?: Subject): Promise<void> {
+    this.file = file;
+    this.wanted = subject ? `${subject.name}.${DIAGRAMS[subject.kind]}` : this.wanted;
+    if (this.panel) {
+      this.panel.reveal(undefined, true);
+      await this.update();
+      return;
+    }
+    const panel = vscode.window.createWebviewPanel(
+      "swarmdsl.preview",
+      "Swarm Preview",
+      { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true },
+      { enableScripts: true, localResourceRoots: [this.page], retainContextWhenHidden: true },
+    );
+    this.panel = panel;
+    this.begins = true;
+    panel.onDidDispose(() => (this.panel = undefined));
+    panel.webview.onDidReceiveMessage((said: Said) => this.hear(said));
+    panel.webview.html = await this.html(panel.webview);
+  }
+
+  dispose(): void {
+    clearTimeout(this.timer);
+    this.listening.dispose();
+    this.panel?.dispose();
+  }
+
+  private async html(view: vscode.Webview): Promise<string> {
+    const file = (name: string): vscode.Uri => vscode.Uri.joinPath(this.page, name);
+    const text = new TextDecoder().decode(await vscode.workspace.fs.readFile(file("index.html")));
+    const nonce = randomBytes(16).toString("hex");
+    const policy = [
+      "default-src 'none'",
+      `script-src 'nonce-${nonce}'`,
+      `style-src ${view.cspSource} 'unsafe-inline'`,
+      "img-src blob: data:",
+    ].join("; ");
+    return text
+      .replace("<head>", `<head><meta http-equiv="Content-Security-Policy" content="${policy}">`)
+      .replace('href="preview.css"', `href="${view.asWebviewUri(file("preview.css"))}"`)
+      .replace(
+        'src="preview.js"',
+        `nonce="${nonce}" src="${view.asWebviewUri(file("preview.js"))}"`,
+      );
+  }
+
+  private async hear({ want, reveal, save }: Said): Promise<void> {
+    if (want !== undefined) {
+      // The page says at first what it showed before, if anything.
+      this.wanted = (this.begins && this.wanted) || want;
+      this.begins = false;
+      await this.update();
+    }
+    const place = /^(.*):(\d+):(\d+)$/.exec(reveal ?? "");
+    if (place?.[1] !== undefined) {
+      const at = new vscode.Position(Number(place[2]) - 1, Number(place[3]) - 1);
+      await vscode.window.showTextDocument(vscode.Uri.file(place[1]), {
+        viewColumn: vscode.ViewColumn.One,
+        selection: new vscode.Range(at, at),
+      });
+    }
+    if (save && this.file) {
+      const uri = await vscode.window.showSaveDialog({
+        defaultUri: vscode.Uri.joinPath(this.file, "..", save.name),
+      });
+      if (uri) {
+        await vscode.workspace.fs.writeFile(uri, Buffer.from(save.base64, "base64"));
+      }
+    }
+  }
+
+  private follow(document: vscode.TextDocument): void {
+    if (this.panel && document.languageId === "swarm" && document.uri.scheme === "file") {
+      this.file = document.uri;
+      this.later();
+    }
+  }
+
+  // Keys come faster than pictures.
+  private later(): void {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => void this.update(), PAUSE);
+  }
+
+  private async update(): Promise<void> {
+    if (!this.panel || !this.file) {
+      return;
+    }
+    const shown = await this.server.request("swarmdsl/pictures", {
+      textDocument: { uri: this.file.toString() },
+      id: this.wanted,
+    });
+    await this.panel?.webview.postMessage(shown ?? {});
+    if (vscode.window.activeTextEditor) {
+      this.point(vscode.window.activeTextEditor);
+    }
+  }
+
+  private point({ document, selection }: vscode.TextEditor): void {
+    if (this.panel && document.languageId === "swarm") {
+      const cursor = { file: document.uri.fsPath, line: selection.active.line + 1 };
+      void this.panel.webview.postMessage({ cursor });
+    }
+  }
+}

@@ -1,0 +1,31 @@
+"""The answer to an editor that shows the diagrams of a model: a request beyond the protocol."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from swarmdsl.compiler import Result
+from swarmdsl.server.connection import Json
+from swarmdsl.server.session import Session
+
+
+def _pictures(session: Session, params: Json) -> Json | None:
+    """The diagrams of the model that a file belongs to, the one of `id` drawn."""
+    found = session.file(params)
+    if found is None:
+        return None
+    # Layout and lowering are imported by those who look at pictures.
+    from swarmdsl.preview.pictures import Pictures, pictures
+
+    workspace = found[0]
+    report = workspace.report
+    valid = None if report.has_errors else workspace.project
+    made = pictures(Result(report, workspace.files, valid))
+    if not isinstance(made, Pictures):
+        return dict(made)
+    wanted = params.get("id")
+    return {**made.listed(), **made.drawn(wanted if isinstance(wanted, str) else None)}
+
+
+REQUESTS: Mapping[str, Callable[[Session, Json], Any]] = {"swarmdsl/pictures": _pictures}
