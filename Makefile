@@ -36,8 +36,7 @@ test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, i
 	$(BIN)/pytest tests/editor
 
 # Where it cannot be had, the tests in it are skipped, and say so.
-vscode: $(READY) ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
-	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[editor]'
+vscode: $(VENV)/.editor ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
 	-$(BIN)/python tests/editor/vscode/environment.py .vscode-host
 
 check: $(READY) ## Check format, style and types.
@@ -45,8 +44,7 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff check
 	$(BIN)/mypy
 
-agreement: $(READY) ## Run state machines in engines of others too, and show how far they agree.
-	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[agreement]'
+agreement: $(VENV)/.agreement ## Run state machines in engines of others too, and show how far they agree.
 	$(BIN)/pytest tests/agreement --agreement
 
 fmt: $(READY) ## Format the code and repair its style.
@@ -82,6 +80,10 @@ $(READY): pyproject.toml
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	touch $@
+
+# Tests say what is missing where an extra cannot be installed.
+$(VENV)/.agreement $(VENV)/.editor: $(VENV)/.%: pyproject.toml | $(READY)
+	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]' && touch $@
 
 # What cannot be installed is not measured, and the page says so.
 $(BENCH_READY): pyproject.toml benchmarks/package-lock.json
