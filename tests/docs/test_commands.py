@@ -22,7 +22,7 @@ from .pages import ROOT, Block, Page, blocks
 SESSIONS = list(dict.fromkeys(block.page for block in blocks("console", "sh")))
 
 # What is run, and what only a person should run: it installs, or takes long.
-_RUN = ("swarmc", "textx", "echo", "ls", "find", "cat", "sed")
+_RUN = ("swarmc", "textx", "pygmentize", "echo", "ls", "find", "cat", "sed")
 _NOT_RUN = (
     ". .venv",
     "pip install",
