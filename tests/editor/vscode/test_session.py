@@ -17,6 +17,8 @@ from playwright.sync_api import expect
 
 from .window import Window
 
+# A whole desktop program, whose focus and pop-ups depend on when things happen.
+pytestmark = pytest.mark.flaky(reruns=2)
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 

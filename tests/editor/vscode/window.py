@@ -17,11 +17,13 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from playwright.sync_api import FrameLocator, Locator, Page, expect, sync_playwright
+from playwright.sync_api import TimeoutError as LateError
 
 from . import environment
 
 # Of what a page does, in milliseconds: machines that do other things besides are slow.
 PATIENCE = 60_000
+_ATTEMPTS = 6
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
     "chat.disableAIFeatures": True,
@@ -57,12 +59,23 @@ class Window:
 
     def command(self, title: str) -> None:
         """Run the command that the palette shows first for its title."""
-        self.press("F1")
-        entry = self.page.locator(".quick-input-widget input[type=text]")
-        entry.fill(f">{title}")
+        self._ask("F1", f">{title}")
         row = self.page.locator(".quick-input-list .monaco-list-row.focused")
         expect(row).to_contain_text(title.split(": ")[-1])
         self.press("Enter")
+
+    def _ask(self, key: str, text: str) -> None:
+        """Open the field that a key opens; what comes into focus late may close it again."""
+        entry = self.page.locator(".quick-input-widget input[type=text]")
+        for _ in range(_ATTEMPTS - 1):
+            self.press(key)
+            try:
+                entry.fill(text, timeout=PATIENCE / _ATTEMPTS)
+            except LateError:
+                continue
+            return
+        self.press(key)
+        entry.fill(text)
 
     def choose(self, text: str) -> None:
         """Choose what a list offers that has opened in the middle."""
@@ -70,8 +83,7 @@ class Window:
 
     def open(self, name: str, line: int = 1, column: int = 1) -> None:
         """Open a file of the folder, with the cursor at a place in it."""
-        self.press("Control+p")
-        self.page.locator(".quick-input-widget input[type=text]").fill(f"{name}:{line}:{column}")
+        self._ask("Control+p", f"{name}:{line}:{column}")
         expect(self.page.locator(".quick-input-list .monaco-list-row").first).to_contain_text(name)
         self.press("Enter")
         expect(self.tab(name)).to_have_count(1)
