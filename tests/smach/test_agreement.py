@@ -380,6 +380,10 @@ def test_models_of_others(build: Build, clock: Any, tmp_path: Path) -> None:
                 check(subject, steps[:20], build, clock)
 
 
+@pytest.mark.skipif(
+    "SWARMDSL_CHANCE" not in os.environ,
+    reason="for some models a node does not come to rest, and takes all memory: SWARMDSL_CHANCE=1",
+)
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 def test_models_made_by_chance(build: Build, clock: Any) -> None:
     ran: Counter[str] = Counter()
