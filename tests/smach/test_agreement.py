@@ -32,7 +32,7 @@ from swarmdsl.runtime import Event, Instance, LoopError, Run
 
 from ..agreement.engines import Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
-from ..printer.systems import systems
+from ..printer.systems import grows, systems
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [
@@ -329,9 +329,21 @@ def compare(twin: Twin, expected: tuple[Any, ...], where: Any) -> None:
         )
 
     end = time.monotonic() + 20
-    while found() != expected:
+    while rounded(found()) != rounded(expected):
         assert time.monotonic() < end, said()
         time.sleep(0.001)
+
+
+def rounded(value: Any) -> Any:
+    """A value whose numbers may have been seconds: they lose the last digits then."""
+    match value:
+        case float():
+            return float(f"{value:.12g}")
+        case list() | tuple():
+            return [rounded(each) for each in value]
+        case dict():
+            return {key: rounded(each) for key, each in value.items()}
+    return value
 
 
 def is_reported(system: System) -> bool:
@@ -380,10 +392,6 @@ def test_models_of_others(build: Build, clock: Any, tmp_path: Path) -> None:
                 check(subject, steps[:20], build, clock)
 
 
-@pytest.mark.skipif(
-    "SWARMDSL_CHANCE" not in os.environ,
-    reason="for some models a node does not come to rest, and takes all memory: SWARMDSL_CHANCE=1",
-)
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 def test_models_made_by_chance(build: Build, clock: Any) -> None:
     ran: Counter[str] = Counter()
@@ -400,6 +408,8 @@ def test_models_made_by_chance(build: Build, clock: Any) -> None:
     def compare_all(system: System) -> None:
         system = apart(for_ros(system))
         for machine in system.machines:
+            if grows(machine):
+                continue
             alone = replace(system, machines=(machine,))
             subject = subject_of(machine, alone)
             try:
