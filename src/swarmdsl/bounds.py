@@ -1,17 +1,19 @@
-"""Where a whole number may be too large for what it is stored in."""
+"""Where a value may be too large for what it is stored in."""
 
 from __future__ import annotations
 
 from swarmdsl.ir import Binary, Call, Expression, Literal, Primitive, Type, Unary
-from swarmdsl.ir.types import INTEGERS
+from swarmdsl.ir.types import INTEGERS, STRING
 
 
 def bound_of(value: Expression, wanted: Type | None) -> str | None:
-    """The type of whole numbers whose bounds a value may exceed; None where it cannot.
+    """The type, of whole numbers or text, whose bounds a value may exceed; None where it cannot.
 
     What is known in advance was checked, and what is only handed on is of the type it has.
     """
     computed = isinstance(value, (Unary, Binary, Call))
+    if computed and value.type == STRING:
+        return STRING.name
     if isinstance(value, Literal) or (not computed and value.type == wanted):
         return None
     return bound_of_any(wanted)

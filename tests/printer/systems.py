@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from swarmdsl.ir import (
     Action,
-    Assignment,
     Communication,
     CommunicationSettings,
     Component,
@@ -42,7 +41,6 @@ from swarmdsl.ir import (
     System,
     VariableRef,
 )
-from swarmdsl.ir.expressions import parts
 from swarmdsl.ir.types import FLOAT, INT, PRIMITIVES, STRING, Array, Primitive, Type
 from swarmdsl.naming import camel_case, snake_case
 
@@ -469,26 +467,4 @@ def _optimization(draw: st.DrawFn, swarm: Swarm, members: list[Member]) -> Optim
         tuple((name, Literal(draw(st.integers(1, 999)), INT)) for name in settings),
         draw(docs),
         docs_of(draw, docs, *settings),
-    )
-
-
-def grows(machine: StateMachine) -> bool:
-    """Whether a text can be put together of itself: after some rounds it takes all memory."""
-    effects = (
-        effect
-        for state in machine.walk()
-        for effect in (
-            *state.entry,
-            *state.exit,
-            *(e for t in state.transitions for e in t.effects),
-        )
-    )
-    return any(
-        sum(
-            isinstance(part, VariableRef) and "string" in str(part.type)
-            for part in parts(effect.value)
-        )
-        > 1
-        for effect in effects
-        if isinstance(effect, Assignment)
     )

@@ -467,6 +467,21 @@ def test_a_whole_number_stays_in_its_type(run: Start) -> None:
     ]
 
 
+def test_a_text_that_grows_in_a_circle_ends_somewhere(run: Start) -> None:
+    m = run("""
+      endless statemachine M {
+        var text : string = "0123456789"
+        initial A
+        state A { on Start / text = text + text }
+      }
+    """)
+
+    for _ in range(20):
+        m.hear("Start")
+    assert len(m["text"]) == 655_360
+    assert set(m.world.errors) == {"a text of 1310720 characters is too long"}
+
+
 def test_a_result_that_is_too_large_is_not_stored(run: Start) -> None:
     m = run("""
       statemachine M {

@@ -24,13 +24,20 @@ _RANGES = {
     for bits in (8, 16, 32, 64)
 }
 
+LONGEST_TEXT = 1_000_000
+"""How many characters an expression may put together."""
+
 
 def bounded(value: Any, type_: str) -> Any:
-    """Return a whole number that the type can hold.
+    """Return a whole number or a text that the type can hold.
 
     Raises ExecutionError for one that it cannot: a model that multiplies in a circle would make
     ever longer ones.
     """
+    if isinstance(value, str):
+        if len(value) > LONGEST_TEXT:
+            raise ExecutionError(f"a text of {len(value)} characters is too long")
+        return value
     lowest, greatest = _RANGES[type_]
     if isinstance(value, int) and not lowest <= value <= greatest:
         raise ExecutionError(f"{value} is no {type_}")
