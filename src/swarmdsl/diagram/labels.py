@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.ir import (
-    Activity,
     Array,
-    Assignment,
     DoneTrigger,
     Effect,
     EventTrigger,
@@ -22,6 +20,7 @@ from swarmdsl.ir import (
     Type,
     Variable,
 )
+from swarmdsl.printer.actions import activity_text, effect_text
 from swarmdsl.printer.expressions import default, delay, expression
 
 
@@ -39,7 +38,7 @@ def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
     """`/ x = 1, send Found`, an effect a piece."""
     if not effects:
         return ()
-    *others, last = map(_effect, effects)
+    *others, last = map(effect_text, effects)
     first, *rest = (*(f"{each}," for each in others), last)
     return (f"/ {first}", *rest)
 
@@ -50,7 +49,7 @@ def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
     if entry:
         lines.append(f"entry {' '.join(effects_label(entry))}")
     if state.activity is not None:
-        lines.append(f"do / {_activity(state.activity)}")
+        lines.append(f"do / {activity_text(state.activity, state.activity.function)}")
     if state.exit:
         lines.append(f"exit {' '.join(effects_label(state.exit))}")
     for each in state.transitions:
@@ -102,27 +101,3 @@ def _of(state: str, owner: State, what: str) -> str:
     if state == owner.id:
         return what
     return f"{state.removeprefix(f'{owner.id}.')}.{what}"
-
-
-def _effect(effect: Effect) -> str:
-    match effect:
-        case Assignment(variable=variable, path=path, value=value):
-            return f"{'.'.join((variable, *path))} = {expression(value)}"
-    arguments = f"({', '.join(value_lines(effect.arguments))})" if effect.arguments else ""
-    return f"send {effect.event}{arguments}"
-
-
-def _activity(activity: Activity) -> str:
-    text = activity.function
-    if activity.goal_callback is not None:
-        text += f"(by {activity.goal_callback})"
-    elif activity.arguments:
-        text += f"({', '.join(value_lines(activity.arguments))})"
-    if activity.result_callback is not None:
-        text += f" gives by {activity.result_callback}"
-    elif activity.results:
-        results = (
-            f"{each.field} => {'.'.join((each.variable, *each.path))}" for each in activity.results
-        )
-        text += f" gives ({', '.join(results)})"
-    return text

@@ -6,14 +6,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from swarmdsl.ir import (
-    Activity,
-    Assignment,
     DoneTrigger,
     Effect,
     EventTrigger,
-    Expression,
     OutcomeTrigger,
-    Send,
     State,
     StateKind,
     StateMachine,
@@ -23,6 +19,7 @@ from swarmdsl.ir import (
     Variable,
     doc_of,
 )
+from swarmdsl.printer.actions import activity_text, arguments, effect_text
 from swarmdsl.printer.expressions import default, delay, expression
 from swarmdsl.printer.interfaces import print_params
 from swarmdsl.printer.layout import UnprintableError, block, documented
@@ -103,7 +100,7 @@ class _Printer:
             head = f"state {state.name} = {state.submachine}"
             use = self.reuse.uses[state.id]
             if use.bindings:
-                head += f"({_arguments(use.bindings)})"
+                head += f"({arguments(use.bindings)})"
             lines = [*self._own(replace(state, entry=use.entry)), *transitions]
             return block(head, lines) if lines else [head]
         if state.kind is StateKind.COMPOSITE:
@@ -121,7 +118,9 @@ class _Printer:
         """What a state does: its activity, and its effects on entry and exit."""
         lines = []
         if state.activity is not None:
-            lines += documented(state.activity.doc, [_activity(state.activity, self.names)])
+            function = self.names.function(state.activity.function)
+            text = f"do {activity_text(state.activity, function)}"
+            lines += documented(state.activity.doc, [text])
         for word, effects in (("entry", state.entry), ("exit", state.exit)):
             if effects:
                 lines += documented(doc_of(state.docs, word), [f"{word} / {_effects(effects)}"])
@@ -191,32 +190,4 @@ def _trigger(trigger: Trigger, owner: State) -> str:
 
 
 def _effects(effects: tuple[Effect, ...]) -> str:
-    return ", ".join(map(_effect, effects))
-
-
-def _effect(effect: Effect) -> str:
-    match effect:
-        case Assignment(variable=variable, path=path, value=value):
-            return f"{'.'.join((variable, *path))} = {expression(value)}"
-        case Send(event=event, arguments=arguments):
-            return f"send {event}({_arguments(arguments)})" if arguments else f"send {event}"
-
-
-def _activity(activity: Activity, names: Names) -> str:
-    text = f"do {names.function(activity.function)}"
-    if activity.goal_callback is not None:
-        text += f"(by {activity.goal_callback})"
-    elif activity.arguments:
-        text += f"({_arguments(activity.arguments)})"
-    if activity.result_callback is not None:
-        text += f" gives by {activity.result_callback}"
-    elif activity.results:
-        results = (
-            f"{each.field} => {'.'.join((each.variable, *each.path))}" for each in activity.results
-        )
-        text += f" gives ({', '.join(results)})"
-    return text
-
-
-def _arguments(arguments: Iterable[tuple[str, Expression]]) -> str:
-    return ", ".join(f"{name} = {expression(value)}" for name, value in arguments)
+    return ", ".join(map(effect_text, effects))
