@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 
 from swarmdsl.generator import option
-from swarmdsl.ros_package import PackageOptions
+from swarmdsl.ros_package import PackageOptions, packages_fault
 
 from .names import NAMES
 
@@ -25,6 +25,11 @@ class Options(PackageOptions):
 
     package: str = option(
         "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
+    )
+    interfaces: str = option(
+        "",
+        "packages of others to write too, with commas, from what the model says of them",
+        check=packages_fault,
     )
     copyright: str = option(
         "", "year and holder of the copyright, for the head of each file", check=_copyright_fault

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_packages import InterfacePackage, packages_of
+from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
 from swarmdsl.ir import StateMachine, System
 from swarmdsl.python_source import Call, Source, comment_lines, comments, file_name, layout
 from swarmdsl.ros_package import manifest
@@ -23,6 +23,7 @@ from .module import STEP, Function, Module
 from .names import NAMES
 from .options import Options
 from .params import parameters
+from .ported import ported
 from .topics import topics
 
 
@@ -96,7 +97,8 @@ def package_view(
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = packages_of((each for each in system.interfaces if not each.external), 2)
+    interfaces = packages_of(map(ported, written(system, options.interfaces)), 2)
+    check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     sent = {event for machine in machines for event in package.sent_events(machine)}
     callbacks: dict[str, str] = {}

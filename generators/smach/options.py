@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from swarmdsl.generator import option
-from swarmdsl.ros_package import PackageOptions
+from swarmdsl.ros_package import PackageOptions, packages_fault
 
 from .names import NAMES
 
@@ -20,6 +20,11 @@ class Options(PackageOptions):
 
     package: str = option(
         "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
+    )
+    interfaces: str = option(
+        "",
+        "packages of others to write too, with commas, from what the model says of them",
+        check=packages_fault,
     )
     simulation: bool = option(
         False, "whether to write launch files for Gazebo, with the worlds of the environments"

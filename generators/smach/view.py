@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_packages import InterfacePackage, packages_of
+from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
 from swarmdsl.ir.types import DURATION, Primitive
 from swarmdsl.python_source import (
@@ -131,7 +131,8 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = packages_of((each for each in system.interfaces if not each.external), 1)
+    interfaces = packages_of(written(system, options.interfaces), 1)
+    check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
     events = _events(system, machines, report)

@@ -9,7 +9,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.graph import cycles
 from swarmdsl.interface_files import Generation, definition, depends, file_name
-from swarmdsl.ir import Interface
+from swarmdsl.ir import Interface, Named, System
 from swarmdsl.source import Span
 
 
@@ -31,6 +31,33 @@ def packages_of(interfaces: Iterable[Interface], ros: Generation) -> tuple[Inter
         InterfacePackage(name, tuple(each), tuple(sorted(depends(each, ros) - {name})))
         for name, each in by_name.items()
     )
+
+
+def written(system: System, others: str) -> list[Interface]:
+    """The interfaces that a target writes: the model's own, and those of the packages `others`.
+
+    These are names with commas between them: packages that no workspace has, but that the model
+    or its libraries describe.
+    """
+    packages = others.split(",")
+    return [
+        each for each in system.interfaces if not each.external or each.type.package in packages
+    ]
+
+
+def check_described(system: System, others: str, target: str, report: Diagnostics) -> None:
+    """Report what is used of packages that are to be written and nobody describes."""
+    packages = others.split(",")
+    used = [(event.type, event.origin) for event in system.events]
+    used += ((each.communication.type, each.origin) for each in system.functions)
+    for type_, origin in used:
+        if not isinstance(type_, Named) or type_.package not in packages:
+            continue
+        if system.interface(type_) is None:
+            construct = (
+                f"`{type_}`, which the model does not describe, in a package that is written"
+            )
+            report.report("unsupported-construct", origin, target=target, construct=construct)
 
 
 def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:

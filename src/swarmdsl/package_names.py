@@ -94,7 +94,8 @@ class PackageNames:
         for package in packages:
             self._check_package(package, behavior, report)
         # What packages elsewhere define cannot be in one that is generated.
-        generated = {behavior, *(package.name for package in packages)}
+        own = [each for package in packages for each in package.interfaces if not each.external]
+        generated = {behavior, *(interface.type.package for interface in own)}
         for interface in system.interfaces:
             if interface.external and interface.type.package in generated:
                 use = "a package of others: a package of that name is generated"

@@ -10,6 +10,7 @@ from typing import Literal
 from lxml import etree
 
 from swarmdsl.generator import option
+from swarmdsl.naming import is_ros_package_name
 
 # What catkin_pkg demands of them.
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
@@ -24,6 +25,12 @@ def _version_fault(value: str) -> str | None:
 
 def _email_fault(value: str) -> str | None:
     return None if _EMAIL.fullmatch(value) else f"`{value}` is no e-mail address"
+
+
+def packages_fault(value: str) -> str | None:
+    """What is wrong with names of packages with commas between them; None if nothing is."""
+    wrong = [name for name in value.split(",") if value and not is_ros_package_name(name)]
+    return f"`{wrong[0]}` is not the name of a package of ROS" if wrong else None
 
 
 def _line_fault(name: str) -> Callable[[str], str | None]:

@@ -14,16 +14,15 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from swarmdsl.generators.ros2.actions import messages_of_actions
-from swarmdsl.generators.ros2.names import field_name, type_name
 from swarmdsl.generators.ros2.options import Options
 from swarmdsl.generators.ros2.package import (
     called_functions,
     heard_events,
     sent_events,
 )
+from swarmdsl.generators.ros2.ported import ported
 from swarmdsl.generators.ros2.render import interface_files
 
 from swarmdsl import compiler
@@ -31,7 +30,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_files import named, parts
 from swarmdsl.interface_packages import InterfacePackage, packages_of
-from swarmdsl.ir import Action, Array, Field, Interface, Message, Named, Service, System, Type
+from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
 from swarmdsl.ir.types import STRING
 
 HERE = Path(__file__).resolve().parent
@@ -157,12 +156,9 @@ def _merged(one: Interface, other: Interface) -> Interface:
     """The fields of both, by names that ROS 2 can have, as is that of the interface."""
 
     def fields(first: Iterable[Field], second: Iterable[Field]) -> tuple[Field, ...]:
-        together = {field_name(f.name): f for f in (*second, *first)}
-        return tuple(
-            replace(field, name=name, type=_ported(field.type)) for name, field in together.items()
-        )
+        return tuple({each.name: each for each in (*second, *first)}.values())
 
-    one = replace(one, type=_ported(one.type))
+    one, other = ported(one), ported(other)
     match one, other:
         case Message(), Message():
             return replace(one, fields=fields(one.fields, other.fields))
@@ -180,16 +176,6 @@ def _merged(one: Interface, other: Interface) -> Interface:
                 feedback=fields(one.feedback, other.feedback),
             )
     raise TypeError(f"{one.type} is of two kinds")
-
-
-def _ported(type_: Type) -> Any:
-    """The type by a name that ROS 2 can have."""
-    match type_:
-        case Named(package=package, name=name):
-            return Named(package, type_name(name))
-        case Array(element=element):
-            return replace(type_, element=_ported(element))
-    return type_
 
 
 def _relocate(python: Path) -> None:

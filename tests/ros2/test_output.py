@@ -179,6 +179,25 @@ def test_interfaces_are_those_of_ros_2(generate: Generate) -> None:
     assert "find_package(geometry_msgs REQUIRED)\n" in cmake
 
 
+def test_packages_of_others_are_written_by_names_that_ros_2_takes(generate: Generate) -> None:
+    model = """
+      package lab
+      event Done : other_msgs/Done
+      statemachine Wait { initial A state A { on Done -> B } final B }
+      message other_msgs/Done { theEnd : far_msgs/Place  at : near_msgs/at }
+      message near_msgs/at { x : float64 }
+      message far_msgs/Place { x : float64 }
+    """
+
+    files = generate(model, interfaces="other_msgs,near_msgs,unused_msgs")
+
+    assert files["other_msgs/msg/Done.msg"].text == ("far_msgs/Place the_end\nnear_msgs/At at\n")
+    assert files["near_msgs/msg/At.msg"].text == "float64 x\n"
+    assert not [path for path in files if path.startswith(("far_msgs", "unused_msgs"))]
+    root = etree.fromstring(files["other_msgs/package.xml"].text.encode())
+    assert [each.text for each in root.findall("depend")] == ["far_msgs", "near_msgs"]
+
+
 def test_only_what_is_the_users_is_kept(generate: Generate) -> None:
     kept = [path for path, file in generate(MODEL).items() if file.keep]
 

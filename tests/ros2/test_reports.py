@@ -116,6 +116,14 @@ def test_reports(reported: Reported, text: str, name: str, part: str, place: str
     assert found[0][2]
 
 
+def test_what_is_used_of_a_package_that_is_written_is_described(reported: Reported) -> None:
+    found = reported(HEAD + "event Done : other_msgs/Done\n" + MACHINE, interfaces="other_msgs")
+
+    assert [each[0] for each in found] == ["unsupported-construct"]
+    assert "`other_msgs/Done`, which the model does not describe" in found[0][1]
+    assert found[0][2]
+
+
 @pytest.mark.parametrize(
     ("option", "value", "part"),
     [
@@ -126,6 +134,7 @@ def test_reports(reported: Reported, text: str, name: str, part: str, place: str
         ("copyright", "Me", "is not a year and a name"),
         ("license", " ", "needs a text on one line"),
         ("lifecycle", "perhaps", "lifecycle"),
+        ("interfaces", "a_msgs,Bad", "`Bad` is not the name of a package"),
     ],
 )
 def test_options_are_checked(reported: Reported, option: str, value: str, part: str) -> None:
