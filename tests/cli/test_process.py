@@ -40,7 +40,8 @@ HEAVY = (
             LIBRARIES,
         ),
         (["build", "examples/minimal", "-t", "adf", "-o", "OUT"], set()),
-        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], {"lxml"}),
+        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], set()),
+        (["build", "examples/minimal", "-t", "smach", "-o", "OUT"], {"jinja2"}),
     ],
 )
 def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypatch):
