@@ -30,6 +30,7 @@ COMMANDS = (
     "completion",
     "diagram",
     "diff",
+    "doc",
     "doctor",
     "explain",
     "fmt",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from swarmdsl.diagram.content import Block
@@ -64,43 +64,70 @@ def svg(diagram: Diagram) -> str:
     return draw(lay_out(diagram))
 
 
-def draw(picture: Picture) -> str:
-    """The text of an SVG file.
+def draw(picture: Picture, link: Callable[[Span | None], str | None] | None = None) -> str:
+    """The text of an SVG file, or with a `link` that of a part of an HTML page with `style()`.
 
-    Elements have the id of what they show as `data-id`, and its place in the model as
-    `data-place`, so that a program that shows the picture can lead there.
+    Elements have the id of what they show as `data-id`. A file has its place in the model as
+    `data-place`, so that a program that shows the picture can lead there; a page links to where
+    `link` says that it is described.
     """
-    return "\n".join([*_Drawing(picture).lines(), ""])
+    return "\n".join([*_Drawing(picture, link).lines(), ""])
 
 
 class _Drawing:
-    def __init__(self, picture: Picture) -> None:
+    def __init__(self, picture: Picture, link: Callable[[Span | None], str | None] | None) -> None:
         self.picture = picture
+        self.link = link
 
     def lines(self) -> Iterator[str]:
         picture, frame = self.picture, self.picture.diagram.frame
         wide, high = picture.width + 2 * _MARGIN, picture.height + 2 * _MARGIN
+        # What is in an image cannot be followed with a keyboard.
+        role = "img" if self.link is None else "group"
         yield (
-            f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" role="img" '
+            f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" role="{role}" '
             f'width="{wide}" height="{high}" '
             f'viewBox="{-_MARGIN} {-_MARGIN} {wide} {high}">'
         )
         yield f"<title>{_text(f'{frame.keyword} {frame.name}')}</title>"
         if frame.doc:
             yield f"<desc>{_text(frame.doc)}</desc>"
-        yield f"<style>{_style()}</style>"
+        if self.link is None:
+            yield f"<style>{style()}</style>"
         yield f'<rect class="paper" x="{-_MARGIN}" y="{-_MARGIN}" width="{wide}" height="{high}"/>'
         for box in picture.boxes:
-            yield from self.box(box)
+            named = box.node.kind not in ("frame", "initial")
+            yield from self.linked(self.box(box), box.node.origin if named else None)
         for line in picture.lines:
-            yield from self.edge(line)
+            is_arrow = line.edge.kind in ("transition", "connector")
+            yield from self.linked(self.edge(line), line.edge.origin if is_arrow else None, False)
         for pin in picture.pins:
-            yield from self.pin(pin)
+            yield from self.linked(self.pin(pin), pin.port.origin, False)
         yield "</svg>"
+
+    def linked(
+        self, shape: Iterator[str], origin: Span | None, by_key: bool = True
+    ) -> Iterator[str]:
+        """A shape that leads to what it shows, with a pointer and perhaps with a keyboard."""
+        to = self.link(origin) if self.link is not None else None
+        if to is None:
+            yield from shape
+        else:
+            yield f"<a href={_quoted(to)}>" if by_key else f'<a href={_quoted(to)} tabindex="-1">'
+            yield from shape
+            yield "</a>"
+
+    def about(self, classes: str, id_: str, origin: Span | None) -> str:
+        place = ""
+        if origin is not None and self.link is None:
+            at = origin.absolute
+            line, column = at.source.line_column(at.start)
+            place = f" data-place={_quoted(f'{at.source.name}:{line}:{column}')}"
+        return f' class="{classes}" data-id={_quoted(id_)}{place}'
 
     def box(self, box: Box) -> Iterator[str]:
         node = box.node
-        yield f"<g{_about(f'node {node.kind}', node.id, node.origin)}>"
+        yield f"<g{self.about(f'node {node.kind}', node.id, node.origin)}>"
         if node.doc:
             yield f"<title>{_text(node.doc)}</title>"
         match node.kind:
@@ -175,7 +202,7 @@ class _Drawing:
 
     def edge(self, line: Line) -> Iterator[str]:
         edge, points = line.edge, list(line.points)
-        yield f"<g{_about(f'edge {edge.kind}', edge.id, edge.origin)}>"
+        yield f"<g{self.about(f'edge {edge.kind}', edge.id, edge.origin)}>"
         if edge.doc:
             yield f"<title>{_text(edge.doc)}</title>"
         yield f'<path d="{_rounded(points)}"/>'
@@ -190,7 +217,7 @@ class _Drawing:
     def pin(self, pin: Pin) -> Iterator[str]:
         half = PORT // 2
         port, x, y = pin.port, pin.x, pin.y
-        yield f"<g{_about('port', port.id, port.origin)}>"
+        yield f"<g{self.about('port', port.id, port.origin)}>"
         yield f"<title>{_text(port.doc)}</title>"
         yield f"<rect {_area(x - half, y - half, PORT, PORT)}/>"
         if port.direction != "inout":
@@ -203,7 +230,7 @@ class _Drawing:
         yield "</g>"
 
 
-def _style() -> str:
+def style() -> str:
     """Rules with colours as numbers, for programs that know no variables, and as variables.
 
     They are about this picture alone, also where it stands in a page.
@@ -225,15 +252,6 @@ def _style() -> str:
                 facts.append(re.sub(r"@(\w+)", r"var(--\1)", fact))
         lines.append(f"{where} {{ {'; '.join(facts)}; }}")
     return "\n" + "\n".join(lines) + "\n"
-
-
-def _about(style: str, id_: str, origin: Span | None) -> str:
-    place = ""
-    if origin is not None:
-        at = origin.absolute
-        line, column = at.source.line_column(at.start)
-        place = f" data-place={_quoted(f'{at.source.name}:{line}:{column}')}"
-    return f' class="{style}" data-id={_quoted(id_)}{place}'
 
 
 def _words(text: str, style: str, x: int, y: int, wide: int) -> str:

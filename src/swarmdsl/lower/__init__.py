@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from swarmdsl import ir
 from swarmdsl.dataclass import replace
-from swarmdsl.load import Project
+from swarmdsl.load import File, Project
 from swarmdsl.lower.architecture import (
     lower_component,
     lower_environment,
@@ -30,6 +30,7 @@ from swarmdsl.lower.optimization import lower_fitness, lower_optimization
 from swarmdsl.syntax import (
     ActionType,
     Component,
+    Declaration,
     EnumType,
     Environment,
     Event,
@@ -46,12 +47,17 @@ from swarmdsl.syntax import (
 from swarmdsl.used import used_declarations
 
 
-def lower(project: Project, name: str | None = None) -> ir.System:
+def lower(
+    project: Project,
+    name: str | None = None,
+    declarations: list[tuple[File, Declaration]] | None = None,
+) -> ir.System:
     """The whole project as one system, in the order of files and text.
 
-    Its name is that of the first package if none is given.
+    Its name is that of the first package if none is given. Of libraries it has what the project
+    uses, or the `declarations` that are given, with all that they use.
     """
-    used = used_declarations(project)
+    used = used_declarations(project) if declarations is None else declarations
     context = make_context(project, used)
     interfaces: list[ir.Interface] = []
     events: list[ir.Event] = []

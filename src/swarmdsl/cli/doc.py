@@ -1,0 +1,45 @@
+"""`swarmc doc`."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli import options
+from swarmdsl.cli.outcome import exit_code
+
+
+@click.command(epilog="Example: swarmc doc examples/search_and_rescue -o sar.html")
+@options.files
+@click.option(
+    "-o",
+    "--output",
+    "out",
+    metavar="FILE|FOLDER",
+    type=click.Path(path_type=Path),
+    help="Write there.  [default: the name of the model, with .html, in the current folder]",
+)
+@click.option(
+    "--libraries", is_flag=True, help="All that libraries declare, not only what the model uses."
+)
+@options.diagnostics_format
+@options.debug
+def doc(paths: tuple[Path, ...], out: Path | None, libraries: bool, format_: str) -> int:
+    """Write a page of documentation about a model.
+
+    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
+    names, or for the current folder. The page is one file that needs nothing else: all elements
+    with what is said of them, diagrams, tables, links wherever something is named, and a search.
+    Nothing is written of a model with errors.
+    """
+    from swarmdsl.document.command import run
+    from swarmdsl.render import render, summary
+
+    documented = run(paths, out, libraries=libraries)
+    render(documented.report, format_, sys.stderr)
+    if documented.written is not None:
+        click.echo(documented.written.as_posix(), err=True)
+    click.echo(summary(documented.report, documented.files), err=True)
+    return exit_code(documented.report)

@@ -1,0 +1,201 @@
+"use strict";
+// Search, contents that follow, colours, and pictures in full size. Without it, the page has all
+// of its text and links.
+(() => {
+  const MOST = 40;
+  const byId = (id) => document.getElementById(id);
+  const root = document.documentElement;
+  const [field, list, told] = ["page-search", "page-found", "page-told"].map(byId);
+  const [menu, contents, theme] = ["page-menu", "page-contents", "page-theme"].map(byId);
+
+  root.classList.add("scripted");
+  field.parentElement.hidden = menu.hidden = theme.hidden = false;
+
+  // ---- search
+  let index;
+  const all = () => {
+    index ??= [...document.querySelectorAll("[data-kind]")].map((element) => ({
+      id: element.id,
+      kind: element.dataset.kind,
+      name: element.dataset.name,
+      lower: element.dataset.name.toLowerCase(),
+      path: element.id.toLowerCase(),
+      doc: (element.querySelector(":scope > .doc, :scope > td:last-child > .doc")?.textContent ?? "").trim(),
+    }));
+    return index;
+  };
+  // How well an element fits, the least best; undefined where it does not.
+  const rank = (item, word) => {
+    if (item.lower === word) return 0;
+    if (item.lower.startsWith(word)) return 1;
+    if (item.lower.includes(word)) return 2;
+    if (item.path.includes(word)) return 3;
+    if (item.kind.startsWith(word)) return 4;
+    return item.doc.toLowerCase().includes(word) ? 5 : undefined;
+  };
+  const search = (text) => {
+    const words = text.toLowerCase().split(/\s+/).filter(Boolean);
+    if (words.length === 0) return [];
+    const found = [];
+    for (const item of all()) {
+      let sum = 0;
+      for (const word of words) sum += rank(item, word) ?? NaN;
+      if (!Number.isNaN(sum)) found.push([sum, item.path.split(".").length, found.length, item]);
+    }
+    found.sort((a, b) => a[0] - b[0] || a[1] - b[1] || a[2] - b[2]);
+    return found.map((each) => each[3]);
+  };
+
+  let chosen = -1;
+  const choose = (at) => {
+    const options = list.children;
+    options[chosen]?.setAttribute("aria-selected", "false");
+    chosen = options.length ? (at + options.length) % options.length : -1;
+    options[chosen]?.setAttribute("aria-selected", "true");
+    options[chosen]?.scrollIntoView({ block: "nearest" });
+    if (chosen < 0) field.removeAttribute("aria-activedescendant");
+    else field.setAttribute("aria-activedescendant", options[chosen].id);
+  };
+  const close = () => {
+    list.hidden = true;
+    field.setAttribute("aria-expanded", "false");
+    choose(-1);
+  };
+  const follow = (option) => {
+    field.blur();
+    close();
+    const id = option.dataset.to;
+    location.hash = encodeURIComponent(id).replaceAll("%2F", "/");
+    const target = byId(id);
+    target.tabIndex = -1;
+    target.focus({ preventScroll: true });
+    target.scrollIntoView();
+  };
+  const option = (item, at) => {
+    const made = document.createElement("li");
+    made.id = `page-found-${at}`;
+    made.role = "option";
+    made.dataset.to = item.id;
+    made.setAttribute("aria-selected", "false");
+    const kind = document.createElement("span");
+    kind.className = "kind";
+    kind.textContent = item.kind;
+    const around = document.createElement("span");
+    around.className = "in";
+    around.textContent = item.doc.length > 110 ? `${item.doc.slice(0, 110)}…` : item.doc;
+    made.append(item.id, " ", kind, around);
+    return made;
+  };
+  const show = () => {
+    const found = search(field.value);
+    list.replaceChildren(...found.slice(0, MOST).map(option));
+    const any = field.value.trim() !== "";
+    list.hidden = !any || found.length === 0;
+    field.setAttribute("aria-expanded", String(!list.hidden));
+    const more = found.length > MOST ? `, the first ${MOST} are shown` : "";
+    told.textContent = any ? `${found.length || "nothing"} found${more}` : "";
+    told.classList.toggle("hidden", found.length > 0 || !any);
+    chosen = -1;
+    choose(0);
+  };
+  field.addEventListener("input", show);
+  field.addEventListener("focus", () => field.value && show());
+  field.addEventListener("keydown", (event) => {
+    if (event.key === "ArrowDown") choose(chosen + 1);
+    else if (event.key === "ArrowUp") choose(chosen - 1);
+    else if (event.key === "Enter" && list.children[chosen]) follow(list.children[chosen]);
+    else if (event.key === "Escape") {
+      field.value = "";
+      show();
+      field.blur();
+    } else return;
+    event.preventDefault();
+  });
+  list.addEventListener("mousedown", (event) => event.preventDefault());
+  list.addEventListener("click", (event) => {
+    const option = event.target.closest("li");
+    if (option) follow(option);
+  });
+  document.addEventListener("click", (event) => {
+    if (!event.target.closest(".search")) close();
+  });
+  document.addEventListener("keydown", (event) => {
+    const writes = event.target.closest?.("input, textarea");
+    if ((event.key === "/" && !writes && !event.ctrlKey && !event.metaKey) || (event.key === "k" && (event.ctrlKey || event.metaKey))) {
+      event.preventDefault();
+      field.focus();
+      field.select();
+    }
+  });
+
+  // ---- contents
+  const open = (is) => {
+    contents.classList.toggle("open", is);
+    menu.setAttribute("aria-expanded", String(is));
+  };
+  menu.addEventListener("click", () => open(!contents.classList.contains("open")));
+  contents.addEventListener("click", (event) => event.target.closest("a") && open(false));
+  const links = new Map([...contents.querySelectorAll("li a")].map((a) => [decodeURIComponent(a.hash.slice(1)), a]));
+  let current;
+  const inView = new Set();
+  const watcher = new IntersectionObserver(
+    (changes) => {
+      for (const each of changes) inView[each.isIntersecting ? "add" : "delete"](each.target.id);
+      const first = [...links.keys()].find((id) => inView.has(id));
+      if (first === undefined || links.get(first) === current) return;
+      current?.removeAttribute("aria-current");
+      current = links.get(first);
+      current.setAttribute("aria-current", "true");
+    },
+    { rootMargin: "-60px 0px -60% 0px" },
+  );
+  for (const id of links.keys()) watcher.observe(byId(id));
+
+  // ---- colours
+  const THEMES = ["system", "light", "dark"];
+  const kept = {
+    get: () => {
+      try {
+        return localStorage.getItem("swarmc-doc-theme");
+      } catch {
+        return null; // not every browser keeps something for a file
+      }
+    },
+    set: (value) => {
+      try {
+        localStorage.setItem("swarmc-doc-theme", value);
+      } catch {
+        /* the same */
+      }
+    },
+  };
+  const paint = (name) => {
+    if (name === "system") delete root.dataset.theme;
+    else root.dataset.theme = name;
+    theme.textContent = `Theme: ${name}`;
+  };
+  let painted = THEMES.includes(kept.get()) ? kept.get() : "system";
+  paint(painted);
+  theme.addEventListener("click", () => {
+    painted = THEMES[(THEMES.indexOf(painted) + 1) % THEMES.length];
+    kept.set(painted);
+    paint(painted);
+  });
+
+  // ---- what is wider than the page
+  for (const picture of document.querySelectorAll(".picture")) {
+    const svg = picture.querySelector("svg");
+    if (svg.width.baseVal.value <= svg.clientWidth + 1) continue;
+    const button = document.createElement("button");
+    button.type = "button";
+    const name = () => (button.textContent = picture.classList.contains("whole") ? "Fit the page" : "Full size");
+    button.addEventListener("click", () => {
+      picture.classList.toggle("whole");
+      name();
+    });
+    name();
+    picture.parentElement.querySelector("figcaption").append(button);
+  }
+  for (const each of document.querySelectorAll(".scroll, .picture"))
+    if (each.scrollWidth > each.clientWidth) each.tabIndex = 0;
+})();
