@@ -12,7 +12,7 @@ import smach_ros
 from sar_behavior.states import StartError
 
 # How long a machine has to end when ROS shuts down, in seconds.
-GRACE = 2.0
+GRACE = 1.5
 # How long its last messages have to leave: rospy drops what is still in its queues.
 LAST_WORDS = 0.1
 
