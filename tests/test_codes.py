@@ -31,7 +31,7 @@ NO_MODEL = {
     *("unknown-target", "broken-generator", "bad-option", "outside-output", "would-overwrite"),
     *("cannot-write", "target-left-out", "generator-failed", "outdated-code"),
     *("edited-output", "merge-conflict", "stale-output", "parked-code", "renamed-element"),
-    *("bad-rename", "old-name"),
+    *("bad-rename", "old-name", "unreadable-list", "interrupted-build"),
     *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
     *("not-a-warning", "outside-workspace", "no-source-map"),
 }

@@ -212,6 +212,12 @@ CODES: dict[str, Code] = {
     "bad-rename": Code("SW0923", "error", "`{old}` cannot be renamed to `{new}`: {fault}"),
     "old-name": Code("SW0924", "warning", "`{path}` may still mean `{name}` here"),
     "no-source-map": Code("SW0925", "error", "no source map in `{path}`: {reason}"),
+    "unreadable-list": Code(
+        "SW0926", "error", "cannot read `{path}`, the list of generated files: {reason}"
+    ),
+    "interrupted-build": Code(
+        "SW0927", "error", "a build into `{path}` was interrupted, and is not complete"
+    ),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

@@ -6,6 +6,7 @@ It also says where their lines come from, see `swarmdsl.map_file`.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -44,37 +45,37 @@ def content_hash(content: bytes) -> str:
     return sha256(regions.generated(content).replace(b"\r\n", b"\n")).hexdigest()
 
 
-def read(out: Path) -> Manifest:
-    """What was generated in a folder; nothing where there is no readable list.
+def read(out: Path, name: str = NAME) -> Manifest:
+    """What was generated in a folder; nothing where there is no list.
 
-    Then no file counts as generated, so none is overwritten unasked. A path that leads out
-    of the folder was not put there by swarmc and is ignored.
+    A path that leads out of the folder was not put there by swarmc and is ignored. Raises OSError
+    where the list cannot be read, ValueError with a reason where it is not as it was written.
     """
-    stored = _stored(out)
-    files, parked, owners = (_section(stored.get(name)) for name in ("files", "parked", "owners"))
+    stored = _stored(out, name)
+    files, parked, owners = (_section(stored, name) for name in ("files", "parked", "owners"))
     return Manifest(files, parked, owners, map_file.from_json(stored.get("map")))
 
 
-def read_maps(out: Path) -> map_file.Maps | None:
-    """Where the lines of its files come from; None where it has no such list."""
-    stored = _stored(out)
-    return map_file.from_json(stored["map"]) if "map" in stored else None
-
-
-def _stored(out: Path) -> dict[str, Any]:
+def _stored(out: Path, name: str) -> dict[str, Any]:
     try:
-        stored = json.loads((out / NAME).read_bytes())
-    except (OSError, ValueError, RecursionError):
+        stored = json.loads((out / name).read_bytes())
+    except (FileNotFoundError, NotADirectoryError):
         return {}
-    return stored if isinstance(stored, dict) else {}
+    except json.JSONDecodeError as error:
+        raise ValueError(f"line {error.lineno} is not JSON") from error
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise ValueError("it is not JSON") from error
+    if not isinstance(stored, dict):
+        raise ValueError("it is not an object")
+    return stored
 
 
-def _section(stored: object) -> dict[str, str]:
-    """The paths of a section with what is said of them, but for what is not as it was written."""
-    said = stored if isinstance(stored, dict) else {}
-    return {
-        path: text for path, text in said.items() if stays_inside(path) and isinstance(text, str)
-    }
+def _section(stored: Mapping[str, object], name: str) -> dict[str, str]:
+    """The paths of a section with what is said of them."""
+    said = stored.get(name, {})
+    if not isinstance(said, dict) or not all(isinstance(text, str) for text in said.values()):
+        raise ValueError(f"`{name}` in it is not paths with a text each")
+    return {path: text for path, text in said.items() if stays_inside(path)}
 
 
 def to_bytes(manifest: Manifest) -> bytes:

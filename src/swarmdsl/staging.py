@@ -28,16 +28,15 @@ class Staging:
     ) -> None:
         """Write the content of a file beside its place; `mode` replaces the usual permissions."""
         with _blamed_on(path):
-            self._make_folder(path.parent)
+            self.make_folder(path.parent)
             with suppress(FileNotFoundError):
                 # A name that the disk does not take must fail before any move, and so must a
                 # device or pipe: a file in its place would be the end of it for all programs.
                 there = path.stat().st_mode
                 if not (stat.S_ISREG(there) or stat.S_ISDIR(there)):
                     raise OSError(errno.EINVAL, "it is no regular file")
-            beside = path.with_name(f".swarmc-{os.urandom(8).hex()}.tmp")
             # Noted first: it must go also when writing it is interrupted.
-            self._staged[path] = beside
+            beside = self.beside(path)
             # O_EXCL: never through a link that somebody put there.
             flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
             with os.fdopen(os.open(beside, flags, 0o777 if executable else 0o666), "wb") as file:
@@ -54,7 +53,12 @@ class Staging:
             del self._staged[path]
             yield path
 
-    def _make_folder(self, folder: Path) -> None:
+    def beside(self, path: Path) -> Path:
+        """Where the content of a file is until it is moved in place."""
+        return self._staged.setdefault(path, path.with_name(f".swarmc-{os.urandom(8).hex()}.tmp"))
+
+    def make_folder(self, folder: Path) -> None:
+        """Make a folder, and those above it, where they are missing."""
         missing = list(takewhile(lambda above: not above.exists(), (folder, *folder.parents)))
         for above in reversed(missing):
             above.mkdir(exist_ok=True)

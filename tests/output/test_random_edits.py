@@ -7,19 +7,16 @@ writes lines of their own into any file of the output.
 
 from __future__ import annotations
 
-import os
-from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from swarmdsl import compiler
 from swarmdsl.emit import Request
 from swarmdsl.output import How
-from swarmdsl.output.plan import PARKED
+from swarmdsl.output.changes import PARKED
 
 NAMES = ("takeoff", "land", "rise_up", "Camera")
 TYPES = ("float64", "int32")
@@ -149,55 +146,3 @@ def test_the_test_sees_all_kinds_of_changes() -> None:
         build(out, model(other), renames=(("takeoff", "land"),))
         assert not (out / PARKED).exists()
         assert len(mine(out)) == 20
-
-
-class Stopped(BaseException):
-    """As if the power failed: nothing is cleaned up after it."""
-
-
-@pytest.mark.parametrize("name", ["takeoff", "land"])
-@pytest.mark.parametrize("after", range(0, 40, 3))
-def test_an_interrupted_build_leaves_old_or_new(
-    name: str, after: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """And the next one goes on as if nothing had been."""
-    old, new = model({"takeoff": ("float64", False)}), model({name: ("int32", True)})
-    expected = {}
-    for which, texts in (("new", [old, new]), ("out", [old])):
-        out = tmp_path / which / "out"
-        out.parent.mkdir()
-        for number, text in enumerate(texts):
-            build(out, text)
-            if number == 0:
-                for place in (100, 400, 700):
-                    write_line(out, (place, 500, False), place)
-        expected[which] = {path.relative_to(out): path.read_bytes() for path in files(out)}
-    out = tmp_path / "out" / "out"
-    count = 0
-    real_replace, real_unlink = os.replace, Path.unlink
-
-    def step() -> None:
-        nonlocal count
-        count += 1
-        if count > after:
-            raise Stopped
-
-    def replace(source: Path, place: Path) -> None:
-        step()
-        real_replace(source, place)
-
-    def unlink(path: Path, missing_ok: bool = False) -> None:
-        step()
-        real_unlink(path, missing_ok)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "replace", replace)
-        patch.setattr(Path, "unlink", unlink)
-        with suppress(Stopped):
-            build(out, new)
-    for path in files(out):
-        content, key = path.read_bytes(), path.relative_to(out)
-        assert content in (expected["out"].get(key), expected["new"].get(key)), path
-    assert mine(out) == mine(tmp_path / "new" / "out")
-    build(out, new)
-    assert {path.relative_to(out): path.read_bytes() for path in files(out)} == expected["new"]

@@ -3,6 +3,7 @@
 import json
 import os
 from pathlib import Path
+from threading import Thread
 
 import pytest
 
@@ -10,6 +11,8 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import NAME
 from swarmdsl.output import Action, How, Written, texts, write
+from swarmdsl.output.clean import clean
+from swarmdsl.output.lock import locked
 
 
 def write_ok(output, out: Path, **options) -> Written:
@@ -171,12 +174,54 @@ def test_a_file_renamed_in_case_only_is_not_lost(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "content", ["", "{", "[]", '{"files": 1}', '{"files": {"t/a": 7}}', "\xff"]
+    ("content", "reason"),
+    [
+        ("", "line 1 is not JSON"),
+        ('{\n<<<<<<< ours\n  "files": {}\n}', "line 2 is not JSON"),
+        ("[]", "it is not an object"),
+        ('{"files": 1}', "`files` in it is not paths with a text each"),
+        ('{"files": {"t/a": 7}}', "`files` in it is not paths with a text each"),
+        ("\xff", "it is not JSON"),
+    ],
 )
-def test_spoilt_lists_make_every_file_the_users(tmp_path, content):
+@pytest.mark.parametrize("options", [{}, {"force": True}, {"check": True}], ids=str)
+def test_with_a_spoilt_list_nothing_is_done(tmp_path, content, reason, options):
     write_ok(files(a="1"), tmp_path)
     (tmp_path / NAME).write_text(content, encoding="latin-1")
-    (tmp_path / texts.NAME).write_text(content, encoding="latin-1")
+    before = tree(tmp_path)
+    for change in (write, clean_all):
+        report = Diagnostics()
+        assert change(files(a="2"), tmp_path, report, How(**options)) is None
+        (found,) = report
+        assert found.message == (
+            f"cannot read `{tmp_path / NAME}`, the list of generated files: {reason}"
+        )
+    assert tree(tmp_path) == before
+
+
+def clean_all(_output, out, report, _how):
+    return clean(out, (), report, dry=False)
+
+
+def test_a_list_that_cannot_be_read_is_told(tmp_path):
+    # A folder, since for some users all files can be read.
+    (tmp_path / NAME).mkdir(parents=True)
+    assert errors(files(a="2"), tmp_path) == ["unreadable-list"]
+
+
+def test_without_the_list_what_is_as_it_was_written_is_known_by_the_texts(tmp_path):
+    write_ok(files(a="1", b="1"), tmp_path)
+    (tmp_path / "t/b").write_text("mine")
+    (tmp_path / NAME).unlink()
+    assert errors(files(a="2", b="2"), tmp_path) == ["would-overwrite"]
+    (tmp_path / "t/b").unlink()
+    assert write_ok(files(a="2", b="2"), tmp_path).written == ("t/a", "t/b")
+
+
+def test_without_list_and_texts_every_file_is_the_users(tmp_path):
+    write_ok(files(a="1"), tmp_path)
+    (tmp_path / NAME).unlink()
+    (tmp_path / texts.NAME).unlink()
     assert errors(files(a="2"), tmp_path) == ["would-overwrite"]
 
 
@@ -265,55 +310,69 @@ def test_a_name_too_long_for_the_disk_changes_nothing(tmp_path):
     ]
 
 
-def failing_replace(monkeypatch, error: BaseException, after: int) -> None:
-    """Let `os.replace` work some times and then fail."""
-    real, done = os.replace, []
+def fail_at(monkeypatch, name: str, error: BaseException) -> None:
+    """Let `os.open` and `os.replace` fail for a file of this name, or when it is staged."""
+    real_open, real_replace = os.open, os.replace
+
+    def open_(path, flags, *mode):
+        if Path(path).name.startswith(name):
+            raise error
+        return real_open(path, flags, *mode)
 
     def replace(source, destination):
-        if len(done) == after:
+        if Path(destination).name.startswith(name):
             raise error
-        done.append(destination)
-        real(source, destination)
+        real_replace(source, destination)
 
+    monkeypatch.setattr(os, "open", open_)
     monkeypatch.setattr(os, "replace", replace)
 
 
-def test_a_failing_disk_leaves_no_half_written_output(tmp_path, monkeypatch):
+FULL = OSError(28, "No space left on device")
+
+
+@pytest.mark.parametrize("error", [FULL, KeyboardInterrupt()], ids=["full", "interrupted"])
+@pytest.mark.parametrize("before", [False, True], ids=["new", "changed"])
+def test_what_fails_before_a_file_is_replaced_changes_nothing(tmp_path, monkeypatch, error, before):
+    out = tmp_path / "out"
+    if before:
+        write_ok(files(a="1"), out)
+    there = tree(tmp_path)
+    report = Diagnostics()
     with monkeypatch.context() as patch:
-        failing_replace(patch, OSError(28, "No space left on device"), after=0)
-        report = Diagnostics()
-        assert write(files(a="1", b="1"), tmp_path / "out", report) is None
-    (found,) = report
-    assert (
-        found.message == f"cannot write `{tmp_path / 'out' / texts.NAME}`: no space left on device"
-    )
-    assert tree(tmp_path) == {}
+        fail_at(patch, ".swarmc-", error)
+        if isinstance(error, OSError):
+            assert write(files(a="2", b="2"), out, report) is None
+            (found,) = report
+            place = out / texts.NAME
+            assert found.message == f"cannot write `{place}`: no space left on device"
+        else:
+            with pytest.raises(KeyboardInterrupt):
+                write(files(a="2", b="2"), out, report)
+    assert tree(tmp_path) == there
 
 
-def test_the_manifest_is_true_when_only_some_files_could_be_replaced(tmp_path, monkeypatch):
+def test_what_fails_later_is_completed_by_the_next_build(tmp_path, monkeypatch):
     write_ok(files(a="1", b="1"), tmp_path)
     with monkeypatch.context() as patch:
-        real, done = os.replace, []
-
-        def replace(source, destination):
-            if Path(destination).name == "b":
-                raise OSError(5, "Input/output error")
-            done.append(destination)
-            real(source, destination)
-
-        patch.setattr(os, "replace", replace)
+        fail_at(patch, "b", OSError(5, "Input/output error"))
         report = Diagnostics()
         assert write(files(a="2", b="2"), tmp_path, report) is None
-    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/a", "t/b"}
+    (found,) = report
+    assert found.message == f"cannot write `{tmp_path / 't/b'}`: input/output error"
     assert ((tmp_path / "t/a").read_text(), (tmp_path / "t/b").read_text()) == ("2", "1")
-    # Neither of them counts as edited.
-    assert write_ok(files(a="3", b="3"), tmp_path).written == ("t/a", "t/b")
+    assert write_ok(files(a="2", b="2"), tmp_path).unchanged == ("t/a", "t/b")
+    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/a", "t/b"}
 
 
-def test_an_interrupted_build_leaves_no_half_written_output(tmp_path, monkeypatch):
+def test_one_build_waits_for_another(tmp_path):
     write_ok(files(a="1"), tmp_path)
-    before = tree(tmp_path)
-    failing_replace(monkeypatch, KeyboardInterrupt(), after=0)
-    with pytest.raises(KeyboardInterrupt):
-        write(files(a="2", b="2"), tmp_path, Diagnostics())
-    assert tree(tmp_path) == before
+    done = []
+    with locked(tmp_path):
+        other = Thread(target=lambda: done.append(write_ok(files(a="2"), tmp_path)))
+        other.start()
+        other.join(0.2)
+        assert (tmp_path / "t/a").read_text() == "1"
+        assert done == []
+    other.join()
+    assert [each.written for each in done] == [("t/a",)]

@@ -105,7 +105,7 @@ def test_a_manifest_gives_back_what_it_was_given(tmp_path: Path, place: Span) ->
     (tmp_path / manifest.NAME).write_bytes(manifest.to_bytes(manifest.Manifest(maps=maps)))
     found = Position(Model("../models/lab.swarm", map_file.digest(MODEL.text)), 3, 3, 14)
 
-    assert manifest.read_maps(tmp_path) == maps
+    assert manifest.read(tmp_path).maps == maps
     assert maps["smach/lab/node.py"] == FileMap(found, ((2, found), (3, None)))
     assert maps["smach/lab/mine.py"] == FileMap(of_user=True)
     assert [maps["smach/lab/node.py"].position(line) for line in (1, 2, 3, 9)] == [
@@ -176,5 +176,5 @@ def test_targets_built_one_by_one_have_the_map_of_all(tmp_path: Path) -> None:
 
     first, second = (tmp_path / name / manifest.NAME for name in ("out", "other"))
     assert first.read_bytes() == second.read_bytes()
-    maps = manifest.read_maps(tmp_path / "out") or {}
+    maps = manifest.read(tmp_path / "out").maps
     assert {path.partition("/")[0] for path in maps} == {"smach", "scxml"}

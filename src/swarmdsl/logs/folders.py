@@ -107,12 +107,15 @@ class Folders:
         if not os.path.isfile(os.path.join(folder, manifest.NAME)):  # noqa: PTH113, PTH118 - often
             return
         out = Path(folder)
-        maps = manifest.read_maps(out)
-        if maps is None:
+        try:
+            listed = manifest.read(out)
+        except (OSError, ValueError):
+            listed = manifest.Manifest()
+        maps, hashes = listed.maps, listed.files
+        if not maps:
             self.unmapped.append(out)
             return
         self.found.append(out)
-        hashes = manifest.read(out).files
         packages = {path.rpartition("/")[0] for path in maps if path.endswith("/package.xml")}
         for path, map_ in maps.items():
             # What is in no package is in the folder of a target.

@@ -9,14 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from swarmdsl import manifest
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import Action, Change, How, Written
-from swarmdsl.output.disk import Disk, report_os_error
+from swarmdsl.output.disk import report_os_error
 from swarmdsl.output.leaving import drop_stale
 from swarmdsl.output.moves import add_strays, find_moves, find_renamed
+from swarmdsl.output.opening import opened
 from swarmdsl.output.plan import Plan
 from swarmdsl.output.stale import report_stale
 from swarmdsl.output.updating import update
@@ -34,21 +34,20 @@ def write(
 
     None when something stands in the way: it is reported and nothing is changed.
     """
-    plan = Plan(Disk(out), manifest.read(out), how, report)
-    decide(plan, output)
-    if report.has_errors:
-        return None
-    if how.check:
-        report_stale(plan.written, plan.manifest != plan.before, plan.remarks, report)
-        return plan.written
-    if not how.dry:
-        try:
-            carry_out(plan)
-        except OSError as error:
-            report_os_error(Path(error.filename or out), error, report)
+    with opened(out, how, report) as plan:
+        if plan is None:
             return None
-    report.include(plan.remarks)
-    return plan.written
+        decide(plan, output)
+        if report.has_errors:
+            return None
+        if how.check:
+            report_stale(plan.written, plan.manifest != plan.before, plan.remarks, report)
+            return plan.written
+        if not how.dry:
+            carry_out(plan)
+        report.include(plan.remarks)
+        return plan.written
+    return None
 
 
 def decide(plan: Plan, output: Mapping[str, Sequence[OutputFile]]) -> None:

@@ -1,75 +1,86 @@
-"""Does what was decided: all files are written beside their places first, and then moved there.
+"""Does what was decided, all of it or nothing: what is interrupted, the next build completes.
 
-When it is interrupted, each file is as it was or as it is to be, and the next build goes on: the
-texts that are generated are known before the first of them is in its place, and what goes away
-goes when all else is there.
+The texts that are generated are known before the first of them is in its place, and what goes
+away goes when all else is there.
 """
 
 from __future__ import annotations
 
-from contextlib import suppress
+from contextlib import ExitStack
 
 from swarmdsl import manifest
-from swarmdsl.manifest import Manifest, content_hash
-from swarmdsl.output.changes import Change
+from swarmdsl.output import journal, texts
+from swarmdsl.output.changes import Action, Change, Renames
+from swarmdsl.output.disk import Disk
+from swarmdsl.output.journal import Journal, Step, fingerprint
 from swarmdsl.output.plan import Plan
 from swarmdsl.staging import Staging
 
 
 def carry_out(plan: Plan) -> None:
-    """Change the files; OSError when that fails, its `filename` is the file."""
-    out, before, after = plan.disk.out, plan.before, plan.manifest
-    list_file = out / manifest.NAME
-    listed = after.files or after.parked
-    changed = after != before or (listed and not list_file.exists())
-    arriving = [change for change in plan.changes if change.after is not None]
-    with Staging() as staging, Staging() as last:
-        if changed or arriving or (listed and plan.texts.missing):
-            marks = (owner.rpartition(" ")[2] for owner in after.owners.values())
-            plan.texts.stage(_known(plan), marks, staging)
+    """Change the files; OSError when that fails, its `filename` is the file.
+
+    One that fails when files are changed already is as good as one that is interrupted.
+    """
+    if not _is_anything_to_do(plan):
+        return
+    disk = plan.disk
+    packed, listed = _texts(plan), manifest.to_bytes(plan.manifest)
+    arriving = [Change(Action.CHANGE, texts.NAME, None, packed)] if packed is not None else []
+    arriving += [*plan.changes, Change(Action.CHANGE, manifest.NAME, None, listed)]
+    with ExitStack() as until_all_is_staged:
+        staging = until_all_is_staged.enter_context(Staging())
+        steps = [_step(disk, change, staging) for change in arriving]
+        to_do = Journal(tuple(steps[:-1]), steps[-1], plan.how.renames)
+        staging.make_folder(disk.out)
+        until_all_is_staged.callback(disk.remove, journal.NAME)
+        (disk.out / journal.NAME).write_bytes(journal.to_bytes(to_do))
         for change in arriving:
-            assert change.after is not None
-            staging.add(out / change.path, change.after, change.executable, change.mode)
-        if changed:
-            last.add(list_file, manifest.to_bytes(after))
-        done = dict(before.files)
-        try:
-            for place in staging.move_in_place():
-                path = place.relative_to(out).as_posix()
-                if path in after.files:
-                    done[path] = after.files[path]
-            for change in plan.changes:
-                _clear(plan, change)
-            for _ in last.move_in_place():
-                pass
-        except BaseException:
-            if done != before.files:
-                parked, maps = {**before.parked, **after.parked}, {**before.maps, **after.maps}
-                _save_what_is_done(plan, Manifest(done, parked, after.owners, maps))
-            raise
+            if change.after is not None:
+                place = disk.out / change.path
+                staging.add(place, change.after, change.executable, change.mode)
+        until_all_is_staged.pop_all()
+    journal.complete(disk, to_do)
 
 
-def _known(plan: Plan) -> set[str]:
-    """The hashes of the texts that files are made from, or were until now."""
+def resume(disk: Disk) -> Renames:
+    """Complete what an interrupted build had begun, or remove what is left of it.
+
+    Returns the renames that are done with it. Raises OSError as `carry_out` does.
+    """
+    found = journal.read(disk)
+    if found is not None and journal.is_to_be_completed(disk, found):
+        journal.complete(disk, found)
+        return found.renames
+    if found is not None:
+        journal.discard(disk, found)
+    elif (disk.out / journal.NAME).exists():
+        disk.remove(journal.NAME)
+    return ()
+
+
+def _is_anything_to_do(plan: Plan) -> bool:
+    listed = plan.manifest.files or plan.manifest.parked
+    stored = (plan.disk.out / manifest.NAME).exists() and not plan.texts.missing
+    return bool(plan.changes or plan.manifest != plan.before or (listed and not stored))
+
+
+def _step(disk: Disk, change: Change, staging: Staging) -> Step:
+    """What is done to make a change, with the files as they are now."""
+    before = fingerprint(disk.content(change.path))
+    if change.after is None:
+        return Step(change.path, before)
+    staged = staging.beside(disk.out / change.path).relative_to(disk.out).as_posix()
+    source = disk.content(change.source) if change.source is not None else None
+    after = fingerprint(change.after)
+    return Step(change.path, before, after, staged, change.source, fingerprint(source))
+
+
+def _texts(plan: Plan) -> bytes | None:
+    """The texts that files are made from, or were until now, as they are stored."""
     manifests = (plan.before, plan.manifest)
     wanted = {
         hash_ for each in manifests for hash_ in (*each.files.values(), *each.parked.values())
     }
-    # What an interrupted build has left is in neither.
-    wanted |= {content_hash(change.before) for change in plan.changes if change.before is not None}
-    return wanted
-
-
-def _clear(plan: Plan, change: Change) -> None:
-    if change.source is not None:
-        plan.disk.remove(change.source)
-    elif change.after is None:
-        plan.disk.remove(change.path)
-
-
-def _save_what_is_done(plan: Plan, done: Manifest) -> None:
-    """Keep the list true when only some files could be replaced, as far as that is possible."""
-    with suppress(OSError), Staging() as staging:
-        staging.add(plan.disk.out / manifest.NAME, manifest.to_bytes(done))
-        for _ in staging.move_in_place():
-            pass
+    marks = (owner.rpartition(" ")[2] for owner in plan.manifest.owners.values())
+    return plan.texts.packed(wanted, marks)

@@ -7,6 +7,12 @@ from pathlib import Path
 
 from swarmdsl.dataclass import dataclass
 
+PARKED = ".parked"
+"""The folder for files that are put aside. Tools of ROS pass over a folder of such a name."""
+
+Renames = tuple[tuple[str, str], ...]
+"""The old and the new name of elements of the model."""
+
 
 class Action(Enum):
     """What happens to a file."""
@@ -84,12 +90,12 @@ class How:
 
     `force` gives up what the user has written where it is in the way, except in files that are
     the user's to fill in. `dry` changes nothing; `check` does not either, and reports what would
-    change. `renames` are elements of the model that had
-    another name: the old one and the new one. `command` is what a person would repeat.
+    change. `renames` are elements of the model that had another name. `command` is what a person
+    would repeat.
     """
 
     force: bool = False
     dry: bool = False
     check: bool = False
-    renames: tuple[tuple[str, str], ...] = ()
+    renames: Renames = ()
     command: str = "swarmc build"

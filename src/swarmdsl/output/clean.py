@@ -10,9 +10,8 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.output import texts
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import How, Written
-from swarmdsl.output.disk import Disk, report_os_error
 from swarmdsl.output.leaving import remove_generated
-from swarmdsl.output.plan import Plan
+from swarmdsl.output.opening import opened
 
 
 def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool) -> Written | None:
@@ -23,15 +22,14 @@ def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool
     What the user has written in stays in its place, and is known for the next build. None when
     something stands in the way, which is reported.
     """
-    plan = Plan(Disk(out), manifest.read(out), How(dry=dry), report)
-    remove_generated(plan, targets or {path.partition("/")[0] for path in plan.before.files})
-    if not dry:
-        try:
+    with opened(out, How(dry=dry), report) as plan:
+        if plan is None:
+            return None
+        remove_generated(plan, targets or {path.partition("/")[0] for path in plan.before.files})
+        if not dry:
             carry_out(plan)
             if not (plan.manifest.files or plan.manifest.parked):
                 for name in (manifest.NAME, texts.NAME):
                     (out / name).unlink(missing_ok=True)
-        except OSError as error:
-            report_os_error(Path(error.filename or out), error, report)
-            return None
-    return plan.written
+        return plan.written
+    return None

@@ -6,8 +6,8 @@ from collections.abc import Collection
 from contextlib import suppress
 
 from swarmdsl.output import remarks
-from swarmdsl.output.changes import Action, Change
-from swarmdsl.output.plan import PARKED, Plan
+from swarmdsl.output.changes import PARKED, Action, Change
+from swarmdsl.output.plan import Plan
 from swarmdsl.output_path import clash_key
 
 

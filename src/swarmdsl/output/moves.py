@@ -9,9 +9,9 @@ from swarmdsl.dataclass import replace
 from swarmdsl.fitting_code import mark_in, mark_of, marked
 from swarmdsl.generator import OutputFile
 from swarmdsl.output import remarks
-from swarmdsl.output.changes import Action
+from swarmdsl.output.changes import PARKED, Action
 from swarmdsl.output.names import Names
-from swarmdsl.output.plan import PARKED, Found, Plan
+from swarmdsl.output.plan import Found, Plan
 
 
 def find_moves(plan: Plan, made: Mapping[str, OutputFile]) -> None:

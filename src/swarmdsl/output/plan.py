@@ -13,14 +13,11 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import Hashes, Manifest, content_hash
 from swarmdsl.map_file import Maps, Positions
-from swarmdsl.output.changes import Action, Change, How, Written
+from swarmdsl.output.changes import PARKED, Action, Change, How, Written
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.names import Names
 from swarmdsl.output.remarks import NEW
 from swarmdsl.output.texts import Texts
-
-PARKED = ".parked"
-"""The folder for files that are put aside. Tools of ROS pass over a folder of such a name."""
 
 
 @dataclass(frozen=True)

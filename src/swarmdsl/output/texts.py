@@ -16,7 +16,6 @@ from pathlib import Path
 
 from swarmdsl.fitting_code import mark_in
 from swarmdsl.manifest import content_hash
-from swarmdsl.staging import Staging
 
 NAME = ".swarmdsl.texts"
 
@@ -72,16 +71,16 @@ class Texts:
         """Whether there is no file of them."""
         return not self._file.exists()
 
-    def stage(self, wanted: Iterable[str], marks: Iterable[str], staging: Staging) -> None:
-        """Store those with the hashes that are wanted, and facts with these marks or theirs.
+    def packed(self, wanted: Iterable[str], marks: Iterable[str]) -> bytes | None:
+        """Those with the hashes that are wanted, and facts with these marks or theirs, to store.
 
-        The same bytes for the same texts, and none where they are stored.
+        The same bytes for the same texts; None where they are stored.
         """
         known = {**self._stored, **self._new}
         kept = {hash_: known[hash_] for hash_ in wanted if hash_ in known}
         of_texts = {mark for text in kept.values() if (mark := mark_in(text.encode()))}
         named = {*marks, *of_texts}
         kept |= {hash_: text for hash_, text in known.items() if hash_[:8] in named}
-        if kept != self._stored:
-            packed = zlib.compress(json.dumps(kept, sort_keys=True).encode())
-            staging.add(self._file, packed)
+        if kept == self._stored:
+            return None
+        return zlib.compress(json.dumps(kept, sort_keys=True).encode())

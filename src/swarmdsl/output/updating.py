@@ -15,11 +15,11 @@ from swarmdsl.fitting_code import mark_of, outdated
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import content_hash
 from swarmdsl.output import remarks
-from swarmdsl.output.changes import Action
+from swarmdsl.output.changes import PARKED, Action
 from swarmdsl.output.merge import merge
 from swarmdsl.output.moves import renamed
 from swarmdsl.output.names import Names
-from swarmdsl.output.plan import PARKED, Found, Plan
+from swarmdsl.output.plan import Found, Plan
 from swarmdsl.output.remarks import NEW, NOTE
 
 

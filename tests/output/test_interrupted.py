@@ -1,0 +1,219 @@
+"""Builds that are killed, at each file operation: the next one goes on, and loses nothing."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import pytest
+
+from swarmdsl.diagnostics import Diagnostic, Diagnostics
+from swarmdsl.fitting_code import fits
+from swarmdsl.generator import OutputFile
+from swarmdsl.output import How, journal, write
+from swarmdsl.output.clean import clean
+from swarmdsl.output.disk import Disk
+
+pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="copies in a process of its own")
+
+MINE = "line of mine"
+CHANGES = {"os.mkdir", "os.rename", "os.remove", "os.rmdir", "os.chmod"}
+
+
+def package(name: str, body: str = "pass") -> list[OutputFile]:
+    """What is generated for an element: a file to fill in, one with a region, and another one."""
+    facts = (f"class {name}",)
+    region = f"# swarmc:begin {name}.more\n# swarmc:end {name}.more\n"
+    return [
+        OutputFile(f"{name}/{name}.py", f"# {fits(facts)}\n{body}\n", True, name, facts=facts),
+        OutputFile(f"{name}/list.txt", f"project {name}\n{region}", owner=name),
+        OutputFile(f"{name}/base.py", f"class {name}\n1\n2\n3\n4\n{body}\n", owner=name),
+    ]
+
+
+BEFORE = [*package("rise"), *package("land"), *package("scan"), OutputFile("gone", "1")]
+AFTER = [*package("climb", "new"), *package("land", "new"), OutputFile("deep/er/one", "1")]
+RENAMES = (("rise", "climb"),)
+
+
+def build(out: Path, files: list[OutputFile], **how: object) -> list[Diagnostic]:
+    report = Diagnostics()
+    write({"t": files}, out, report, How(**how))  # type: ignore[arg-type]
+    return list(report)
+
+
+def edited(out: Path) -> Path:
+    """An output folder in which a user has written into files of each kind."""
+    build(out, BEFORE)
+    for number, path in enumerate(
+        ("rise/rise.py", "rise/base.py", "land/base.py", "scan/scan.py", "land/land.py")
+    ):
+        place = out / "t" / path
+        place.write_text(f"{MINE} {number}\n{place.read_text()}", encoding="utf-8")
+    place = out / "t/rise/list.txt"
+    text = place.read_text().replace("# swarmc:end", f"{MINE} 5\n# swarmc:end")
+    place.write_text(text, encoding="utf-8")
+    (out / "t/rise/notes").write_text(f"{MINE} 6\n", encoding="utf-8")
+    return out
+
+
+def tree(out: Path) -> dict[str, bytes]:
+    """All files but the texts of generated ones, which have two generations."""
+    return {
+        path.relative_to(out).as_posix(): path.read_bytes()
+        for path in sorted(out.rglob("*"))
+        if path.is_file() and path.name != ".swarmdsl.texts"
+    }
+
+
+def lines(out: Path) -> set[str]:
+    """The lines of the user, wherever they are, but for what waits to be put in its place."""
+    return {
+        line
+        for path, content in tree(out).items()
+        for line in content.decode(errors="replace").splitlines()
+        if line.startswith(MINE) and ".swarmc-" not in path
+    }
+
+
+@pytest.fixture(scope="module")
+def kills(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """The folder as it is before each file operation of a build: so a kill leaves it there.
+
+    It is copied in a process of its own, which the hook for that ends with.
+    """
+    folder = tmp_path_factory.mktemp("kills")
+    out, copying, number = edited(folder / "out"), False, 0
+
+    def copy(event: str, arguments: tuple[object, ...]) -> None:
+        nonlocal copying, number
+        writes = event == "open" and isinstance(arguments[2], int) and arguments[2] & os.O_CREAT
+        if not copying and (event in CHANGES or writes):
+            copying = True
+            shutil.copytree(out, folder / f"{number:03}")
+            copying, number = False, number + 1
+
+    child = os.fork()
+    if child == 0:
+        sys.addaudithook(copy)
+        build(out, AFTER, renames=RENAMES)
+        os._exit(0)
+    assert os.waitpid(child, 0)[1] == 0
+    states = sorted(folder.glob("[0-9]*"))
+    assert len(states) > 40
+    return states
+
+
+def test_a_killed_rename_goes_on(kills: list[Path], tmp_path: Path) -> None:
+    """With the same command, or without the rename as soon as anything has moved."""
+    for name in ("never", "whole"):
+        edited(tmp_path / name)
+    build(tmp_path / "whole", AFTER, renames=RENAMES)
+    build(tmp_path / "never", AFTER)
+    whole, never = tree(tmp_path / "whole"), tree(tmp_path / "never")
+    mine = lines(tmp_path / "whole")
+    assert len(mine) == 7
+    states = set()
+    for state in kills:
+        assert lines(state) == mine, state
+        moved = any(path.endswith(("/climb.py", "/deep/er/one")) for path in tree(state))
+        plain, same = tmp_path / f"plain{state.name}", tmp_path / f"same{state.name}"
+        for out in (plain, same):
+            shutil.copytree(state, out)
+        build(plain, AFTER)
+        now = tree(plain)
+        assert now in (whole, never), state
+        assert now == whole or not moved
+        states.add(now == whole)
+        found = build(same, AFTER, renames=RENAMES)
+        assert "bad-rename" not in {each.name for each in found}, state
+        assert tree(same) == whole, state
+    assert states == {False, True}
+
+
+def test_what_is_edited_after_a_kill_stays(kills: list[Path], tmp_path: Path) -> None:
+    for state in kills[::2]:
+        out = shutil.copytree(state, tmp_path / state.name)
+        late = 0
+        for path in tree(out):
+            if "/" in path and ".swarmc-" not in path:
+                late += 1
+                with (out / path).open("a", encoding="utf-8") as file:
+                    file.write(f"{MINE}, late {late}\n")
+        there = lines(out)
+        for _ in range(2):
+            build(out, AFTER)
+            assert lines(out) == there, state
+
+
+def test_what_is_half_written_is_not_put_in_place(kills: list[Path], tmp_path: Path) -> None:
+    """As after a loss of power, which takes away what was not on the disk yet."""
+    for state in kills[::2]:
+        out = shutil.copytree(state, tmp_path / state.name)
+        mine = lines(out)
+        for path in out.rglob(".swarmc-*"):
+            path.write_bytes(path.read_bytes()[:3])
+        build(out, AFTER)
+        assert lines(out) == mine, state
+        assert list(out.rglob(".swarmc-*")) == []
+
+
+def test_a_clean_completes_what_was_interrupted_first(kills: list[Path], tmp_path: Path) -> None:
+    for state in kills[::2]:
+        out = shutil.copytree(state, tmp_path / state.name)
+        mine = lines(out)
+        clean(out, (), Diagnostics(), dry=False)
+        assert lines(out) == mine, state
+        assert list(out.rglob(".swarmc-*")) == []
+        assert not (out / journal.NAME).exists()
+
+
+def test_what_writes_nothing_says_that_a_build_was_interrupted(
+    kills: list[Path], tmp_path: Path
+) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(next(each for each in kills if (each / "t/deep/er/one").exists()), out)
+    before = tree(out)
+    for how in ("check", "dry"):
+        (found,) = build(out, AFTER, **{how: True})
+        assert found.name == "interrupted-build"
+    assert clean(out, (), Diagnostics(), dry=True) is None
+    assert tree(out) == before
+    build(out, AFTER)
+    assert {each.name for each in build(out, AFTER, dry=True)} == {"edited-output"}
+
+
+@pytest.mark.parametrize("content", ["", "{", "[]", '{"steps": [], "renames": []}', '{"steps": 3}'])
+def test_a_journal_that_is_none_goes(tmp_path: Path, content: str) -> None:
+    build(tmp_path, BEFORE)
+    before = tree(tmp_path)
+    (tmp_path / journal.NAME).write_text(content, encoding="utf-8")
+
+    assert build(tmp_path, BEFORE) == []
+    assert tree(tmp_path) == before
+
+
+@pytest.mark.parametrize("path", ["../victim", "t/link/victim", "/victim", None])
+@pytest.mark.parametrize("field", ["path", "staged", "source"])
+def test_a_journal_cannot_change_files_outside(
+    tmp_path: Path, path: str | None, field: str
+) -> None:
+    out, victim = tmp_path / "out", tmp_path / "victim"
+    build(out, BEFORE)
+    victim.write_text("1", encoding="utf-8")
+    (out / "t/link").symlink_to(tmp_path)
+    one = journal.fingerprint(b"1")
+    step = {"path": "t/gone", "before": one, "after": one, "staged": "t/s", "source": "t/x"}
+    step |= {"of_source": one, field: str(victim) if path == "/victim" else path}
+    listed = journal.Step(".swarmdsl.json", None, one, "t/listed")
+    text = journal.to_bytes(journal.Journal((journal.Step(**step),), listed))  # type: ignore[arg-type]
+    (out / journal.NAME).write_bytes(text)
+    (out / "t/listed").write_text("1", encoding="utf-8")
+
+    assert (journal.read(Disk(out)) is None) == (path is not None or field == "path")
+    assert build(out, BEFORE) == []
+    assert victim.read_text() == "1"
+    assert json.loads((out / ".swarmdsl.json").read_text())["files"]
