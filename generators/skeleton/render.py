@@ -12,6 +12,7 @@ from jinja2 import Environment
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.xml import legal
 from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
@@ -19,7 +20,6 @@ from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
 from swarmdsl.templates import environment, fill
-from swarmdsl.xml import legal
 
 from .languages import language
 from .nodes import TARGET, Node, nodes

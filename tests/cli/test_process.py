@@ -40,8 +40,7 @@ HEAVY = (
             LIBRARIES,
         ),
         (["build", "examples/minimal", "-t", "adf", "-o", "OUT"], set()),
-        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], set()),
-        (["build", "examples/minimal", "-t", "smach", "-o", "OUT"], {"jinja2"}),
+        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], {"lxml"}),
     ],
 )
 def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypatch):

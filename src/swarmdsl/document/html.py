@@ -15,7 +15,7 @@ from markupsafe import Markup
 from swarmdsl.diagram.svg import style
 from swarmdsl.document.page import Code, Figure, Page
 from swarmdsl.document.prose import Prose
-from swarmdsl.xml import legal
+from swarmdsl.exchange.xml import legal
 
 _FILES = Path(__file__).resolve().parent / "files"
 

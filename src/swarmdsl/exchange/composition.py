@@ -9,15 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from lxml import etree
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value
 from swarmdsl.exchange.nodes import Given, behavior_nodes
 from swarmdsl.exchange.search import behaviours
+from swarmdsl.exchange.xml import add_comment, document, legal
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import Member, Role, Swarm, System, Type
 from swarmdsl.ir.types import INTEGERS, Primitive
 from swarmdsl.naming import snake_case
-from swarmdsl.xml import Element, document
 
 
 @dataclass(frozen=True)
@@ -42,9 +44,9 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
             yield OutputFile(f"{folder}/launch/{role.name}.launch", text, origin=role.origin)
 
 
-def _composition(swarm: Swarm, report: Diagnostics) -> Element:
-    root = Element("swarm", name=swarm.name)
-    root.add_comment(swarm.doc)
+def _composition(swarm: Swarm, report: Diagnostics) -> etree._Element:
+    root = etree.Element("swarm", name=swarm.name)
+    add_comment(root, swarm.doc)
     for role in swarm.roles:
         number = max(role.multiplicity.lower, 1)
         if role.multiplicity.upper != role.multiplicity.lower:
@@ -60,26 +62,26 @@ def _composition(swarm: Swarm, report: Diagnostics) -> Element:
             "launchFile": f"{role.name}.launch",
             "number": str(number),
         }
-        root.add("SwarmMember", attributes).text = role.doc
+        etree.SubElement(root, "SwarmMember", attributes).text = legal(role.doc) or None
     return root
 
 
 def _launch(
     role: Role, member: Member, system: System, package: str, report: Diagnostics
-) -> Element:
+) -> etree._Element:
     """A node for the behaviour of one member and for each of its parts that has one."""
-    root = Element("launch")
-    root.add_comment(role.doc)
-    root.add("arg", name="id", default="0", doc="which one of the role it is")
-    group = root.add("group", ns=f"{role.name}_$(arg id)")
+    root = etree.Element("launch")
+    add_comment(root, role.doc)
+    etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
+    group = etree.SubElement(root, "group", ns=f"{role.name}_$(arg id)")
     for node in behavior_nodes(member, system):
         type_ = snake_case(node.machine.name)
         attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
-        _add_params(group.add("node", attributes), node.params, report)
+        _add_params(etree.SubElement(group, "node", attributes), node.params, report)
     return root
 
 
-def _add_params(node: Element, params: tuple[Given, ...], report: Diagnostics) -> None:
+def _add_params(node: etree._Element, params: tuple[Given, ...], report: Diagnostics) -> None:
     """The params that have a value when the model is compiled."""
     for given in params:
         if isinstance(given.value, str) and "$(" in given.value:
@@ -92,7 +94,7 @@ def _add_params(node: Element, params: tuple[Given, ...], report: Diagnostics) -
             )
         elif given.value is not None:
             type_, text = _kind(given.param.type), _text(given.value)
-            node.add("param", name=given.param.name, type=type_, value=text)
+            etree.SubElement(node, "param", name=given.param.name, type=type_, value=text)
 
 
 def _kind(type_: Type) -> str:
@@ -104,7 +106,7 @@ def _kind(type_: Type) -> str:
 
 
 def _text(value: Value) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return str(value).lower() if isinstance(value, bool) else legal(str(value))
 
 
 generator = Generator(

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from lxml import etree
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.search import number
+from swarmdsl.exchange.xml import document, legal
 from swarmdsl.ir import Environment, Optimization, Swarm, System
 from swarmdsl.source import Span
-from swarmdsl.xml import DECLARATION, Element, document
 
 _DOCTYPE = '<!DOCTYPE icomponent SYSTEM "../IComponent.dtd">'
 
@@ -23,13 +25,13 @@ def problem(
 ) -> str:
     """The text of the file; `parameters` is how many are varied, `places` are properties."""
     package = swarm.name.lower()
-    root = Element("icomponent")
-    config = root.add("config")
+    root = etree.Element("icomponent")
+    config = etree.SubElement(root, "config")
     _add(config, "entry", "classdir", f"{swarm.name}/{package}")
     _add(config, "entry", "classname", f"{package}.{swarm.name}")
     _add(config, "entry", "name", swarm.name)
     _add(config, "entry", "description", swarm.doc)
-    properties = root.add("properties")
+    properties = etree.SubElement(root, "properties")
     environment = next((e for e in system.environments if e.name == swarm.environment), None)
     if environment is not None:
         _add_environment(properties, environment, report)
@@ -39,15 +41,18 @@ def problem(
     _add(properties, "propentry", "swarmMembers", _members(swarm, optimization, report))
     for name, place in places.items():
         _add(properties, "propentry", name, place)
-    requirements = root.add("requirements")
+    requirements = etree.SubElement(root, "requirements")
     _add(requirements, "reqentry", "inputnumber", 0)
     _add(requirements, "reqentry", "outputnumber", parameters)
     _add(requirements, "reqentry", "minimumCandidates", 1)
     _add(requirements, "reqentry", "maximumCandidates", 1)
-    return document(root, f"{DECLARATION}\n{_DOCTYPE}")
+    declaration, rest = document(root).split("\n", 1)
+    return f"{declaration}\n{_DOCTYPE}\n{rest}"
 
 
-def _add_environment(properties: Element, environment: Environment, report: Diagnostics) -> None:
+def _add_environment(
+    properties: etree._Element, environment: Environment, report: Diagnostics
+) -> None:
     if environment.world is not None:
         _add(properties, "propentry", "environment", environment.world)
     if environment.size is not None:
@@ -68,9 +73,9 @@ def _members(swarm: Swarm, optimization: Optimization, report: Diagnostics) -> i
     return total
 
 
-def _add(parent: Element, tag: str, key: str, value: str | int) -> None:
+def _add(parent: etree._Element, tag: str, key: str, value: str | int) -> None:
     kind = "INT" if isinstance(value, int) else "STRING"
-    parent.add(tag, {"key": key, "type": kind, "value": str(value)})
+    etree.SubElement(parent, tag, {"key": key, "type": kind, "value": legal(str(value))})
 
 
 def _report(what: str, at: Span | None, report: Diagnostics, note: str) -> None:

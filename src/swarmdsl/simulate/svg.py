@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from xml.sax.saxutils import escape, quoteattr
 
-from swarmdsl.xml import legal
+from swarmdsl.exchange.xml import legal
 
 _STYLE = """
 text { font: 11px "DejaVu Sans", Verdana, "Helvetica Neue", Arial, sans-serif; fill: #1f2430 }

@@ -6,36 +6,41 @@ from collections.abc import Iterable, Sequence
 from io import StringIO
 from pathlib import PurePath
 
+from lxml import etree
+
 from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.render import render
 from swarmdsl.simulate.trace import as_text
 from swarmdsl.testing.discovery import SUFFIX
 from swarmdsl.testing.outcome import FileOutcome
 from swarmdsl.testing.verdict import Verdict
-from swarmdsl.xml import Element, document
+
+# XML has no way to say them.
+_CONTROL = dict.fromkeys([*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF], "\ufffd")
 
 
 def junit(outcomes: Iterable[FileOutcome]) -> bytes:
     """The file, with a suite for each test file, and a case for each test."""
-    root = Element("testsuites", name="swarmc test")
+    root = etree.Element("testsuites", name="swarmc test")
     counts = [0, 0, 0]
     seconds = 0.0
     for outcome in outcomes:
         suite = _suite(outcome)
-        root.children.append(suite)
+        root.append(suite)
         for place, key in enumerate(("tests", "failures", "errors")):
-            counts[place] += int(suite.attributes[key])
+            counts[place] += int(suite.get(key, "0"))
         seconds += outcome.seconds
     for key, count in zip(("tests", "failures", "errors"), counts, strict=True):
-        root.attributes[key] = str(count)
-    root.attributes["time"] = f"{seconds:.3f}"
-    return document(root).encode()
+        root.set(key, str(count))
+    root.set("time", f"{seconds:.3f}")
+    etree.indent(root)
+    return etree.tostring(root, xml_declaration=True, encoding="UTF-8") + b"\n"
 
 
-def _suite(outcome: FileOutcome) -> Element:
-    name = outcome.path.as_posix()
+def _suite(outcome: FileOutcome) -> etree._Element:
+    name = _text(outcome.path.as_posix())
     errors = 0 if outcome.read else 1
-    suite = Element(
+    suite = etree.Element(
         "testsuite",
         name=name,
         tests=str(len(outcome.verdicts) + errors),
@@ -46,26 +51,29 @@ def _suite(outcome: FileOutcome) -> Element:
     )
     class_name = _class_name(outcome.path)
     if errors:
-        case = suite.add("testcase", name=name, classname=class_name, time="0.000")
-        error = case.add("error", message=_message(outcome.problems), type="error")
-        error.text = _rendered(outcome.problems)
+        case = etree.SubElement(suite, "testcase", name=name, classname=class_name, time="0.000")
+        error = etree.SubElement(case, "error", message=_message(outcome.problems), type="error")
+        error.text = _text(_rendered(outcome.problems))
     for verdict, found in outcome.verdicts:
-        case = suite.add(
+        case = etree.SubElement(
+            suite,
             "testcase",
-            name=verdict.case.name,
+            name=_text(verdict.case.name),
             classname=class_name,
             time=f"{verdict.seconds:.3f}",
         )
         if not verdict.passed:
-            failure = case.add("failure", message=_message(found), type=found[-1].name)
-            failure.text = _rendered(found) + _last(verdict)
+            failure = etree.SubElement(
+                case, "failure", message=_message(found), type=found[-1].name
+            )
+            failure.text = _text(_rendered(found) + _last(verdict))
     return suite
 
 
 def _class_name(path: PurePath) -> str:
     """The path with dots, as classes of Java have it: `examples.storage.shift`."""
     parts = [part for part in path.parts if part not in ("..", ".", path.anchor)]
-    return ".".join([*parts[:-1], parts[-1].removesuffix(SUFFIX)])
+    return _text(".".join([*parts[:-1], parts[-1].removesuffix(SUFFIX)]))
 
 
 def _rendered(found: Sequence[Diagnostic]) -> str:
@@ -79,4 +87,8 @@ def _last(verdict: Verdict) -> str:
 
 
 def _message(found: Sequence[Diagnostic]) -> str:
-    return found[-1].message if found else "the model has errors"
+    return _text(found[-1].message if found else "the model has errors")
+
+
+def _text(text: str) -> str:
+    return text.translate(_CONTROL)

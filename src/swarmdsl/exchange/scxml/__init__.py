@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 from swarmdsl.exchange.scxml.profile import HELP
+from swarmdsl.exchange.xml import Places, document
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.xml import document
 
 PROFILES = ("both", "portable", "cpswarm")
 
@@ -30,7 +30,8 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
 
     for machine in system.machines:
         if options.profile != "cpswarm":
-            text = document(portable(machine, system))
+            places: Places = {}
+            text = document(portable(machine, system, places), places)
             yield OutputFile(f"{machine.name}.scxml", text, origin=machine.origin)
         if options.profile != "portable":
             yield from _in_dialect(machine, system, options, report)
@@ -42,10 +43,11 @@ def _in_dialect(
     from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
 
     found = Diagnostics()
-    tree = cpswarm(machine, system, found)
+    places: Places = {}
+    tree = cpswarm(machine, system, found, places)
     if tree is not None:
         report.include(found)
-        yield OutputFile(file_name(machine), document(tree), origin=machine.origin)
+        yield OutputFile(file_name(machine), document(tree, places), origin=machine.origin)
     elif options.profile == "cpswarm":
         report.include(found)
     else:

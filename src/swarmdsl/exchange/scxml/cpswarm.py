@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
+from lxml import etree
+
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.scxml.calls import Call, call_of
 from swarmdsl.exchange.scxml.profile import in_profile, without_first_values
@@ -22,12 +24,12 @@ from swarmdsl.exchange.scxml.threads import (
     shape,
 )
 from swarmdsl.exchange.scxml.userdata import missing
-from swarmdsl.exchange.scxml.xml import SCXML
+from swarmdsl.exchange.scxml.xml import SCXML, add, add_text, root
+from swarmdsl.exchange.xml import Places, add_comment
 from swarmdsl.features import used_features
 from swarmdsl.generator import Feature
 from swarmdsl.ir import Activity, Event, Named, Policy, State, StateMachine, System
 from swarmdsl.source import Span
-from swarmdsl.xml import Element
 
 CPSWARM = "http://my.custom-actions.domain/cpswarm/CUSTOM"
 
@@ -46,31 +48,37 @@ _UNSUPPORTED = {
 }
 
 
-def cpswarm(machine: StateMachine, system: System, report: Diagnostics) -> Element | None:
-    """The document of a machine; None when the dialect cannot express it, which is reported."""
+def cpswarm(
+    machine: StateMachine, system: System, report: Diagnostics, places: Places
+) -> etree._Element | None:
+    """The document of a machine; None when the dialect cannot express it, which is reported.
+
+    `places` gets those that its elements come from.
+    """
     found = Diagnostics()
     written = without_first_values(machine)
     for feature, origin in used_features(replace(system, machines=(written,))):
         if feature in _UNSUPPORTED:
             _refuse(found, feature.value, origin)
     if not found.has_errors:
-        document = _document(machine, system, found)
+        document = _document(machine, system, found, places)
     report.include(in_profile(machine, found))
     return None if found.has_errors else document
 
 
-def _document(machine: StateMachine, system: System, report: Diagnostics) -> Element:
+def _document(
+    machine: StateMachine, system: System, report: Diagnostics, places: Places
+) -> etree._Element:
     shaped = shape(machine, report)
-    writer = _Writer(machine, system, shaped, report)
+    writer = _Writer(machine, system, shaped, report, places)
     # SMACH starts with the first state; so does the list of elements.
-    document = Element(
-        "scxml",
-        {"xmlns": SCXML, "xmlns:cpswarm": CPSWARM},
+    document = root(
+        {None: SCXML, "cpswarm": CPSWARM},
         version="1.0",
         initial=writer.entries.get(machine.initial),
         name=machine.name,
     )
-    document.add_comment(machine.doc)
+    add_comment(document, machine.doc)
     for vertex in shaped:
         writer.add_vertex(document, vertex)
     for variable, what in missing(machine, shaped):
@@ -106,8 +114,10 @@ class _Writer:
         system: System,
         shaped: Iterable[Vertex],
         report: Diagnostics,
+        places: Places,
     ) -> None:
         self.machine = machine
+        self.places = places
         self.system = system
         self.report = report
         self.ids = _Ids()
@@ -124,16 +134,17 @@ class _Writer:
         for vertex in vertices:
             self.entries.setdefault(vertex.state.id, own[vertex.state.id, vertex.suffix])
 
-    def add_vertex(self, parent: Element, vertex: Vertex) -> None:
+    def add_vertex(self, parent: etree._Element, vertex: Vertex) -> None:
         """Add an element and those in it."""
         state = vertex.state
-        element = parent.add(
+        element = add(
+            parent,
             "parallel" if vertex.parallel else "state",
             id=self.own[state.id, vertex.suffix],
         )
-        element.origin = state.origin
+        self.places[element] = state.origin
         if self.own[state.id, vertex.suffix] == self.entries[state.id]:
-            element.add_comment(state.doc)
+            add_comment(element, state.doc)
         if not vertex.children and state.activity is not None:
             self._add_call(element, state, state.activity)
         for child in vertex.children:
@@ -142,20 +153,20 @@ class _Writer:
             else:
                 self.add_vertex(element, child)
         for event, target in vertex.transitions:
-            element.add("transition", event=event, target=self.entries[target])
+            add(element, "transition", event=event, target=self.entries[target])
 
-    def _add_monitor(self, parent: Element, monitor: Monitor) -> None:
+    def _add_monitor(self, parent: etree._Element, monitor: Monitor) -> None:
         event = self.system.event(monitor.event)
         self._check_event(event)
         name = event.name[0].upper() + event.name[1:]
         identifier = self.ids.new(f"{name}Monitoring", f"{monitor.state.name}{name}Monitoring")
-        element = parent.add("state", id=identifier)
-        element.origin = event.origin
-        invoked = element.add("datamodel").add("data", id="invoke")
-        body = invoked.add("rosmonitor")
-        body.add("topic").text = self._quotable(event.incoming_topic, "a topic", event.origin)
-        body.add("msg").text = str(event.type)
-        element.add("invoke", type="ROS_MONITOR")
+        element = add(parent, "state", id=identifier)
+        self.places[element] = event.origin
+        invoked = add(add(element, "datamodel"), "data", id="invoke")
+        body = add(invoked, "rosmonitor")
+        add_text(body, "topic", self._quotable(event.incoming_topic, "a topic", event.origin))
+        add_text(body, "msg", str(event.type))
+        add(element, "invoke", type="ROS_MONITOR")
 
     def _check_event(self, event: Event) -> None:
         name = event_name(event.name)
@@ -165,35 +176,35 @@ class _Writer:
         if not isinstance(event.type, Named):
             _refuse(self.report, f"an event of type `{event.type}`", event.origin)
 
-    def _add_call(self, element: Element, state: State, activity: Activity) -> None:
+    def _add_call(self, element: etree._Element, state: State, activity: Activity) -> None:
         call = call_of(activity, self.machine, self.system)
         self._check_call(state, activity, call)
         communication = call.function.communication
-        element.add_comment(activity.doc)
-        model = element.add("datamodel")
+        add_comment(element, activity.doc)
+        model = add(element, "datamodel")
         if call.is_action and any(port.direction == "in" for port in call.function.ports):
             # Asks for a skeleton. The generator fails at a function without inputs, and
             # makes an action server of a service.
-            model.add("data", id="adf").add("name").text = call.function.name
-        invoked = model.add("data", id="invoke")
-        body = invoked.add("rosaction" if call.is_action else "rosservice")
+            add_text(add(model, "data", id="adf"), "name", call.function.name)
+        invoked = add(model, "data", id="invoke")
+        body = add(invoked, "rosaction" if call.is_action else "rosservice")
         name = self._quotable(communication.name, "the name of a server", communication.origin)
-        body.add("name").text = name
-        body.add("action" if call.is_action else "srv").text = str(communication.type)
-        goal = body.add("goal" if call.is_action else "request", type=call.goal.value)
+        add_text(body, "name", name)
+        add_text(body, "action" if call.is_action else "srv", str(communication.type))
+        goal = add(body, "goal" if call.is_action else "request", type=call.goal.value)
         tag = "param" if call.goal is Policy.FIXED else "var"
         for item in call.goal_items:
-            goal.add(tag).text = item
-        result = body.add("result" if call.is_action else "response", type=call.result.value)
+            add_text(goal, tag, item)
+        result = add(body, "result" if call.is_action else "response", type=call.result.value)
         for field in call.result_fields:
-            result.add("var").text = field
+            add_text(result, "var", field)
         if call.mappings:
-            mappings = invoked.add("mappings")
+            mappings = add(invoked, "mappings")
             for field, key in call.mappings:
-                pair = mappings.add("map")
-                pair.add("x").text = field
-                pair.add("y").text = key
-        element.add("invoke", type="ROS_ACTION" if call.is_action else "ROS_SERVICE")
+                pair = add(mappings, "map")
+                add_text(pair, "x", field)
+                add_text(pair, "y", key)
+        add(element, "invoke", type="ROS_ACTION" if call.is_action else "ROS_SERVICE")
 
     def _check_call(self, state: State, activity: Activity, call: Call) -> None:
         for result in activity.results:

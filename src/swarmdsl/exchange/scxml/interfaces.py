@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from lxml import etree
+
 from swarmdsl.exchange.scxml.ecmascript import dialect
 from swarmdsl.exchange.scxml.xml import add_doc, add_payload
 from swarmdsl.ir import Action, Array, Field, Interface, Message, Service, System, Type
 from swarmdsl.translate import translate
-from swarmdsl.xml import Element
 
 
-def describe_interfaces(root: Element, types: Iterable[Type], system: System) -> None:
+def describe_interfaces(root: etree._Element, types: Iterable[Type], system: System) -> None:
     """Describe those that the model describes, and those that their fields are made of."""
     known: dict[Type, Interface] = {each.type: each for each in system.interfaces}
     used: set[Type] = set()
@@ -39,10 +40,9 @@ def _parts(interface: Interface) -> Iterator[tuple[str, tuple[Field, ...]]]:
             yield from (("goal", goal), ("result", result), ("feedback", feedback))
 
 
-def _describe(root: Element, interface: Interface) -> None:
+def _describe(root: etree._Element, interface: Interface) -> None:
     element = add_payload(
-        root,
-        type(interface).__name__.lower(),
+        *(root, type(interface).__name__.lower()),
         type=str(interface.type),
         external="true" if interface.external else "false",
     )
@@ -50,8 +50,7 @@ def _describe(root: Element, interface: Interface) -> None:
     if isinstance(interface, Message):
         for constant in interface.constants:
             given = add_payload(
-                element,
-                "constant",
+                *(element, "constant"),
                 name=constant.name,
                 type=str(constant.type),
                 value=translate(constant.value, dialect({})),

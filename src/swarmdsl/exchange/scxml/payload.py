@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from lxml import etree
+
 from swarmdsl.exchange.constants import params_by_name
 from swarmdsl.exchange.policy import goal_policy, result_policy
 from swarmdsl.exchange.scxml.effects import effects_of
@@ -28,11 +30,10 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.docs import Docs
 from swarmdsl.translate import Dialect, translate
-from swarmdsl.xml import Element
 
 
 def describe_machine(
-    root: Element, machine: StateMachine, system: System, data: Mapping[str, str]
+    root: etree._Element, machine: StateMachine, system: System, data: Mapping[str, str]
 ) -> None:
     """Say of the machine, and of the events and functions that it uses, what SCXML cannot."""
     add_payload(root, "model", package=system.name)
@@ -73,8 +74,7 @@ def describe_machine(
             types.append(item.type)
             unset = isinstance(item, Variable) and item.initial is None
             element = add_payload(
-                root,
-                tag,
+                *(root, tag),
                 name=item.name,
                 type=str(item.type),
                 location=data[item.name],
@@ -85,11 +85,13 @@ def describe_machine(
     describe_interfaces(root, types, system)
 
 
-def describe_state(element: Element, state: State, machine: StateMachine, dialect: Dialect) -> None:
+def describe_state(
+    element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
+) -> None:
     """Say of a state what SCXML cannot."""
     add_doc(element, state.doc)
     _add_initial(element, state.docs)
-    name = state.name if state.name != element.attributes["id"] else None
+    name = state.name if state.name != element.get("id") else None
     kind = state.kind.value if state.kind is StateKind.CHOICE else None
     if name or kind:
         # Not called `state`: there are engines that do not look at namespaces.
@@ -100,7 +102,7 @@ def describe_state(element: Element, state: State, machine: StateMachine, dialec
         _activity(element, state.activity, params_by_name(machine.params), dialect)
 
 
-def _add_initial(parent: Element, docs: Docs) -> None:
+def _add_initial(parent: etree._Element, docs: Docs) -> None:
     """What is said of the first state; not called `initial`, as above."""
     text = doc_of(docs, "initial")
     if text:
@@ -108,7 +110,7 @@ def _add_initial(parent: Element, docs: Docs) -> None:
 
 
 def _activity(
-    parent: Element, activity: Activity, params: Mapping[str, Param], dialect: Dialect
+    parent: etree._Element, activity: Activity, params: Mapping[str, Param], dialect: Dialect
 ) -> None:
     element = add_payload(parent, "activity", function=activity.function)
     add_doc(element, activity.doc)

@@ -11,12 +11,15 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
+from lxml import etree
+
 from swarmdsl.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
 from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.exchange.scxml.inward import inward, region_entered
 from swarmdsl.exchange.scxml.payload import describe_machine, describe_state
-from swarmdsl.exchange.scxml.xml import NAMESPACES
+from swarmdsl.exchange.scxml.xml import PAYLOAD, SCXML, add, root
+from swarmdsl.exchange.xml import Places, add_comment
 from swarmdsl.ir import (
     Assignment,
     Effect,
@@ -31,7 +34,6 @@ from swarmdsl.ir import (
     doc_of,
 )
 from swarmdsl.translate import Dialect, translate
-from swarmdsl.xml import Element
 
 # The type of a <send> that leaves the machine: it is the business of the host.
 SEND_TYPE = "urn:swarmdsl:swarm"
@@ -43,42 +45,46 @@ _TAGS = {
 }
 
 
-def portable(machine: StateMachine, system: System) -> Element:
-    """The document of a machine."""
+def portable(machine: StateMachine, system: System, places: Places | None = None) -> etree._Element:
+    """The document of a machine; `places` gets those that its elements come from."""
+    places = {} if places is None else places
     data = data_ids(machine)
     ids = state_ids(machine, set(data.values()))
-    document = Element(
-        "scxml",
-        NAMESPACES,
+    document = root(
+        {None: SCXML, "sw": PAYLOAD},
         name=machine.name,
         version="1.0",
         datamodel="ecmascript" if needs_data(machine) else "null",
         initial=ids[machine.initial],
     )
     describe_machine(document, machine, system, data)
-    _add_data(document, machine, system, data)
-    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids))
+    _add_data(document, machine, system, data, places)
+    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids), places)
     for state in machine.states:
         writer.add_state(document, state)
     return document
 
 
 def _add_data(
-    document: Element, machine: StateMachine, system: System, data: Mapping[str, str]
+    document: etree._Element,
+    machine: StateMachine,
+    system: System,
+    data: Mapping[str, str],
+    places: Places,
 ) -> None:
     if not data:
         return
-    model = document.add("datamodel")
+    model = add(document, "datamodel")
     values = dialect(data)
     for param in machine.params:
         given = translate(param.default, values) if param.default is not None else None
-        model.add("data", id=data[param.name], expr=given).origin = param.origin
+        places[add(model, "data", id=data[param.name], expr=given)] = param.origin
     for variable in machine.variables:
         if variable.initial is not None:
             first = translate(variable.initial, values)
         else:
             first = first_value(variable.type, system)
-        model.add("data", id=data[variable.name], expr=first).origin = variable.origin
+        places[add(model, "data", id=data[variable.name], expr=first)] = variable.origin
 
 
 @dataclass(frozen=True)
@@ -87,43 +93,45 @@ class _StateWriter:
     ids: Mapping[str, str]
     dialect: Dialect
     events: Events
+    places: Places
 
-    def add_state(self, parent: Element, state: State, around: State | None = None) -> None:
+    def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
         """Add a state and what is in it."""
         depth = ("deep" if state.deep else "shallow") if state.kind is StateKind.HISTORY else None
-        element = parent.add(
+        element = add(
+            parent,
             _TAGS.get(state.kind, "state"),
             id=self.ids[state.id],
             initial=self.ids[state.initial] if state.initial is not None else None,
             type=depth,
         )
-        element.origin = state.origin
+        self.places[element] = state.origin
         describe_state(element, state, self.machine, self.dialect)
         if (
             state.kind is StateKind.FINAL
             and around is not None
             and around.id in self.events.told_apart
         ):
-            element.add("onentry").add("raise", event=self.events.final(state.id))
+            add(add(element, "onentry"), "raise", event=self.events.final(state.id))
         if state.entry:
-            element.add_comment(doc_of(state.docs, "entry"))
-            self._add_effects(element.add("onentry"), state.entry)
+            add_comment(element, doc_of(state.docs, "entry"))
+            self._add_effects(add(element, "onentry"), state.entry)
         self._add_timers(element, state)
         if state.exit:
-            element.add_comment(doc_of(state.docs, "exit"))
-            self._add_effects(element.add("onexit"), state.exit)
+            add_comment(element, doc_of(state.docs, "exit"))
+            self._add_effects(add(element, "onexit"), state.exit)
         self._add_transitions(element, state)
         if around is not None and around.kind is StateKind.PARALLEL:
             self._add_inward(element, state, around)
         for child in state.states:
             self.add_state(element, child, state)
 
-    def _add_timers(self, element: Element, state: State) -> None:
+    def _add_timers(self, element: etree._Element, state: State) -> None:
         waiting = delays(state)
         if not waiting:
             return
-        entry = element.add("onentry")
-        leave = element.add("onexit")
+        entry = add(element, "onentry")
+        leave = add(element, "onexit")
         for delay in waiting:
             event = self.events.timer(state, delay)
             # A time that is over before it begins is over at once, as in the other targets.
@@ -132,10 +140,10 @@ class _StateWriter:
             if isinstance(delay, Literal):
                 # Some engines take whole numbers only; none may fire too early.
                 given = {"delay": f"{math.ceil(delay.milliseconds)}ms"}
-            entry.add("send", event=event, id=event, **given)
-            leave.add("cancel", sendid=event)
+            add(entry, "send", event=event, id=event, **given)
+            add(leave, "cancel", sendid=event)
 
-    def _add_transitions(self, element: Element, state: State) -> None:
+    def _add_transitions(self, element: etree._Element, state: State) -> None:
         end = OutcomeTrigger(state.id, "succeeded")
         results = state.activity is not None and state.activity.results
         taken = [each for each in state.transitions if end in each.triggers]
@@ -144,8 +152,8 @@ class _StateWriter:
         first = first or self._is_left_with_effects(state)
         done = self.events.stored(state)
         if results and (first or not taken):
-            storing = element.add("transition", event=self.events.outcome(state, "succeeded"))
-            storing.add("raise", event=done)
+            storing = add(element, "transition", event=self.events.outcome(state, "succeeded"))
+            add(storing, "raise", event=done)
             self._add_results(storing, state)
         for transition in state.transitions:
             events = [
@@ -154,16 +162,16 @@ class _StateWriter:
                 for event in self.events.of_trigger(trigger, state)
             ]
             # No element: there, an engine would try to do what it does not know.
-            element.add_comment(transition.doc)
+            add_comment(element, transition.doc)
             if region_entered(transition, state) is not None:
                 # What it does stands in the region. Here it keeps those after it from being taken.
                 kept = self._add_transition(element, events, transition.guard)
-                kept.origin = transition.origin
+                self.places[kept] = transition.origin
                 continue
             added = self._add_transition(
                 element, events, transition.guard, transition.internal, transition.target
             )
-            added.origin = transition.origin
+            self.places[added] = transition.origin
             if results and not first and end in transition.triggers:
                 self._add_results(added, state)
             self._add_effects(added, transition.effects)
@@ -172,22 +180,23 @@ class _StateWriter:
         around = (each for each in self.machine.walk() if f"{state.id}.".startswith(f"{each.id}."))
         return any(each.exit for each in around)
 
-    def _add_inward(self, element: Element, region: State, around: State) -> None:
+    def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
         for event, guard, transition in inward(region, around, self.events):
             events = [event] if event else []
             added = self._add_transition(element, events, guard, True, transition.target)
-            added.origin = transition.origin
+            self.places[added] = transition.origin
             self._add_effects(added, transition.effects)
 
     def _add_transition(
         self,
-        element: Element,
+        element: etree._Element,
         events: list[str],
         guard: Expression | None,
         internal: bool = False,
         target: str | None = None,
-    ) -> Element:
-        return element.add(
+    ) -> etree._Element:
+        return add(
+            element,
             "transition",
             event=" ".join(dict.fromkeys(events)) or None,
             cond=translate(guard, self.dialect) if guard is not None else None,
@@ -195,23 +204,23 @@ class _StateWriter:
             target=self.ids[target] if target is not None else None,
         )
 
-    def _add_results(self, element: Element, state: State) -> None:
+    def _add_results(self, element: etree._Element, state: State) -> None:
         assert state.activity is not None
         for mapping in state.activity.results:
             location = self._location(mapping.variable, mapping.path)
             # Not copied: a result is in nobody else's hands.
-            element.add("assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
+            add(element, "assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
 
-    def _add_effects(self, element: Element, effects: Iterable[Effect]) -> None:
+    def _add_effects(self, element: etree._Element, effects: Iterable[Effect]) -> None:
         for effect in effects:
             match effect:
                 case Assignment(variable=variable, path=path, value=value):
                     location = self._location(variable, path)
-                    element.add("assign", location=location, expr=stored(value, self.dialect))
+                    add(element, "assign", location=location, expr=stored(value, self.dialect))
                 case Send(event=event, arguments=arguments):
-                    sending = element.add("send", event=event, type=SEND_TYPE)
+                    sending = add(element, "send", event=event, type=SEND_TYPE)
                     for name, value in arguments:
-                        sending.add("param", name=name, expr=stored(value, self.dialect))
+                        add(sending, "param", name=name, expr=stored(value, self.dialect))
 
     def _location(self, variable: str, path: tuple[str, ...]) -> str:
         return ".".join((self.dialect.variable(variable), *path))
