@@ -28,13 +28,14 @@ from swarmdsl.used import used_declarations
 
 _Kind = TypeVar("_Kind", ir.Function, ir.Event)
 _Maker = Callable[[Element, Book], Entry]
+_COMPONENTS = ("sensor", "actuator", "controller", "virtual component")
 _SECTIONS: tuple[tuple[str, str, tuple[str, ...], _Maker], ...] = (
     ("section-swarms", "Swarms", ("swarm",), architecture.swarm),
     ("section-members", "Members", ("member",), architecture.member),
     ("section-machines", "State machines", ("state machine",), behaviour.machine),
-    ("section-components", "Components", ("component",), architecture.component),
+    ("section-components", "Components", _COMPONENTS, architecture.component),
     ("section-functions", "Functions", ("function",), interfaces.function),
-    ("section-events", "Events", ("event",), interfaces.event),
+    ("section-events", "Events", ("event", "swarm event"), interfaces.event),
     ("section-messages", "Messages", ("message", "struct"), interfaces.interface),
     ("section-services", "Services", ("service",), interfaces.interface),
     ("section-actions", "Actions", ("action",), interfaces.interface),

@@ -91,7 +91,6 @@ def component(element: Element, book: Book) -> Entry:
     assert isinstance(node, Component)
     inherited = [book.elements.of(each) for base in lineage(node)[1:] for each in base.items]
     facts = [
-        ("kind", (node.kind,)),
         *_heritage(element, node, book),
         ("inherits", listed([each for each in inherited if each and each.kind == "operation"])),
         ("used by", book.used_by(element)),

@@ -15,6 +15,8 @@ from swarmdsl.scopes import KINDS, bare
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import (
     ActionType,
+    Component,
+    Event,
     Field,
     Node,
     Optimization,
@@ -97,8 +99,7 @@ class Elements:
         while anchor in self.anchors:
             number += 1
             anchor = f"{path}~{number}"
-        kind = bare(KINDS[type(node)]) if type(node) in KINDS else "optimization"
-        element = Element(anchor, path, name, kind, node, file, parent)
+        element = Element(anchor, path, name, _kind(node), node, file, parent)
         self.anchors[anchor] = self._of[node] = element
         for inner, prefix in _named(node):
             inner_name = str(inner.name)  # type: ignore[attr-defined]
@@ -112,6 +113,20 @@ def _name(node: TopLevel) -> str:
         # A keyword, so that no other element is called so.
         return f"optimize.{node.swarm.name.rpartition('.')[2]}"
     return str(node.name)  # type: ignore[attr-defined]
+
+
+def _kind(node: Node) -> str:
+    """What a person calls it, as precisely as the model says it."""
+    match node:
+        case Optimization():
+            return "optimization"
+        case Component(kind="virtual"):
+            return "virtual component"
+        case Component(kind=kind):
+            return kind
+        case Event(swarm=True):
+            return "swarm event"
+    return bare(KINDS[type(node)])
 
 
 def _named(node: Node) -> Iterator[tuple[Node, str]]:

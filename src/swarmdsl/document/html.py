@@ -10,13 +10,15 @@ from pathlib import Path
 from urllib.parse import quote
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from swarmdsl.diagram.svg import style
-from swarmdsl.document.page import Code, Figure, Page
+from swarmdsl.document.page import Cell, Code, Figure, Inline, Page
+from swarmdsl.document.page import Prose as Documentation
 from swarmdsl.document.prose import Prose
 from swarmdsl.exchange.xml import legal
 
+_BREAK = re.compile(r"(?<=[a-z])([./_])(?=\w)")
 _FILES = Path(__file__).resolve().parent / "files"
 
 
@@ -32,14 +34,12 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
     )
     environment.filters |= {
         "prose": prose.html,
-        "code": _code,
-        "href": _href,
-        "breakable": _breakable,
+        "cell": _Inline(prose).cell,
+        "code": code,
+        "href": href,
+        "breakable": breakable,
     }
-    environment.tests |= {
-        "code": lambda value: isinstance(value, Code),
-        "figure": lambda value: isinstance(value, Figure),
-    }
+    environment.tests["figure"] = lambda value: isinstance(value, Figure)
     script = (_FILES / "page.js").read_text(encoding="utf-8")
     text = environment.get_template("page.html.jinja").render(
         page=page,
@@ -50,19 +50,39 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
     return legal(text)
 
 
-def _href(anchor: str) -> str:
+class _Inline:
+    """What stands in a line as HTML. There is much of it: it is put together without templates."""
+
+    def __init__(self, prose: Prose) -> None:
+        self._prose = prose
+
+    def cell(self, cell: Cell) -> Markup:
+        """Words, code and documentation one after the other."""
+        return Markup("".join(map(self._one, cell)))
+
+    def _one(self, part: Inline) -> str:
+        match part:
+            case Code():
+                return str(code(part))
+            case Documentation():
+                return f'<span class="doc">{self._prose.html(part.text)}</span>'
+        return str(escape(part))
+
+
+def code(it: Code) -> Markup:
+    """Text of the model, with its links."""
+    parts = (
+        f'<a href="{href(anchor)}">{breakable(text)}</a>' if anchor else breakable(text)
+        for text, anchor in it.pieces
+    )
+    return Markup(f"<code>{''.join(parts)}</code>")
+
+
+def href(anchor: str) -> str:
+    """The address of an element, with nothing in it that HTML would read."""
     return f"#{quote(anchor)}"
 
 
-def _breakable(name: str) -> Markup:
+def breakable(name: str) -> Markup:
     """A name that may go on in the next line where a word of it ends."""
-    return Markup(re.sub(r"(?<=[a-z0-9])([./_])(?=\w)", r"\1<wbr>", str(Markup.escape(name))))
-
-
-def _code(code: Code) -> Markup:
-    """Text of the model, with its links."""
-    parts = [
-        Markup('<a href="{}">{}</a>').format(_href(anchor), text) if anchor else Markup.escape(text)
-        for text, anchor in code.pieces
-    ]
-    return Markup("<code>{}</code>").format(Markup("").join(parts))
+    return Markup(_BREAK.sub(r"\1<wbr>", str(escape(name))))

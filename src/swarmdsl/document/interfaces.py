@@ -103,7 +103,6 @@ def event(element: Element, book: Book) -> Entry:
     message = book.names.type(node.type.type)
     heard = incoming_topic(topic, node.swarm)
     facts: list[tuple[str, Cell]] = [
-        ("kind", ("between members of the swarm" if node.swarm else "of one robot",)),
         ("message", book.type(node.type, element)),
         ("sent on", (Code(((topic, None),)),)),
         ("heard on", (Code(((heard, None),)),) if heard != topic else ()),

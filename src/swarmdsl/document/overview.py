@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from swarmdsl.document.book import Book, link, listed
 from swarmdsl.document.elements import Element
-from swarmdsl.document.page import Cell, Code, Inline, Prose, Row, Table
+from swarmdsl.document.page import Cell, Code, Inline, Piece, Prose, Row, Table
 from swarmdsl.load import File
+from swarmdsl.syntax import Component, Event, Member
 
 
 def packages(book: Book) -> Table:
@@ -35,7 +36,7 @@ def events_matrix(book: Book) -> Table:
     for event in book.system.events:
         sent, handled = traffic.sent.get(event.name, {}), traffic.handled.get(event.name, {})
         element = book.elements.at(event.origin)
-        declared = element is not None and element.kind == "event"
+        declared = element is not None and isinstance(element.node, Event)
         if not (sent or handled or declared):
             continue
         head: Inline = Code(((f'monitor "{event.topic}"', None),))
@@ -47,5 +48,15 @@ def events_matrix(book: Book) -> Table:
             marks += ["handles"] if machine in handled else []
             cells.append((" and ".join(marks),) if marks else ())
         rows.append(Row(tuple(cells)))
-    columns: tuple[Inline, ...] = ("event", *map(link, machines))
+    columns: tuple[Inline, ...] = ("event", *(_run(machine, book) for machine in machines))
     return Table("Who sends and who handles which event", columns, tuple(rows), is_matrix=True)
+
+
+def _run(machine: Element, book: Book) -> Code:
+    """A state machine, and whose behaviour it is."""
+    owners = (each for each in book.names.users(machine) if each.parent is None)
+    whose = [each for each in owners if isinstance(each.node, (Member, Component))]
+    pieces: list[Piece] = [(machine.path, machine.anchor)]
+    for owner in whose:
+        pieces += [(" of " if len(pieces) == 1 else ", ", None), (owner.path, owner.anchor)]
+    return Code(tuple(pieces))

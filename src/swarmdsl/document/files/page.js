@@ -182,10 +182,10 @@
     paint(painted);
   });
 
-  // ---- what is wider than the page
-  for (const picture of document.querySelectorAll(".picture")) {
+  // ---- what is wider than the page, once it is seen
+  const fit = (picture) => {
     const svg = picture.querySelector("svg");
-    if (svg.width.baseVal.value <= svg.clientWidth + 1) continue;
+    if (svg.width.baseVal.value <= svg.clientWidth + 1) return;
     const button = document.createElement("button");
     button.type = "button";
     const name = () => (button.textContent = picture.classList.contains("whole") ? "Fit the page" : "Full size");
@@ -195,7 +195,14 @@
     });
     name();
     picture.parentElement.querySelector("figcaption").append(button);
-  }
-  for (const each of document.querySelectorAll(".scroll, .picture"))
-    if (each.scrollWidth > each.clientWidth) each.tabIndex = 0;
+  };
+  const seen = new IntersectionObserver((changes) => {
+    for (const { isIntersecting, target } of changes) {
+      if (!isIntersecting) continue;
+      seen.unobserve(target);
+      if (target.matches(".picture")) fit(target);
+      if (target.scrollWidth > target.clientWidth) target.tabIndex = 0;
+    }
+  });
+  for (const each of document.querySelectorAll(".scroll, .picture")) seen.observe(each);
 })();
