@@ -11,7 +11,9 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +29,27 @@ statemachine Work {
 }
 statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
 """
+NESTED = """package work
+statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
+endless statemachine Job {
+  initial Out
+  state Out {
+    initial Dig
+    state Dig { after 1 s -> Rest }
+    state Rest { after 1 s -> Home }
+  }
+  state Home { after 1 s -> Out }
+}
+member Digger { behavior Job }
+swarm Team { digger : Digger[2] }
+"""
 PATIENCE = 60
+
+
+def step(member: str, *states: str) -> str:
+    names = ("entered", "exited", "started", "cancelled", "sent")
+    line = {"t": 0, "member": member, "event": None, "configuration": states}
+    return json.dumps({**line, **{name: [] for name in names}}) + "\n"
 
 
 class Browser:
@@ -43,7 +65,21 @@ class Browser:
         return connection.getresponse()
 
     def picture(self, id_: str) -> Any:
-        return json.loads(self.get(f"/picture?{id_}").read())
+        return json.loads(self.get(f"/picture?id={id_}").read())
+
+    def post(self, path: str, body: str, headers: dict[str, str]) -> http.client.HTTPResponse:
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=PATIENCE)
+        connection.request("POST", path, body, headers)
+        return connection.getresponse()
+
+    def opened(self, place: object) -> Any:
+        answer = self.post("/open", json.dumps(place), {"Content-Type": "application/json"})
+        return json.loads(answer.read())
+
+    def leave(self) -> None:
+        """Hear nothing any more."""
+        assert self._events is not None
+        self._events.close()
 
     def told(self) -> Any:
         """The next news."""
@@ -65,9 +101,21 @@ def model(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def browser(model: Path) -> Iterator[Browser]:
-    command = [sys.executable, "-m", "swarmdsl", "preview", model.name]
+    with served(model) as browser:
+        yield browser
+
+
+@contextmanager
+def served(model: Path, *options: str) -> Iterator[Browser]:
+    command = [sys.executable, "-m", "swarmdsl", "preview", model.name, *options]
     process = subprocess.Popen(
-        command, cwd=model.parent, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
+        command,
+        cwd=model.parent,
+        # Where no editor is found.
+        env={**os.environ, "PATH": os.defpath},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
     )
     assert process.stdout is not None
     address = None
@@ -77,8 +125,8 @@ def browser(model: Path) -> Iterator[Browser]:
         address = re.search(r"http://127\.0\.0\.1:(\d+)/", line)
     yield Browser(int(address[1]))
     process.send_signal(signal.SIGINT)
-    process.communicate(timeout=PATIENCE)
-    assert process.returncode == 0
+    said, _ = process.communicate(timeout=PATIENCE)
+    assert process.returncode == 0, said
 
 
 def test_it_follows_the_text(browser: Browser, model: Path) -> None:
@@ -86,7 +134,8 @@ def test_it_follows_the_text(browser: Browser, model: Path) -> None:
         "titles": {
             "Work.statechart": "Work (state machine)",
             "Rest.statechart": "Rest (state machine)",
-        }
+        },
+        "runs": {"Work.statechart": [["Work", ""]], "Rest.statechart": [["Rest", ""]]},
     }
     drawn = browser.picture("Work.statechart")
     assert drawn["id"] == "Work.statechart"
@@ -103,6 +152,17 @@ def test_it_follows_the_text(browser: Browser, model: Path) -> None:
     model.write_text(MACHINE.replace("Work", "Job"), encoding="utf-8")
     assert "Job.statechart" in browser.told()["titles"]
     assert browser.picture("Work.statechart")["id"] == "Job.statechart", "the first of those there"
+
+
+def test_a_page_that_goes_takes_no_others_with_it(browser: Browser, model: Path) -> None:
+    browser.told()
+    gone = Browser(browser.port)
+    gone.told()
+    gone.leave()
+    # The first words to a page that is gone are still taken, the next ones are not.
+    for name in ("Done", "Ended", "Over"):
+        model.write_text(MACHINE.replace("Ready", name), encoding="utf-8")
+        assert "titles" in browser.told()
 
 
 def test_a_page_that_comes_while_the_text_is_broken_gets_both(
@@ -143,6 +203,7 @@ def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> No
         page.on("pageerror", lambda error: wrong.append(error))
         page.goto(f"http://127.0.0.1:{browser.port}/#Rest.statechart")
         expect = playwright.expect
+        expect.set_options(timeout=PATIENCE * 1000)
         picture = page.locator("#picture")
         expect(picture).to_contain_text("Nap")
         page.locator("#which").select_option("Work.statechart")
@@ -170,6 +231,85 @@ def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> No
             assert Path(download.value.path()).read_bytes().startswith(begins)
         chromium.close()
     assert wrong == []
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed")
+def test_states_fold_and_light_up(tmp_path: Path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
+    model.write_text(NESTED, encoding="utf-8")
+    places = tmp_path / "places.txt"
+    editor = tmp_path / "editor"
+    editor.write_text(f'#!/bin/sh\necho "$@" >> "{places}"\n', encoding="utf-8")
+    editor.chmod(0o755)
+    options = ["--follow", str(trace), "--editor", f"{editor} at {{line}}:{{column}} {{file}}"]
+    with served(model, *options) as browser, playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(
+            executable_path=shutil.which("chromium"), args=["--no-sandbox"]
+        )
+        page = chromium.new_page()
+        wrong: list[object] = []
+        page.on("pageerror", lambda error: wrong.append(error))
+        page.goto(f"http://127.0.0.1:{browser.port}/#Job.statechart")
+        expect = playwright.expect
+        expect.set_options(timeout=PATIENCE * 1000)
+        picture, fold = page.locator("#picture"), page.locator(".fold")
+        expect(picture).to_contain_text("Dig")
+        fold.click()
+        expect(picture).not_to_contain_text("Dig")
+        expect(picture).to_contain_text("Home")
+        # It stays folded over edits, and when the page is read again.
+        model.write_text(NESTED.replace("Home", "House"), encoding="utf-8")
+        expect(picture).to_contain_text("House")
+        expect(picture).not_to_contain_text("Dig")
+        page.reload()
+        expect(picture).to_contain_text("House")
+        expect(picture).not_to_contain_text("Dig")
+
+        active = picture.locator(".node.lit")
+        expect(active).to_have_count(0)
+        trace.write_text(
+            step("digger[0]", "Out.Dig") + step("digger[1]", "Out.Rest"), encoding="utf-8"
+        )
+        expect(active).to_have_count(1)
+        expect(active).to_have_attribute("data-id", "Out")
+        expect(picture.locator(".count")).to_contain_text("2")
+        fold.click()
+        expect(active).to_have_count(2)
+        expect(picture.locator(".around")).to_have_attribute("data-id", "Out")
+        who = page.locator("#who")
+        who.select_option("digger[1]")
+        expect(active).to_have_attribute("data-id", "Out.Rest")
+        with trace.open("a", encoding="utf-8") as file:
+            file.write(step("digger[1]", "House"))
+        expect(active).to_have_attribute("data-id", "House")
+        who.select_option("no lights")
+        expect(active).to_have_count(0)
+        who.select_option("all 2")
+        expect(active).to_have_count(2)
+
+        picture.get_by_text("Rest", exact=True).click()
+        deadline = time.monotonic() + PATIENCE
+        while not places.exists() or not places.read_text(encoding="utf-8"):
+            assert time.monotonic() < deadline
+            time.sleep(0.05)
+        assert places.read_text(encoding="utf-8") == f"at 8:11 {model}\n"
+        chromium.close()
+    assert wrong == []
+
+
+def test_only_the_page_opens_places_and_only_those_of_the_model(model: Path) -> None:
+    address = "cool-editor://{file}?{line}"
+    with served(model, "--editor", address) as browser:
+        browser.told()
+        assert browser.opened(f"{model}:4:9") == {"address": f"cool-editor://{model}?4"}
+        for place in ("/etc/passwd:1:1", f"{model}", "", 3, {"place": 1}):
+            assert "failed" in browser.opened(place)
+        form = {"Content-Type": "text/plain"}
+        assert browser.post("/open", f'"{model}:4:9"', form).status == 403
+        others = {"Content-Type": "application/json", "Host": f"example.org:{browser.port}"}
+        assert browser.post("/open", f'"{model}:4:9"', others).status == 403
+        assert browser.post("/picture", '""', {"Content-Type": "application/json"}).status == 403
 
 
 def test_a_port_that_is_taken(model: Path) -> None:

@@ -8,7 +8,7 @@ import { Preview } from "./preview.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
-import { simulate } from "./simulate.ts";
+import { follow, simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
 import type { Subject } from "./subject.ts";
 import { provideTasks } from "./tasks.ts";
@@ -34,6 +34,14 @@ export function activate(context: vscode.ExtensionContext): void {
     command("simulate", (file?: vscode.Uri | string, subject?: Subject) => {
       const uri = asked(file);
       return uri && simulate(started, uri, subject);
+    }),
+    command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Subject) => {
+      const uri = asked(file);
+      return uri && simulate(started, uri, subject, preview);
+    }),
+    command("followTrace", (file?: vscode.Uri | string) => {
+      const uri = asked(file);
+      return uri && follow(preview, uri);
     }),
     command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
       const uri = asked(file);

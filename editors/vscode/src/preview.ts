@@ -6,10 +6,11 @@ import * as vscode from "vscode";
 
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
+import { Trace } from "./trace.ts";
 
 /** What the page says. */
 interface Said {
-  readonly want?: string;
+  readonly want?: { readonly id: string; readonly folded: readonly string[] };
   readonly reveal?: string;
   readonly save?: { readonly name: string; readonly base64: string };
 }
@@ -22,7 +23,9 @@ const PAUSE = 150;
 export class Preview implements vscode.Disposable {
   private panel: vscode.WebviewPanel | undefined;
   private file: vscode.Uri | undefined;
-  private wanted: string | undefined;
+  private first: string | undefined; // what is shown when the page begins
+  private wanted: Said["want"];
+  private trace: Trace | undefined;
   private begins = false;
   private timer: NodeJS.Timeout | undefined;
   private readonly page: vscode.Uri;
@@ -43,12 +46,13 @@ export class Preview implements vscode.Disposable {
   /** Show the diagrams of a file's model, beside it; that of `subject` if one is named. */
   async show(file: vscode.Uri, subject?: Subject): Promise<void> {
     this.file = file;
-    this.wanted = subject ? `${subject.name}.${DIAGRAMS[subject.kind]}` : this.wanted;
+    const wanted = subject && `${subject.name}.${DIAGRAMS[subject.kind]}`;
     if (this.panel) {
       this.panel.reveal(undefined, true);
-      await this.update();
+      await (wanted ? this.panel.webview.postMessage({ show: wanted }) : this.update());
       return;
     }
+    this.first = wanted;
     const panel = vscode.window.createWebviewPanel(
       "swarmdsl.preview",
       "Swarm Preview",
@@ -57,13 +61,25 @@ export class Preview implements vscode.Disposable {
     );
     this.panel = panel;
     this.begins = true;
-    panel.onDidDispose(() => (this.panel = undefined));
+    panel.onDidDispose(() => {
+      this.panel = undefined;
+      this.trace?.dispose();
+      this.trace = undefined;
+    });
     panel.webview.onDidReceiveMessage((said: Said) => this.hear(said));
     panel.webview.html = await this.html(panel.webview);
   }
 
+  /** Light up the states that are active by a trace; `alone` is a machine that it has no name for. */
+  light(path: string, alone = ""): Trace {
+    this.trace?.dispose();
+    this.trace = new Trace(path, alone, (active) => void this.panel?.webview.postMessage({ active }));
+    return this.trace;
+  }
+
   dispose(): void {
     clearTimeout(this.timer);
+    this.trace?.dispose();
     this.listening.dispose();
     this.panel?.dispose();
   }
@@ -74,7 +90,7 @@ export class Preview implements vscode.Disposable {
     const nonce = randomBytes(16).toString("hex");
     const policy = [
       "default-src 'none'",
-      `script-src 'nonce-${nonce}'`,
+      `script-src 'nonce-${nonce}' ${view.cspSource}`,
       `style-src ${view.cspSource} 'unsafe-inline'`,
       "img-src blob: data:",
     ].join("; ");
@@ -90,9 +106,15 @@ export class Preview implements vscode.Disposable {
   private async hear({ want, reveal, save }: Said): Promise<void> {
     if (want !== undefined) {
       // The page says at first what it showed before, if anything.
-      this.wanted = (this.begins && this.wanted) || want;
+      const first = this.begins ? this.first : undefined;
       this.begins = false;
+      if (first !== undefined && first !== want.id) {
+        await this.panel?.webview.postMessage({ show: first });
+        return;
+      }
+      this.wanted = want;
       await this.update();
+      this.trace?.again();
     }
     const place = /^(.*):(\d+):(\d+)$/.exec(reveal ?? "");
     if (place?.[1] !== undefined) {
@@ -131,7 +153,7 @@ export class Preview implements vscode.Disposable {
     }
     const shown = await this.server.request("swarmdsl/pictures", {
       textDocument: { uri: this.file.toString() },
-      id: this.wanted,
+      ...this.wanted,
     });
     await this.panel?.webview.postMessage(shown ?? {});
     if (vscode.window.activeTextEditor) {

@@ -1,10 +1,13 @@
-// The command that runs a model in virtual time, in a terminal.
+// The commands that run a model in a terminal, in virtual or in real time.
 
-import { dirname } from "node:path";
+import { mkdtemp, rm } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
 
 import * as vscode from "vscode";
 
 import { tellBundled } from "./missing.ts";
+import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
 import { run } from "./tasks.ts";
@@ -16,8 +19,17 @@ interface Scenario extends vscode.QuickPickItem {
 // By what the outline calls them.
 const KINDS: Record<string, Subject["kind"]> = { swarm: "swarm", "state machine": "machine" };
 
-/** Simulate `subject` of a file; without it what the user chooses of those in the file. */
-export async function simulate(server: Server, file: vscode.Uri, subject?: Subject): Promise<void> {
+/**
+ * Simulate `subject` of a file; without it what the user chooses of those in the file.
+ *
+ * With a preview it runs in real time, and the states that are active light up there.
+ */
+export async function simulate(
+  server: Server,
+  file: vscode.Uri,
+  subject?: Subject,
+  preview?: Preview,
+): Promise<void> {
   const launch = await server.swarmc();
   if (!launch) {
     return;
@@ -33,7 +45,10 @@ export async function simulate(server: Server, file: vscode.Uri, subject?: Subje
   }
   // It reads what is on disk.
   await vscode.workspace.saveAll(false);
-  const args = ["simulate", file.fsPath, `--${chosen.kind}`, chosen.name, "--trace", "text"];
+  const folder = preview && (await mkdtemp(join(tmpdir(), "swarm-")));
+  const trace = folder && join(folder, "trace.jsonl");
+  const args = ["simulate", file.fsPath, `--${chosen.kind}`, chosen.name];
+  args.push(...(trace ? ["--real-time", "--trace-file", trace] : ["--trace", "text"]));
   if (scenario.uri) {
     args.push("--scenario", scenario.uri.fsPath);
   }
@@ -44,7 +59,35 @@ export async function simulate(server: Server, file: vscode.Uri, subject?: Subje
     "swarmc",
     run(launch, args, dirname(file.fsPath)),
   );
-  await vscode.tasks.executeTask(task);
+  if (!preview || !folder || !trace) {
+    await vscode.tasks.executeTask(task);
+    return;
+  }
+  const machine = chosen.kind === "machine" ? chosen : undefined;
+  await preview.show(file, machine);
+  const lights = preview.light(trace, machine?.name);
+  const running = await vscode.tasks.executeTask(task);
+  const ended = vscode.tasks.onDidEndTask(async ({ execution }) => {
+    if (execution === running) {
+      ended.dispose();
+      await lights.end();
+      await rm(folder, { recursive: true, force: true });
+    }
+  });
+}
+
+/** Light up where robots are in the preview of a file's model, by a trace that they write. */
+export async function follow(preview: Preview, file: vscode.Uri): Promise<void> {
+  const chosen = await vscode.window.showOpenDialog({
+    title: "The trace of a simulation, or of robots",
+    openLabel: "Follow",
+    defaultUri: vscode.Uri.joinPath(file, ".."),
+    filters: { Traces: ["jsonl", "json"], "All files": ["*"] },
+  });
+  if (chosen?.[0]) {
+    await preview.show(file);
+    preview.light(chosen[0].fsPath);
+  }
 }
 
 async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {

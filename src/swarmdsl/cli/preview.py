@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import gc
 import os
+import signal
 import sys
 from contextlib import ExitStack
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from swarmdsl.cli import options
+
+if TYPE_CHECKING:
+    from swarmdsl.preview.editors import Editor
+
+
+def _editor(_context: click.Context, _param: click.Parameter, text: str | None) -> Editor | None:
+    """That of the command line, else one that is found."""
+    from swarmdsl.preview.editors import TemplateError, editor, found_editor
+
+    try:
+        return editor(text) if text is not None else found_editor()
+    except TemplateError as error:
+        raise click.BadParameter(str(error)) from error
 
 
 @click.command(epilog="Example: swarmc preview examples/search_and_rescue --port 5008")
@@ -22,22 +38,50 @@ from swarmdsl.cli import options
     help="Of the loopback interface; 0 takes one that is free.  [default: 0]",
 )
 @click.option("--open", "opens", is_flag=True, help="Open it in the browser.")
+@click.option(
+    "--follow",
+    "traces",
+    metavar="TRACE",
+    multiple=True,
+    help="Light up the states that are active by this trace, a line of JSON each, while it is "
+    "written; `-` for standard input. May be repeated.",
+)
+@click.option(
+    "--editor",
+    metavar="COMMAND",
+    callback=_editor,
+    help="Opens what is clicked, as `code --goto {file}:{line}:{column}`; or an address, as "
+    "`vscode://file{file}:{line}:{column}`.  [default: VS Code, if it is on the PATH]",
+)
 @options.debug
-def preview(paths: tuple[Path, ...], port: int, opens: bool) -> int:
+def preview(
+    paths: tuple[Path, ...],
+    port: int,
+    opens: bool,
+    traces: tuple[str, ...],
+    editor: Editor | None,
+) -> int:
     """Show the diagrams of a model in a browser, as its files are now.
 
     A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
     names, or for the current folder. The page follows each change of a file until Ctrl-C; while
-    the model has errors, it shows how the diagrams were before.
+    the model has errors, it shows how the diagrams were before. `--follow` shows where robots
+    are as well: those of a simulation in real time, or others.
     """
     from swarmdsl.cli.outcome import briefly
     from swarmdsl.cli.watch import watch_files
     from swarmdsl.compiler import Result
+    from swarmdsl.preview.following import follow
     from swarmdsl.preview.pictures import pictures
     from swarmdsl.preview.serving import News, serving
     from swarmdsl.project.command_line import run_settings
     from swarmdsl.project.settings import Settings
+    from swarmdsl.render import render
 
+    gc.enable()  # it runs for hours
+    if hasattr(signal, "SIGPIPE"):
+        # A page may be gone when it is told something; others stay.
+        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     news = News()
     # With whole paths, by which places lead into an editor.
     whole = tuple(Path(os.path.abspath(path)) for path in paths)  # noqa: PTH100 - keeps links
@@ -49,9 +93,10 @@ def preview(paths: tuple[Path, ...], port: int, opens: bool) -> int:
 
     with ExitStack() as stack:
         try:
-            address = stack.enter_context(serving(news, port))
+            address = stack.enter_context(serving(news, port, editor))
         except OSError as error:
             raise click.ClickException(f"port {port}: {error.strerror}") from error
+        follow(traces, news, lambda report: render(report, "text", sys.stderr))
         if opens:
             click.launch(address)
         return watch_files(whole, lambda report: run_settings(whole, {}, report), show)

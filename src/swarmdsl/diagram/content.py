@@ -13,7 +13,7 @@ PADDING = 10
 _LINE_MOST, _LABEL_MOST, _NAME_MOST = 250, 170, 300
 _INDENT = 10
 _MARK = 8
-"""The room for the mark of a submachine."""
+"""The room for the mark of hidden states."""
 _RULE = 5
 """Above and below the line between two compartments."""
 
@@ -90,7 +90,7 @@ def _stacked(node: Node, x: int | None) -> Block:
                 base = y + _base("line")
                 texts.append(Text(line, "line", PADDING + indent, base, width(line, "line")))
                 y += LINE_HEIGHTS["line"]
-    if node.kind == "submachine":
+    if node.hides_states:
         y += _MARK
     wide = max(((text.x or PADDING) + text.width for text in texts), default=0)
     return Block(wide + PADDING, y + _RULE + 2, tuple(texts), tuple(rules))

@@ -18,6 +18,8 @@ _Box = Literal["frame", "swarm", "member", "environment", "fitness", "part"]
 _State = Literal["state", "submachine", "composite", "parallel", "region"]
 _PseudoState = Literal["initial", "final", "choice", "history", "deep history"]
 NodeKind = _Box | _State | _PseudoState
+_STATES_INSIDE: frozenset[NodeKind] = frozenset(("composite", "parallel"))
+_FOLDABLE: frozenset[NodeKind] = _STATES_INSIDE | {"part", "member"}
 EdgeKind = Literal["transition", "initial", "connector", "composition", "association", "flow"]
 
 
@@ -38,7 +40,7 @@ class Node:
     """A box or a pseudo-state, with the nodes inside it.
 
     `keyword` is what UML writes in guillemets, `compartments` are groups of lines below
-    the name, each with a line above it.
+    the name, each with a line above it. Both and the nodes inside are left out if it is `folded`.
     """
 
     id: str
@@ -50,6 +52,17 @@ class Node:
     ports: tuple[Port, ...] = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    folded: bool = False
+
+    @property
+    def foldable(self) -> bool:
+        """Whether it has an inside that can be hidden: states, or what stands below its name."""
+        return self.kind in _FOLDABLE and bool(self.nodes or self.compartments or self.folded)
+
+    @property
+    def hides_states(self) -> bool:
+        """Whether there are states in it that are not drawn here."""
+        return self.kind == "submachine" or (self.folded and self.kind in _STATES_INSIDE)
 
     def walk(self) -> Iterator[Node]:
         """Yield the node and all inside it, in the order of the model."""

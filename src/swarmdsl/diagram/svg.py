@@ -68,8 +68,9 @@ def draw(picture: Picture, link: Callable[[Span | None], str | None] | None = No
     """The text of an SVG file, or with a `link` that of a part of an HTML page with `style()`.
 
     Elements have the id of what they show as `data-id`. A file has its place in the model as
-    `data-place`, so that a program that shows the picture can lead there; a page links to where
-    `link` says that it is described.
+    `data-place`, so that a program that shows the picture can lead there, and whether what can be
+    folded is `open` or `closed` as `data-fold`; a page links to where `link` says that it is
+    described.
     """
     return "\n".join([*_Drawing(picture, link).lines(), ""])
 
@@ -127,7 +128,10 @@ class _Drawing:
 
     def box(self, box: Box) -> Iterator[str]:
         node = box.node
-        yield f"<g{self.about(f'node {node.kind}', node.id, node.origin)}>"
+        fold = ""
+        if node.foldable and self.link is None:
+            fold = f' data-fold="{"closed" if node.folded else "open"}"'
+        yield f"<g{self.about(f'node {node.kind}', node.id, node.origin)}{fold}>"
         if node.doc:
             yield f"<title>{_text(node.doc)}</title>"
         match node.kind:
@@ -181,8 +185,8 @@ class _Drawing:
         if node.nodes:
             y = box.y + box.block.height
             yield f'<path class="rule" d="M{box.x},{y} h{box.width}"/>'
-        if node.kind == "submachine":
-            # Two small states, as UML marks what has a diagram of its own.
+        if node.hides_states:
+            # Two small states, as UML marks those whose inside is not shown.
             x, y = box.x + box.width - 24, box.y + box.height - 9
             yield f'<rect class="border" {_area(x, y, 6, 4)} rx="2"/>'
             yield f'<path class="border" d="M{x + 6},{y + 2} h5"/>'

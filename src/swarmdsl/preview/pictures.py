@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from functools import cached_property
 from typing import TypedDict
 
 from swarmdsl.compiler import Result
-from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Severity
-from swarmdsl.diagram import Diagram, diagrams
+from swarmdsl.diagram import diagrams
+from swarmdsl.diagram.folding import folded
 from swarmdsl.diagram.svg import svg
+from swarmdsl.ir import System
+from swarmdsl.simulate.subject import Subject
 
 _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state machine"}
 
@@ -17,35 +22,83 @@ class Message(TypedDict, total=False):
     """News for a page: titles of all diagrams by their ids, one drawn, or why there is nothing new.
 
     `broken` is the number of mistakes. An id stays the same while its subject has its name.
+    `runs` says of the diagram of a state machine who runs it, each with what the ids of its states
+    begin with where it is reused: a role, `uav`, a part of one, `uav.camera`, or by its own name
+    the machine alone. `active` are the innermost active states of members; None, of those that
+    are gone.
     """
 
     titles: dict[str, str]
+    runs: Mapping[str, Sequence[tuple[str, str]]]
     id: str
     svg: str
     broken: int
+    active: Mapping[str, Sequence[str] | None]
 
 
-@dataclass(frozen=True)
 class Pictures:
     """The diagrams of a model, each drawn when it is asked for: most are not looked at."""
 
-    diagrams: tuple[Diagram, ...]
+    def __init__(self, system: System | None = None) -> None:
+        self._system = system
+        self._diagrams = tuple(diagrams(system)) if system is not None else ()
 
     def listed(self) -> Message:
         """What there is."""
         return {
-            "titles": {each.stem: f"{each.name} ({_TITLES[each.kind]})" for each in self.diagrams}
+            "titles": {each.stem: f"{each.name} ({_TITLES[each.kind]})" for each in self._diagrams},
+            "runs": self._runs(),
         }
 
-    def drawn(self, id_: str | None) -> Message:
-        """A diagram, or the first if there is none of this id."""
-        named = (each for each in self.diagrams if each.stem == id_)
-        found = next(named, self.diagrams[0] if self.diagrams else None)
-        return {"id": found.stem, "svg": svg(found)} if found is not None else {}
+    def drawn(self, id_: str | None, hidden: Collection[str] = ()) -> Message:
+        """A diagram, or the first if there is none of this id; `hidden` are nodes to fold."""
+        named = (each for each in self._diagrams if each.stem == id_)
+        found = next(named, self._diagrams[0] if self._diagrams else None)
+        return {"id": found.stem, "svg": svg(folded(found, hidden))} if found is not None else {}
+
+    @cached_property
+    def files(self) -> frozenset[str]:
+        """The files in which what is drawn is written."""
+        return frozenset(
+            node.origin.absolute.source.name
+            for each in self._diagrams
+            for node in each.frame.walk()
+            if node.origin is not None
+        )
+
+    @cached_property
+    def states(self) -> Mapping[str, frozenset[str]]:
+        """The ids of the states of each machine, by its name."""
+        machines = self._system.machines if self._system is not None else ()
+        return {each.name: frozenset(state.id for state in each.walk()) for each in machines}
+
+    def _runs(self) -> Mapping[str, Sequence[tuple[str, str]]]:
+        found: dict[str, list[tuple[str, str]]] = defaultdict(list)
+        for who, name, prefix in self._uses():
+            found[f"{name}.statechart"].append((who, prefix))
+        return found
+
+    def _uses(self) -> Iterator[tuple[str, str, str]]:
+        """Who runs which machine, and what its states are called in that."""
+        if self._system is None:
+            return
+        machines = {each.name: each for each in self._system.machines}
+        runs = {(name, name) for name in machines}
+        for swarm in self._system.swarms:
+            subject = Subject(swarm.name, self._system, swarm)
+            for robot in subject.crew({role.name: 1 for role in swarm.roles}):
+                for part, machine in subject.behaviours(robot):
+                    who = robot.role if part is None else f"{robot.role}.{part.name}"
+                    runs.add((who, machine.name))
+        for who, name in sorted(runs):
+            yield who, name, ""
+            for state in machines[name].walk():
+                if state.submachine is not None:
+                    yield who, state.submachine, f"{state.id}."
 
 
 def pictures(result: Result) -> Pictures | Message:
     """The diagrams of a checked model; of one with errors a message that says so."""
     if result.system is None:
         return {"broken": result.report.count(Severity.ERROR)}
-    return Pictures(tuple(diagrams(result.system)))
+    return Pictures(result.system)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from urllib.parse import unquote
+from urllib.parse import parse_qs
 
+from swarmdsl.preview.editors import Editor, Opened, file_of
 from swarmdsl.preview.pictures import Message, Pictures
 
 PAGE = Path(__file__).resolve().parent / "page"
@@ -24,15 +25,20 @@ _POLICY = (
 )
 # After so many seconds without news a connection is tried, to notice that a page is gone.
 _PULSE = 15.0
+_LONGEST = 1 << 16
+"""Bytes of a message of a page, at most."""
 
 
 class News:
     """What pages show: the pictures of the last model without errors, and what came after it."""
 
     def __init__(self) -> None:
-        self.pictures = Pictures(())
+        self.pictures = Pictures()
         self._changed = threading.Condition()
         self._messages: Sequence[Message] = ()
+        # By traces: the innermost active states of members.
+        self._active: dict[str, dict[str, Sequence[str]]] = {}
+        self._moves = 0
 
     def tell(self, made: Pictures | Message) -> None:
         """Show something in all pages."""
@@ -45,25 +51,54 @@ class News:
                 self._messages = (*(each for each in self._messages if "titles" in each), made)
             self._changed.notify_all()
 
+    def move(self, trace: str, active: Mapping[str, Sequence[str] | None]) -> None:
+        """Show where members are now, of which a trace says so; None is for those that are gone."""
+        with self._changed:
+            there = self._active.setdefault(trace, {})
+            for member, states in active.items():
+                if states is None:
+                    there.pop(member, None)
+                else:
+                    there[member] = states
+            self._moves += 1
+            self._changed.notify_all()
+
+    def forget(self, trace: str) -> None:
+        """Forget what a trace has said: it begins anew."""
+        with self._changed:
+            self._active.pop(trace, None)
+            self._moves += 1
+            self._changed.notify_all()
+
     def follow(self) -> Iterator[Sequence[Message]]:
         """Yield what a page needs, now and after each change; nothing where there was none."""
         sent: Sequence[Message] = ()
+        active: dict[str, Sequence[str]] = {}
+        moves = 0
+
+        def is_new() -> bool:
+            return self._messages is not sent or self._moves != moves
+
         while True:
             with self._changed:
-                self._changed.wait_for(lambda sent=sent: self._messages is not sent, _PULSE)  # type: ignore[misc]
+                self._changed.wait_for(is_new, _PULSE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
-                sent = self._messages
-            yield new
+                sent, moves = self._messages, self._moves
+                now = {who: at for trace in self._active.values() for who, at in trace.items()}
+            moved: dict[str, Sequence[str] | None] = dict.fromkeys(active.keys() - now.keys())
+            moved.update((who, at) for who, at in now.items() if active.get(who) is not at)
+            active = now
+            yield [*new, {"active": moved}] if moved else new
 
 
 @contextmanager
-def serving(news: News, port: int) -> Iterator[str]:
+def serving(news: News, port: int, editor: Editor | None = None) -> Iterator[str]:
     """Serve the page while the context lasts; yield its address. `port` 0 takes a free one.
 
-    Raises OSError if the port is taken.
+    The editor shows what is clicked. Raises OSError if the port is taken.
     """
     server = _Server((_HOST, port), _Handler)
-    server.news = news
+    server.news, server.editor = news, editor
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         yield f"http://{_HOST}:{server.server_port}/"
@@ -76,15 +111,22 @@ class _Server(ThreadingHTTPServer):
     daemon_threads = True
     block_on_close = False
     news: News
+    editor: Editor | None
+
+    def opened(self, place: str) -> Opened:
+        """Show a place of the model in the editor; nothing else is opened."""
+        if self.editor is None:
+            return {"none": True}
+        if file_of(place) not in self.news.pictures.files:
+            return {"failed": "this is no place in the model"}
+        return self.editor.open(place)
 
 
 class _Handler(BaseHTTPRequestHandler):
     server: _Server
 
     def do_GET(self) -> None:
-        # A page of others that has a name lead here is not answered.
-        host = (self.headers.get("Host") or "").rpartition(":")[0]
-        if host not in (_HOST, "localhost"):
+        if not self._is_asked_here():
             self.send_error(HTTPStatus.FORBIDDEN)
             return
         if self.path == "/events":
@@ -92,9 +134,9 @@ class _Handler(BaseHTTPRequestHandler):
             return
         path, _, query = self.path.partition("?")
         if path == "/picture":
-            self._begin("application/json")
-            drawn = self.server.news.pictures.drawn(unquote(query))
-            self.wfile.write(json.dumps(drawn).encode())
+            asked = parse_qs(query)
+            drawn = self.server.news.pictures.drawn(asked.get("id", [""])[0], asked.get("fold", []))
+            self._answer(drawn)
             return
         file = _FILES.get("/index.html" if path == "/" else path)
         if file is None:
@@ -102,6 +144,27 @@ class _Handler(BaseHTTPRequestHandler):
             return
         self._begin(_TYPES[file.suffix])
         self.wfile.write(file.read_bytes())
+
+    def do_POST(self) -> None:
+        # A page of others may not send JSON here without asking before, which is not answered.
+        is_json = self.headers.get("Content-Type") == "application/json"
+        if not (self.path == "/open" and is_json and self._is_asked_here()):
+            self.send_error(HTTPStatus.FORBIDDEN)
+            return
+        try:
+            long = int(self.headers.get("Content-Length") or 0)
+            place = json.loads(self.rfile.read(min(long, _LONGEST)))
+        except ValueError:
+            place = None
+        self._answer(self.server.opened(place if isinstance(place, str) else ""))
+
+    def _is_asked_here(self) -> bool:
+        """Not by a page of others that has a name of its own lead here."""
+        return (self.headers.get("Host") or "").rpartition(":")[0] in (_HOST, "localhost")
+
+    def _answer(self, value: Mapping[str, object]) -> None:
+        self._begin("application/json")
+        self.wfile.write(json.dumps(value).encode())
 
     def _begin(self, type_: str) -> None:
         self.send_response(HTTPStatus.OK)

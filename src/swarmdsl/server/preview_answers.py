@@ -11,7 +11,7 @@ from swarmdsl.server.session import Session
 
 
 def _pictures(session: Session, params: Json) -> Json | None:
-    """The diagrams of the model that a file belongs to, the one of `id` drawn."""
+    """The diagrams of the model that a file belongs to, that of `id` drawn with `folded` nodes."""
     found = session.file(params)
     if found is None:
         return None
@@ -24,8 +24,14 @@ def _pictures(session: Session, params: Json) -> Json | None:
     made = pictures(Result(report, workspace.files, valid))
     if not isinstance(made, Pictures):
         return dict(made)
-    wanted = params.get("id")
-    return {**made.listed(), **made.drawn(wanted if isinstance(wanted, str) else None)}
+    wanted, hidden = params.get("id"), params.get("folded")
+    return {
+        **made.listed(),
+        **made.drawn(
+            wanted if isinstance(wanted, str) else None,
+            [each for each in hidden if isinstance(each, str)] if isinstance(hidden, list) else (),
+        ),
+    }
 
 
 REQUESTS: Mapping[str, Callable[[Session, Json], Any]] = {"swarmdsl/pictures": _pictures}

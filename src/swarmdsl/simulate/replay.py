@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from swarmdsl.simulate.clock import Clock
 from swarmdsl.simulate.durations import MILLISECOND, shown
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.simulate.trace import Line, Trace
+from swarmdsl.simulate.trace_line import NAMES, read_line
 from swarmdsl.simulate.world import LOST
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import suggest
@@ -25,7 +25,6 @@ SHUTDOWN = "node.shutdown"
 """The event of a machine that was stopped from outside, in a trace of a robot."""
 _EARLY = 5 * MILLISECOND
 """How much sooner than the model says a delay may be over: a trace has whole milliseconds."""
-_COMPARED = ("configuration", "entered", "exited", "started", "cancelled", "sent")
 
 
 @dataclass(frozen=True)
@@ -72,37 +71,13 @@ def replay(
 
 def _read(place: Span, by_member: dict[str | None, list[_Record]], report: Diagnostics) -> None:
     """Read a line; what is no line of a trace is reported."""
-    try:
-        value = json.loads(place.text)
-    except (ValueError, RecursionError):
-        value = None
-    wrong = "it is no object of JSON"
+    value = read_line(place.text)
     if isinstance(value, dict):
-        wrong = _fault(value)
-        if not wrong:
-            record = _Record(
-                value["t"] * MILLISECOND, value["event"], value.get("data"), value, place
-            )
-            by_member.setdefault(value.get("member"), []).append(record)
-            return
+        record = _Record(value["t"] * MILLISECOND, value["event"], value.get("data"), value, place)
+        by_member.setdefault(value.get("member"), []).append(record)
+        return
     help_ = "`swarmc simulate --trace json` writes such lines, and nodes of target `ros2` do"
-    report.report("bad-trace-line", place, reason=wrong, help=help_)
-
-
-def _fault(value: dict[str, Any]) -> str:
-    """What is wrong with a line; empty where nothing is."""
-    time = value.get("t")
-    if not isinstance(time, int) or isinstance(time, bool) or time < 0:
-        return "`t` is a number of milliseconds"
-    if not isinstance(value.get("event", 0), (str, type(None))):
-        return "`event` is the name of one, or `null`"
-    if not isinstance(value.get("member"), (str, type(None))):
-        return "`member` is the name of one, or `null`"
-    for key in _COMPARED:
-        names = value.get(key)
-        if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
-            return f"`{key}` is a list of names"
-    return ""
+    report.report("bad-trace-line", place, reason=value, help=help_)
 
 
 def _report_member(
@@ -276,7 +251,7 @@ def _difference(line: Line, record: _Record) -> str:
     """What of a record is not as in the line that the model makes; empty where nothing is."""
     if line.event != record.event:
         return f"first the model looks at `{line.event}`"
-    for key in _COMPARED:
+    for key in NAMES:
         expected, found = getattr(line, key), record.done[key]
         if expected != found:
             return f"`{key}` is {_list(expected)} in the model, {_list(found)} here"

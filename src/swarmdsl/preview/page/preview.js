@@ -1,92 +1,126 @@
 // Shows the pictures of a model, in a browser beside `swarmc preview` or in a view of an editor.
 //
-// From outside come `{ titles: { ID: TITLE } }`, `{ id, svg }` with one of them drawn, `{ broken }`
-// with a number while the text has mistakes (the picture stays), and `{ cursor: { file, line } }`.
-// An editor is told `{ want: ID }`, `{ reveal: "FILE:LINE:COLUMN" }` and `{ save: { name, base64 } }`;
-// a browser asks swarmc.
-"use strict";
+// From outside come `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with one of them drawn,
+// `{ broken }` with a number while the text has mistakes (the picture stays), `{ active }` with the
+// states in which robots are, `{ cursor: { file, line } }`, and `{ show: ID }`.
 
-const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
-const [which, state, view, picture] = ["which", "state", "view", "picture"].map((id) =>
-  document.getElementById(id),
-);
-const DARK = window.matchMedia("(prefers-color-scheme: dark)");
+import { Folding } from "./folding.js";
+import * as host from "./host.js";
+import { Lights } from "./lights.js";
+import { node } from "./shapes.js";
+import { View } from "./view.js";
+
+const [which, who, state, note, canvas, picture] = [
+  "which",
+  "who",
+  "state",
+  "note",
+  "view",
+  "picture",
+].map((id) => document.getElementById(id));
+const before = host.remembered();
+const folding = new Folding(before.folded);
+const lights = new Lights(who, () => light());
+const view = new View(canvas, picture, click);
 let titles = {};
 let drawn; // { id, svg }
-let shown = editor?.getState()?.shown ?? decodeURIComponent(location.hash.slice(1));
+let shown = (!host.isInEditor && decodeURIComponent(location.hash.slice(1))) || (before.shown ?? "");
 let cursor;
-let scale = 1;
-let left = 0;
-let top_ = 0;
+let touched; // the node that was folded or unfolded, until there is a picture of it
 
 // ---- what is shown
 
-function isDark() {
-  const theme = document.body.classList;
-  return editor ? theme.contains("vscode-dark") || theme.contains("vscode-high-contrast") : DARK.matches;
-}
-
-/** A picture in the colours of the page: an editor has others than the system. */
+/** A picture in the colours of the page. */
 function coloured(svg) {
-  return svg.replaceAll("(prefers-color-scheme: dark)", isDark() ? "all" : "not all");
+  return svg.replaceAll("(prefers-color-scheme: dark)", host.isDark() ? "all" : "not all");
 }
 
 function draw() {
   // The text is that of swarmc, in which names are escaped, and the page runs no script in it.
   picture.innerHTML = drawn ? coloured(drawn.svg) : "";
   mark();
+  if (drawn) {
+    folding.mark(picture);
+    light();
+  }
+}
+
+function light() {
+  lights.show(picture, shown);
 }
 
 /** Ask for the picture that is to be shown; what it may be instead is said by who draws it. */
-async function want() {
-  if (editor) {
-    editor.postMessage({ want: shown });
-  } else {
-    const answer = await fetch(`picture?${encodeURIComponent(shown)}`);
-    receive(await answer.json());
-  }
+function want() {
+  void host.want(shown, folding.of(shown), receive);
 }
 
-function remember(id) {
-  shown = id;
-  if (editor) {
-    editor.setState({ shown });
-  } else {
-    history.replaceState(undefined, "", `#${encodeURIComponent(id)}`);
-  }
+function remember() {
+  host.remember({ shown, folded: folding.all });
 }
 
 function receive(message) {
   if (message.titles) {
-    titles = message.titles;
-    which.replaceChildren(...Object.entries(titles).map(([id, title]) => new Option(title, id)));
-    state.textContent = "";
-    if (!Object.keys(titles).length) {
-      state.textContent = "the model has nothing to draw";
-      drawn = undefined;
-      draw();
-    } else if (!message.svg) {
-      void want();
+    list(message.titles);
+    lights.learn(message.runs ?? {});
+    if (!message.svg && Object.keys(titles).length) {
+      want();
     }
   }
   if (message.svg) {
-    const other = message.id !== drawn?.id;
-    drawn = { id: message.id, svg: message.svg };
-    remember(drawn.id);
-    draw();
-    if (other) {
-      fit();
-    }
+    receivePicture(message);
   }
   which.value = shown;
   if (message.broken !== undefined) {
     const mistakes = `${message.broken} mistake${message.broken === 1 ? "" : "s"}`;
     state.textContent = drawn ? `${mistakes}: this is how it was before` : mistakes;
   }
+  if (message.active) {
+    const isFirst = lights.move(message.active);
+    const inhabited = isFirst ? lights.inhabited(shown) : shown;
+    if (inhabited === shown) {
+      light();
+    } else {
+      show(inhabited);
+    }
+  }
+  if (message.show) {
+    show(message.show);
+  }
   if (message.cursor) {
     cursor = message.cursor;
     mark();
   }
+}
+
+function list(all) {
+  titles = all;
+  which.replaceChildren(...Object.entries(titles).map(([id, title]) => new Option(title, id)));
+  state.textContent = "";
+  if (!Object.keys(titles).length) {
+    state.textContent = "the model has nothing to draw";
+    drawn = undefined;
+    draw();
+  }
+}
+
+function receivePicture({ id, svg }) {
+  const isOther = id !== drawn?.id;
+  drawn = { id, svg };
+  shown = id;
+  remember();
+  if (isOther) {
+    draw();
+    view.fit();
+  } else {
+    view.keeping(() => touched && node(picture, touched), draw);
+  }
+  touched = undefined;
+}
+
+function show(id) {
+  shown = id;
+  remember();
+  want();
 }
 
 /** Mark what stands at the cursor: what begins last in front of it. */
@@ -109,96 +143,36 @@ function parsed(place) {
   return found && { file: found[1], line: Number(found[2]), column: Number(found[3]) };
 }
 
-// ---- where it is shown
+// ---- what the user does
 
-function move() {
-  picture.style.transform = `translate(${left}px, ${top_}px) scale(${scale})`;
+function click(target) {
+  const fold = target.closest(".fold");
+  const place = target.closest("[data-place]")?.dataset.place;
+  if (fold) {
+    toggle(fold);
+  } else if (place) {
+    void host.reveal(place, (text) => (note.textContent = text));
+  }
 }
 
-function size() {
-  const svg = picture.querySelector("svg");
-  return svg ? [Number(svg.getAttribute("width")), Number(svg.getAttribute("height"))] : [1, 1];
+function toggle(fold) {
+  touched = fold.dataset.of;
+  folding.toggle(shown, touched);
+  remember();
+  want();
 }
 
-function fit() {
-  const [width, height] = size();
-  scale = Math.min(1.5, view.clientWidth / width, view.clientHeight / height);
-  left = (view.clientWidth - width * scale) / 2;
-  top_ = (view.clientHeight - height * scale) / 2;
-  move();
-}
-
-function zoom(factor, x, y) {
-  const next = Math.min(8, Math.max(0.05, scale * factor));
-  left = x - ((x - left) * next) / scale;
-  top_ = y - ((y - top_) * next) / scale;
-  scale = next;
-  move();
-}
-
-view.addEventListener(
-  "wheel",
-  (event) => {
+picture.addEventListener("keydown", (event) => {
+  const fold = event.target.closest(".fold");
+  if (fold && (event.key === "Enter" || event.key === " ")) {
     event.preventDefault();
-    const { left: x, top: y } = view.getBoundingClientRect();
-    zoom(Math.exp(-event.deltaY / 400), event.clientX - x, event.clientY - y);
-  },
-  { passive: false },
-);
-
-let grabbed;
-view.addEventListener("pointerdown", (event) => {
-  grabbed = { x: event.clientX - left, y: event.clientY - top_, from: [event.clientX, event.clientY] };
-});
-window.addEventListener("pointermove", (event) => {
-  if (grabbed) {
-    view.classList.add("moving");
-    left = event.clientX - grabbed.x;
-    top_ = event.clientY - grabbed.y;
-    move();
+    toggle(fold);
   }
 });
-window.addEventListener("pointerup", (event) => {
-  const moved = grabbed && Math.hypot(event.clientX - grabbed.from[0], event.clientY - grabbed.from[1]);
-  const on = event.target instanceof Element ? event.target.closest("[data-place]") : null;
-  grabbed = undefined;
-  view.classList.remove("moving");
-  if (moved !== undefined && moved < 4 && on) {
-    reveal(on.dataset.place);
-  }
-});
-view.addEventListener("keydown", ({ key }) => {
-  const middle = [view.clientWidth / 2, view.clientHeight / 2];
-  if (key === "0") fit();
-  if (key === "+" || key === "=") zoom(1.25, ...middle);
-  if (key === "-") zoom(0.8, ...middle);
-});
-
-/** Lead to a place in the text: in the editor, or in VS Code if it is installed. */
-function reveal(place) {
-  if (editor) {
-    editor.postMessage({ reveal: place });
-  } else {
-    state.textContent = place;
-    location.href = `vscode://file${encodeURI(place)}`;
-  }
-}
+which.addEventListener("change", () => show(which.value));
+document.getElementById("fit").addEventListener("click", () => view.fit());
 
 // ---- files of it
-
-async function save(name, blob) {
-  if (editor) {
-    const bytes = new Uint8Array(await blob.arrayBuffer());
-    const base64 = btoa(Array.from(bytes, (each) => String.fromCharCode(each)).join(""));
-    editor.postMessage({ save: { name, base64 } });
-    return;
-  }
-  const link = document.createElement("a");
-  link.download = name;
-  link.href = URL.createObjectURL(blob);
-  link.click();
-  URL.revokeObjectURL(link.href);
-}
 
 function asBlob(svg) {
   return new Blob([svg], { type: "image/svg+xml" });
@@ -206,7 +180,7 @@ function asBlob(svg) {
 
 document.getElementById("svg").addEventListener("click", () => {
   if (drawn) {
-    void save(`${drawn.id}.svg`, asBlob(drawn.svg));
+    void host.save(`${drawn.id}.svg`, asBlob(drawn.svg));
   }
 });
 
@@ -218,29 +192,16 @@ document.getElementById("png").addEventListener("click", async () => {
   const image = new Image();
   image.src = URL.createObjectURL(asBlob(coloured(svg)));
   await image.decode();
-  const canvas = document.createElement("canvas");
-  [canvas.width, canvas.height] = size().map((each) => each * 2); // for screens and for print
-  canvas.getContext("2d").drawImage(image, 0, 0, canvas.width, canvas.height);
+  const sheet = document.createElement("canvas");
+  [sheet.width, sheet.height] = view.size.map((each) => each * 2); // for screens and for print
+  sheet.getContext("2d").drawImage(image, 0, 0, sheet.width, sheet.height);
   URL.revokeObjectURL(image.src);
-  canvas.toBlob((blob) => blob && save(`${id}.png`, blob));
+  sheet.toBlob((blob) => blob && host.save(`${id}.png`, blob));
 });
 
 // ---- from outside
 
-which.addEventListener("change", () => {
-  remember(which.value);
-  void want();
-});
-document.getElementById("fit").addEventListener("click", fit);
-if (editor) {
-  window.addEventListener("message", ({ data }) => receive(data));
-  new MutationObserver(draw).observe(document.body, { attributeFilter: ["class"] });
-  void want();
-} else {
-  const events = new EventSource("events");
-  events.addEventListener("message", ({ data }) => receive(JSON.parse(data)));
-  events.addEventListener("error", () => {
-    state.textContent = "swarmc preview has ended";
-  });
-  DARK.addEventListener("change", draw);
+host.listen(receive, () => (state.textContent = "swarmc preview has ended"), draw);
+if (host.isInEditor) {
+  want();
 }

@@ -1,0 +1,55 @@
+// What a trace says of members while it is written.
+
+import assert from "node:assert/strict";
+import { appendFile, mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+
+import { type Active, Trace } from "../src/trace.ts";
+
+const DEADLINE = 20_000;
+
+function step(member: string | null, ...configuration: string[]): string {
+  return `${JSON.stringify({ t: 0, member, event: null, configuration })}\n`;
+}
+
+test("a trace is followed while it is written, and when it begins anew", async () => {
+  const folder = await mkdtemp(join(tmpdir(), "trace-"));
+  const path = join(folder, "trace.jsonl");
+  const told: Active[] = [];
+  const trace = new Trace(path, "Alone", (active) => {
+    if (Object.keys(active).length) {
+      told.push(active);
+    }
+  });
+  const next = async (): Promise<Active | undefined> => {
+    const end = Date.now() + DEADLINE;
+    while (!told.length && Date.now() < end) {
+      await new Promise((resolve) => setTimeout(resolve, 10));
+    }
+    return told.shift();
+  };
+
+  await writeFile(path, step("uav[0]", "Mission.Idle") + step("uav[1]", "Mission.Idle"));
+  assert.deepEqual(await next(), { "uav[0]": ["Mission.Idle"], "uav[1]": ["Mission.Idle"] });
+  const line = Buffer.from(step("ü", "Höhe", "Weite"));
+  await appendFile(path, line.subarray(0, line.indexOf(0xbc))); // within a letter
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  await appendFile(path, line.subarray(line.indexOf(0xbc)));
+  assert.deepEqual(await next(), { ü: ["Höhe", "Weite"] });
+  await appendFile(path, `no trace\n${step(null, "Busy")}`);
+  assert.deepEqual(await next(), { Alone: ["Busy"] });
+
+  await writeFile(path, step("uav[0]", "Start"));
+  assert.deepEqual(await next(), { "uav[0]": null, "uav[1]": null, ü: null, Alone: null });
+  assert.deepEqual(await next(), { "uav[0]": ["Start"] });
+
+  await appendFile(path, step("uav[0]", "End"));
+  await trace.end();
+  assert.deepEqual(told.shift(), { "uav[0]": ["End"] });
+  assert.deepEqual(told, []);
+  trace.dispose();
+  assert.deepEqual(told, [{ "uav[0]": null }]);
+  await rm(folder, { recursive: true });
+});

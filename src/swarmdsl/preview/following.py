@@ -1,0 +1,144 @@
+"""Where robots are, as the traces say that they write: of a simulation, or their own."""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from threading import Thread
+from time import sleep
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.preview.serving import News
+from swarmdsl.simulate.trace_line import read_line
+
+STDIN = "-"
+_PAUSE = 0.1
+"""Seconds between two looks at a file."""
+_CHUNK = 1 << 20
+
+
+def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]) -> None:
+    """Tell pages of each trace what is written in it from now on, as long as the process lasts.
+
+    The first line of each that is none of a trace is told.
+    """
+    for name in names:
+        # A machine alone has no name: of several, each is called as its trace.
+        alone = name if len(names) > 1 else ""
+        follower = _Follower(name, alone, news, tell)
+        Thread(target=follower.run, daemon=True).start()
+
+
+class _Follower:
+    def __init__(
+        self, name: str, alone: str, news: News, tell: Callable[[Diagnostics], None]
+    ) -> None:
+        self._name = name
+        self._alone = alone
+        self._news = news
+        self._tell = tell
+        self._is_right = True
+        # Of a machine alone: the states that it was in, and what it was called at last.
+        self._seen: set[str] = set()
+        self._called: str | None = None
+
+    def run(self) -> None:
+        """Follow the trace to its end, if it has one."""
+        lines = 0
+        for chunk in _stream() if self._name == STDIN else _chunks(Path(self._name)):
+            if chunk is None:
+                lines = 0
+                self._seen.clear()
+                self._called = None
+                self._news.forget(self._name)
+                continue
+            active: dict[str, Sequence[str] | None] = {}
+            for line in chunk:
+                lines += 1
+                if not line.strip():
+                    continue
+                value = read_line(line)
+                if isinstance(value, str):
+                    self._complain(lines, value)
+                    continue
+                member = value.get("member")
+                if member is None:
+                    member = self._machine(value)
+                    if self._called not in (None, member):
+                        active[str(self._called)] = None
+                    self._called = member
+                active[member] = value["configuration"]
+            if active:
+                self._news.move(self._name, active)
+
+    def _machine(self, value: dict[str, list[str]]) -> str:
+        """The name of a machine alone: the only one that has all states that it was in."""
+        if self._alone:
+            return self._alone
+        self._seen.update(value["configuration"], value["entered"])
+        states = self._news.pictures.states
+        fitting = [name for name, ids in states.items() if self._seen <= ids]
+        return fitting[0] if len(fitting) == 1 else ""
+
+    def _complain(self, line: int, reason: str) -> None:
+        if self._is_right:
+            self._is_right = False
+            report = Diagnostics()
+            report.report(
+                "bad-trace-line",
+                reason=reason,
+                notes=(f"line {line} of {self._name}; others are passed over silently",),
+                help="`swarmc simulate --trace json` writes such lines, "
+                "and nodes of target `ros2` do",
+            )
+            self._tell(report)
+
+
+def _chunks(path: Path) -> Iterator[list[bytes] | None]:
+    """The new whole lines of a file, again and again; None each time that it begins anew."""
+    while True:
+        try:
+            about = path.stat()
+        except OSError:
+            sleep(_PAUSE)
+            continue
+        try:
+            with path.open("rb", buffering=0) as file:
+                yield None
+                if not stat.S_ISREG(about.st_mode):
+                    yield from _whole(lambda: os.read(file.fileno(), _CHUNK))
+                else:
+                    yield from _regular(path, file.fileno())
+        except OSError:
+            sleep(_PAUSE)
+
+
+def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
+    """The lines of a file while it only becomes longer."""
+    rest, at = b"", 0
+    while True:
+        chunk = os.read(descriptor, _CHUNK)
+        at += len(chunk)
+        *lines, rest = (rest + chunk).split(b"\n")
+        yield lines
+        if not chunk:
+            sleep(_PAUSE)
+            there, here = path.stat(), os.fstat(descriptor)
+            if here.st_size < at or (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
+                return
+
+
+def _stream() -> Iterator[list[bytes] | None]:
+    """The lines of standard input, as soon as they are there."""
+    yield from _whole(lambda: os.read(sys.stdin.fileno(), _CHUNK))
+
+
+def _whole(read: Callable[[], bytes]) -> Iterator[list[bytes]]:
+    rest = b""
+    while chunk := read():
+        *lines, rest = (rest + chunk).split(b"\n")
+        yield lines
+    yield [rest]

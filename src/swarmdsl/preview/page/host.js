@@ -1,0 +1,91 @@
+// Whom the page talks to: an editor in whose view it is, or swarmc, which serves it to a browser.
+//
+// An editor is told `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }` and
+// `{ save: { name, base64 } }`; swarmc is asked.
+
+const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
+const DARK = window.matchMedia("(prefers-color-scheme: dark)");
+const KEY = "swarm-preview";
+
+export const isInEditor = editor !== undefined;
+
+/** Whether the page is dark: an editor has other colours than the system. */
+export function isDark() {
+  const theme = document.body.classList;
+  return editor ? theme.contains("vscode-dark") || theme.contains("vscode-high-contrast") : DARK.matches;
+}
+
+/** What was remembered, for as long as the page is in its view or its tab. */
+export function remembered() {
+  return editor?.getState() ?? JSON.parse(sessionStorage.getItem(KEY) ?? "{}");
+}
+
+export function remember(state) {
+  if (editor) {
+    editor.setState(state);
+  } else {
+    sessionStorage.setItem(KEY, JSON.stringify(state));
+    history.replaceState(undefined, "", `#${encodeURIComponent(state.shown)}`);
+  }
+}
+
+/** Ask for a picture, with nodes of it folded; an editor sends it later. */
+export async function want(id, folded, receive) {
+  if (editor) {
+    editor.postMessage({ want: { id, folded } });
+    return;
+  }
+  const query = new URLSearchParams([["id", id], ...folded.map((each) => ["fold", each])]);
+  receive(await (await fetch(`picture?${query}`)).json());
+}
+
+/** Lead to a place in the text. */
+export async function reveal(place, say) {
+  if (editor) {
+    editor.postMessage({ reveal: place });
+    return;
+  }
+  const answer = await fetch("open", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(place),
+  });
+  const { address, failed, none } = await answer.json();
+  if (none) {
+    const copied = await navigator.clipboard?.writeText(place).then(() => true, () => false);
+    say(copied ? `${place}, copied` : place);
+  } else {
+    say(failed ? `${place}: ${failed}` : place);
+  }
+  if (address) {
+    location.href = address;
+  }
+}
+
+/** Write a file, where the user wants it. */
+export async function save(name, blob) {
+  if (editor) {
+    const bytes = new Uint8Array(await blob.arrayBuffer());
+    const base64 = btoa(Array.from(bytes, (each) => String.fromCharCode(each)).join(""));
+    editor.postMessage({ save: { name, base64 } });
+    return;
+  }
+  const link = document.createElement("a");
+  link.download = name;
+  link.href = URL.createObjectURL(blob);
+  link.click();
+  URL.revokeObjectURL(link.href);
+}
+
+/** Hear what comes from outside, that it has ended, and that the colours are others. */
+export function listen(receive, ended, recoloured) {
+  if (editor) {
+    window.addEventListener("message", ({ data }) => receive(data));
+    new MutationObserver(recoloured).observe(document.body, { attributeFilter: ["class"] });
+  } else {
+    const events = new EventSource("events");
+    events.addEventListener("message", ({ data }) => receive(JSON.parse(data)));
+    events.addEventListener("error", ended);
+    DARK.addEventListener("change", recoloured);
+  }
+}

@@ -1,0 +1,184 @@
+"""Where robots are, by the traces that they write."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from queue import SimpleQueue
+from typing import Any
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.cli import run
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.preview.following import follow
+from swarmdsl.preview.pictures import Pictures, pictures
+from swarmdsl.preview.serving import News
+
+PATIENCE = 30
+MODEL = """package yard
+import cpswarm.interfaces.*
+swarm event Go : swarmros/SimpleEvent
+sensor Eye { behavior Watching }
+member Dog {
+  eye : Eye
+  behavior Guarding
+}
+swarm Pack { dog : Dog[2] }
+statemachine Watching { initial Open state Open { after 1 s -> Shut } final Shut }
+statemachine Round {
+  initial Walk
+  state Walk { after 1 s -> Rest }
+  final Rest
+}
+endless statemachine Guarding {
+  initial Lie
+  state Lie { on Go -> Patrol }
+  state Patrol = Round { on done -> Lie }
+}
+"""
+
+
+def step(member: str | None, *states: str) -> str:
+    names = ("entered", "exited", "started", "cancelled", "sent")
+    line = {"t": 0, "member": member, "event": None, "configuration": states}
+    return json.dumps({**line, **{name: [] for name in names}}) + "\n"
+
+
+class Page:
+    """What a page is told of members."""
+
+    def __init__(self, news: News) -> None:
+        self._told: SimpleQueue[Any] = SimpleQueue()
+        threading.Thread(target=self._hear, args=(news.follow(),), daemon=True).start()
+
+    def _hear(self, messages: Iterator[Any]) -> None:
+        for several in messages:
+            for each in several:
+                if "active" in each:
+                    self._told.put(each["active"])
+
+    def told(self) -> Any:
+        return self._told.get(timeout=PATIENCE)
+
+    def until(self, wanted: Any) -> None:
+        """Wait until it is told so; news that come fast are told together."""
+        found: Any = {}
+        while found != wanted:
+            found |= self.told()
+
+
+@pytest.fixture
+def shown(tmp_path: Path) -> Pictures:
+    path = tmp_path / "yard.swarm"
+    path.write_text(MODEL, encoding="utf-8")
+    made = pictures(compiler.check([path]))
+    assert isinstance(made, Pictures), made
+    return made
+
+
+@pytest.fixture
+def news(shown: Pictures) -> News:
+    news = News()
+    news.tell(shown)
+    return news
+
+
+def test_who_runs_which_machine_is_told_with_the_diagrams(shown: Pictures) -> None:
+    assert shown.listed()["runs"] == {
+        "Guarding.statechart": [("Guarding", ""), ("dog", "")],
+        "Round.statechart": [("Guarding", "Patrol."), ("Round", ""), ("dog", "Patrol.")],
+        "Watching.statechart": [("Watching", ""), ("dog.eye", "")],
+    }
+
+
+def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    wrong: list[Diagnostics] = []
+    follow([str(trace)], news, wrong.append)
+    page = Page(news)
+    trace.write_text(step("dog[0]", "Lie") + step("dog[1]", "Lie"), encoding="utf-8")
+    assert page.told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
+    with trace.open("a", encoding="utf-8") as file:
+        file.write(step("dog[1]", "Patrol.Walk") + step("dog[0]", "Shut")[:-10])
+        file.flush()
+        assert page.told() == {"dog[1]": ["Patrol.Walk"]}
+        assert Page(news).told() == {"dog[0]": ["Lie"], "dog[1]": ["Patrol.Walk"]}, "a late page"
+        file.write(step("dog[0]", "Shut")[-10:])
+    assert page.told() == {"dog[0]": ["Shut"]}
+    trace.write_text(step("dog[1]", "Lie"), encoding="utf-8")
+    page.until({"dog[0]": None, "dog[1]": ["Lie"]})  # it begins anew
+    other = tmp_path / "other.jsonl"
+    other.write_text(step("dog[2]", "Patrol.Walk"), encoding="utf-8")
+    other.replace(trace)
+    page.until({"dog[1]": None, "dog[2]": ["Patrol.Walk"]})
+    assert wrong == []
+
+
+def test_a_machine_alone_is_known_by_its_states(news: News, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    follow([str(trace)], news, pytest.fail)
+    trace.write_text(step(None, "Lie"), encoding="utf-8")
+    assert Page(news).told() == {"Guarding": ["Lie"]}
+
+
+def test_machines_alone_are_called_as_their_traces(news: News, tmp_path: Path) -> None:
+    names = [str(tmp_path / name) for name in ("a.jsonl", "b.jsonl")]
+    for name in names:
+        Path(name).write_text(step(None, "Lie"), encoding="utf-8")
+    follow(names, news, pytest.fail)
+    Page(news).until({name: ["Lie"] for name in names})
+
+
+def test_a_line_that_is_none_of_a_trace_is_told_once(news: News, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    wrong: list[Diagnostics] = []
+    follow([str(trace)], news, wrong.append)
+    text = f"{step('dog[0]', 'Lie')}\nhello\n[1]\n{{}}\n{step('dog[1]', 'Lie')}"
+    trace.write_text(text, encoding="utf-8")
+    assert Page(news).told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
+    (report,) = wrong
+    (found,) = report
+    assert (found.code, found.notes) == (
+        "SW1010",
+        (f"line 3 of {trace}; others are passed over silently",),
+    )
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+def test_standard_input_is_followed(
+    news: News, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    reading, writing = os.pipe()
+    with os.fdopen(reading) as stdin, os.fdopen(writing, "wb", buffering=0) as stream:
+        monkeypatch.setattr(sys, "stdin", stdin)
+        follow(["-"], news, pytest.fail)
+        page = Page(news)
+        stream.write(step("dog[0]", "Lie").encode())
+        assert page.told() == {"dog[0]": ["Lie"]}
+        # A last line may have no end.
+        stream.write(step("dog[0]", "Patrol.Walk").strip().encode())
+        stream.close()
+        assert page.told() == {"dog[0]": ["Patrol.Walk"]}
+
+
+@pytest.mark.parametrize(
+    ("command", "why"),
+    [
+        ("nowhere-to-be-found {file}", "there is no program `nowhere-to-be-found`"),
+        ("code -g {path}", "`{path}` is none of {file}, {line} and {column}"),
+        ("code -g", "`{file}` must stand where the file is to be named"),
+        ('code "{file}', "no closing quotation"),
+        ("", "`{file}` must stand"),
+    ],
+)
+def test_an_editor_that_cannot_be_one(
+    command: str, why: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["preview", "--editor", command]) == 2
+    assert why in " ".join(capsys.readouterr().err.replace("│", " ").split())
