@@ -246,7 +246,13 @@ def test_a_link_that_leads_out_is_refused(tmp_path):
     out = tmp_path / "out"
     out.mkdir()
     (out / "t").symlink_to(elsewhere)
-    assert errors(files(a="1"), out) == ["outside-output"]
+    report = Diagnostics()
+    assert write(files(a="1", b="1"), out, report) is None
+    (found,) = report  # for all files behind it
+    assert found.name == "outside-output"
+    assert f"`{out / 't'}`" in found.message
+    assert found.notes == (f"it is a symbolic link to `{elsewhere}`",)
+    assert found.help == "remove the link; to write there, give that folder with `-o`"
     assert list(elsewhere.iterdir()) == []
 
 
@@ -363,6 +369,62 @@ def test_what_fails_later_is_completed_by_the_next_build(tmp_path, monkeypatch):
     assert ((tmp_path / "t/a").read_text(), (tmp_path / "t/b").read_text()) == ("2", "1")
     assert write_ok(files(a="2", b="2"), tmp_path).unchanged == ("t/a", "t/b")
     assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/a", "t/b"}
+
+
+@pytest.fixture
+def locked_away(tmp_path, monkeypatch):
+    """A file that was generated and cannot be read, by no user."""
+    write_ok(files(a="1", b="1"), tmp_path)
+    read = Path.read_bytes
+
+    def read_bytes(path):
+        if path.name == "a":
+            raise PermissionError(13, "Permission denied", str(path))
+        return read(path)
+
+    monkeypatch.setattr(Path, "read_bytes", read_bytes)
+    return tmp_path / "t/a"
+
+
+@pytest.mark.parametrize("names", [{"a": "2"}, {"b": "1"}], ids=["still made", "not any more"])
+def test_a_file_that_cannot_be_read_is_named(locked_away, tmp_path, names):
+    report = Diagnostics()
+    assert write(files(**names), tmp_path, report) is None
+    (found,) = report
+    assert found.message == f"cannot read `{locked_away}`: permission denied"
+    assert locked_away.exists()
+
+
+def test_a_clean_leaves_what_it_cannot_read_and_says_so(locked_away, tmp_path):
+    report = Diagnostics()
+    written = clean(tmp_path, (), report, dry=False)
+    assert written is not None
+    assert written.removed == ("t/b",)
+    assert [found.name for found in report] == ["unreadable-file"]
+    assert locked_away.exists()
+
+
+@pytest.mark.skipif(getattr(os, "geteuid", int)() == 0, reason="root can read all files")
+def test_a_clean_names_files_in_a_folder_that_cannot_be_read(tmp_path):
+    write_ok(files(a="1"), tmp_path)
+    (tmp_path / "t").chmod(0)
+    report = Diagnostics()
+    clean(tmp_path, (), report, dry=False)
+    (tmp_path / "t").chmod(0o700)
+    assert [found.name for found in report] == ["unreadable-file"]
+
+
+def test_a_clean_of_a_target_that_is_none(tmp_path):
+    write_ok({"smach": [OutputFile("a", "1")], "roster": [OutputFile("a", "1")]}, tmp_path)
+    before = tree(tmp_path)
+    report = Diagnostics()
+    # The one is known but was not built, the other one is of a generator that is not installed.
+    clean(tmp_path, ["skeleton"], report, dry=False)
+    assert (len(report), tree(tmp_path)) == (0, before)
+    clean(tmp_path, ["smatch", "roster"], report, dry=False)
+    (found,) = report
+    assert (found.name, found.help) == ("unknown-target", "did you mean `smach`?")
+    assert tree(tmp_path).keys() == {NAME, texts.NAME, "smach", "smach/a"}
 
 
 def test_one_build_waits_for_another(tmp_path):

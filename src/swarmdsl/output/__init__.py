@@ -60,7 +60,10 @@ def decide(plan: Plan, output: Mapping[str, Sequence[OutputFile]]) -> None:
         except OSError as error:
             report_os_error(plan.disk.out / path, error, plan.report)
     drop_stale(plan, output.keys())
-    add_strays(plan, output.keys(), made)
+    try:
+        add_strays(plan, output.keys(), made)
+    except OSError as error:
+        report_os_error(plan.disk.out, error, plan.report)
     find_renamed(plan, made)
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection
 from pathlib import Path
 
-from swarmdsl import manifest
+from swarmdsl import manifest, plugins
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.output import texts
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import How, Written
 from swarmdsl.output.leaving import remove_generated
 from swarmdsl.output.opening import opened
+from swarmdsl.suggest import suggest
 
 
 def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool) -> Written | None:
@@ -19,13 +20,17 @@ def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool
 
     `targets` are those whose files go; all where none is named.
 
-    What the user has written in stays in its place, and is known for the next build. None when
-    something stands in the way, which is reported.
+    What the user has written in stays in its place, and is known for the next build. What cannot
+    be read stays too, and is reported. None when nothing at all can be done.
     """
     with opened(out, How(dry=dry), report) as plan:
         if plan is None:
             return None
-        remove_generated(plan, targets or {path.partition("/")[0] for path in plan.before.files})
+        there = {path.partition("/")[0] for path in plan.before.files}
+        for target in sorted(set(targets) - there - set(plugins.target_names())):
+            hint = suggest(target, there, "targets")
+            report.report("unknown-target", name=target, help=hint)
+        remove_generated(plan, targets or there)
         if not dry:
             carry_out(plan)
             if not (plan.manifest.files or plan.manifest.parked):

@@ -12,6 +12,10 @@ from swarmdsl.diagnostics import Diagnostics
 _CACHES = ("__pycache__",)
 
 
+class UnreadableError(OSError):
+    """The system does not let a file be read, or looked at."""
+
+
 class Disk:
     """Looks into an output folder; paths are below it."""
 
@@ -35,18 +39,26 @@ class Disk:
         return real.is_relative_to(os.path.realpath(self.out))
 
     def content(self, path: str) -> bytes | None:
-        """The content of a file, None when there is none; OSError when it is something else."""
+        """The content of a file, None when there is none.
+
+        Raises OSError when it is something else, UnreadableError when it cannot be read.
+        """
         place = self.out / path
         try:
             mode = place.stat().st_mode
         except FileNotFoundError:
             return None
+        except PermissionError as error:
+            raise _unreadable(error) from error
         if stat.S_ISDIR(mode):
             raise IsADirectoryError(0, "it is a folder", str(place))
         if not stat.S_ISREG(mode):
             # Reading a pipe or a device could wait forever.
             raise OSError(0, "it is not an ordinary file", str(place))
-        return place.read_bytes()
+        try:
+            return place.read_bytes()
+        except OSError as error:
+            raise _unreadable(error) from error
 
     def mode(self, path: str) -> int:
         """The permissions of a file that is there."""
@@ -64,14 +76,20 @@ class Disk:
         """Whether it is a symbolic link."""
         return (self.out / path).is_symlink()
 
+    def link_outside(self, path: str) -> Path:
+        """The symbolic link that leads out of the output folder on the way to a file."""
+        way = (self.out / path, *(self.out / path).parents)
+        links = (place for place in reversed(way) if place.is_symlink())
+        return next((link for link in links if not self._is_inside(link)), self.out / path)
+
     def obstacle(self, path: str) -> Path:
         """The file that is where a folder is needed for another one."""
         above = (self.out / path).parents
         return next(place for place in above if place.exists() and not place.is_dir())
 
     def files(self, folder: str) -> Iterator[str]:
-        """The ordinary files below a folder, but for what Python caches."""
-        for place, folders, names in os.walk(self.out / folder):
+        """The ordinary files below a folder, but for what Python caches. Raises UnreadableError."""
+        for place, folders, names in os.walk(self.out / folder, onerror=_raise_unreadable):
             folders[:] = sorted(name for name in folders if name not in _CACHES)
             for name in sorted(names):
                 found = Path(place, name)
@@ -94,4 +112,14 @@ class Disk:
 def report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:
     """Report what the system says about a file."""
     reason = error.strerror or str(error) or type(error).__name__
-    report.report("cannot-write", path=str(path), reason=reason[0].lower() + reason[1:])
+    name = "unreadable-file" if isinstance(error, UnreadableError) else "cannot-write"
+    report.report(name, path=error.filename or str(path), reason=reason[0].lower() + reason[1:])
+
+
+def _unreadable(error: OSError) -> UnreadableError:
+    return UnreadableError(error.errno, error.strerror, error.filename)
+
+
+def _raise_unreadable(error: OSError) -> None:
+    if not isinstance(error, FileNotFoundError):
+        raise _unreadable(error)

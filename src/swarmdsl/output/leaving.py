@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from contextlib import suppress
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager, suppress
 
 from swarmdsl.output import remarks
 from swarmdsl.output.changes import PARKED, Action, Change
+from swarmdsl.output.disk import UnreadableError, report_os_error
 from swarmdsl.output.plan import Plan
 from swarmdsl.output_path import clash_key
 
@@ -29,17 +30,31 @@ def remove_generated(plan: Plan, targets: Collection[str]) -> None:
     """Decide to remove what was generated for these targets and not edited."""
     for path, hash_ in plan.before.files.items():
         plan.hashes[path] = hash_
-        with suppress(OSError):
-            content = plan.disk.content(path) if plan.leads_inside(path) else None
-            of_target = path.partition("/")[0] in targets
-            if content is None or not of_target:
-                continue
-            if plan.disk.is_link(path) or not plan.is_pristine(path, content, hash_):
-                plan.edited.append(path)
-                continue
-            del plan.hashes[path]
-            plan.changes.append(Change(Action.REMOVE, path, content, None))
+        if path.partition("/")[0] in targets and plan.is_inside(path):
+            with _told(plan, path):
+                _remove(plan, path, hash_)
     _keep_what_is_known(plan)
+
+
+def _remove(plan: Plan, path: str, hash_: str) -> None:
+    content = plan.disk.content(path)
+    if content is None:
+        return
+    if plan.disk.is_link(path) or not plan.is_pristine(path, content, hash_):
+        plan.edited.append(path)
+        return
+    del plan.hashes[path]
+    plan.changes.append(Change(Action.REMOVE, path, content, None))
+
+
+@contextmanager
+def _told(plan: Plan, path: str) -> Iterator[None]:
+    """Tell of what cannot be read; what is there now and is no file is not swarmc's."""
+    with suppress(OSError):
+        try:
+            yield
+        except UnreadableError as error:
+            report_os_error(plan.disk.out / path, error, plan.report)
 
 
 def _keep_what_is_known(plan: Plan) -> None:
@@ -54,7 +69,7 @@ def _keep_what_is_known(plan: Plan) -> None:
 
 def _drop(plan: Plan, path: str, old: str, successor: str | None) -> None:
     """Remove a file, or put it aside where it has lines of the user."""
-    with suppress(OSError):
+    with _told(plan, path):
         if plan.disk.is_link(path) or not plan.leads_inside(path):
             return
         if successor is not None and plan.disk.same(path, successor):

@@ -51,8 +51,8 @@ def add_strays(plan: Plan, targets: Collection[str], made: Mapping[str, OutputFi
                 free = moved not in made and moved not in there and not plan.is_there(moved)
                 if path not in plan.before.files and free and plan.leads_inside(path):
                     there.add(moved)
-                    with suppress(OSError):
-                        content = (plan.disk.out / path).read_bytes()
+                    content = plan.disk.content(path)
+                    if content is not None:
                         plan.bring(moved, Found(content, None, path, names), content)
 
 

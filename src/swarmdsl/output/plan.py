@@ -13,7 +13,8 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import Hashes, Manifest, content_hash
 from swarmdsl.map_file import Maps, Positions
-from swarmdsl.output.changes import PARKED, Action, Change, How, Written
+from swarmdsl.output import remarks
+from swarmdsl.output.changes import Action, Change, How, Written
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.names import Names
 from swarmdsl.output.remarks import NEW
@@ -123,10 +124,7 @@ class Plan:
         """Whether a file is in the output folder, whatever links lead there; if not, report it."""
         if self.leads_inside(path):
             return True
-        notes = ("a symbolic link on the way leads out of the folder",)
-        place = str(self.disk.out / path)
-        target = path.removeprefix(f"{PARKED}/").partition("/")[0]
-        self.report.report("outside-output", target=target, path=place, notes=notes)
+        remarks.report_link(self.disk.link_outside(path), path, self.report)
         return False
 
     def leads_inside(self, path: str) -> bool:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.fitting_code import mark_in
 from swarmdsl.generator import OutputFile
+from swarmdsl.output.changes import PARKED
 from swarmdsl.output.merge import Merge, first_difference
 from swarmdsl.output.names import Names
 from swarmdsl.source import Source, Span
@@ -50,6 +52,15 @@ def report_conflict(place: Path, content: bytes, merge: Merge | None, report: Di
         "or give up the edit with `--force`"
     )
     report.report("merge-conflict", at, related=others, path=str(place), notes=notes, help=help_)
+
+
+def report_link(link: Path, path: str, report: Diagnostics) -> None:
+    """A symbolic link leads out of the output folder on the way to a file."""
+    leads_to = os.path.realpath(link)
+    target = path.removeprefix(f"{PARKED}/").partition("/")[0]
+    notes = (f"it is a symbolic link to `{leads_to}`",)
+    help_ = "remove the link; to write there, give that folder with `-o`"
+    report.report("outside-output", target=target, path=str(link), notes=notes, help=help_)
 
 
 def report_parked(place: Path, aside: Path, report: Diagnostics) -> None:
