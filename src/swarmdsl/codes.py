@@ -218,6 +218,7 @@ CODES: dict[str, Code] = {
     "interrupted-build": Code(
         "SW0927", "error", "a build into `{path}` was interrupted, and is not complete"
     ),
+    "damaged-region": Code("SW0928", "warning", "in `{path}`, {fault}"),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

@@ -29,10 +29,14 @@ def mark_in(content: bytes) -> str | None:
     return found[1].decode() if found is not None else None
 
 
-def outdated(of_user: bytes, generated: bytes) -> tuple[str, str] | None:
-    """The mark in the user's file and the one it should have; None where it fits or has none."""
-    written, wanted = mark_in(of_user), mark_in(generated)
-    if written is None or wanted is None or written == wanted:
+def outdated(of_user: bytes, generated: bytes, base: bytes | None) -> tuple[str, str] | None:
+    """What the user's file is written for, as a mark, and what it should be; None where it fits.
+
+    Where it has no mark any more, that of the text it was made from counts, `base`; of a file of
+    which that is not known, "".
+    """
+    written, wanted = mark_in(of_user) or mark_in(base or b"") or "", mark_in(generated)
+    if wanted is None or written == wanted:
         return None
     return written, wanted
 

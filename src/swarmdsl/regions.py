@@ -17,47 +17,70 @@ _MARK = re.compile(rb"swarmc:(begin|end) ([A-Za-z0-9_.]+)")
 
 
 class RegionError(Exception):
-    """The marks of a file are not as they were written; the text says what is wrong."""
+    """The marks of a file are not as they were: in which line, from 0, and what is wrong."""
+
+    def __init__(self, line: int, fault: str) -> None:
+        super().__init__(fault)
+        self.line, self.fault = line, fault
+
+
+def fault(content: bytes) -> RegionError | None:
+    """What is wrong with the marks of a file, which has no regions then."""
+    try:
+        _pieces(content)
+    except RegionError as error:
+        return error
+    return None
 
 
 def generated(content: bytes) -> bytes:
     """A file without what stands in its regions; all of it where the marks are wrong."""
-    try:
-        pieces = _pieces(content)
-    except RegionError:
-        return content
-    return b"".join(b"".join(lines) for id_, lines in pieces if id_ is None)
+    return b"".join(b"".join(lines) for id_, lines in _whole(content) if id_ is None)
 
 
 def kept(content: bytes) -> dict[str, bytes]:
-    """What the user has written in each region; blank ones are left out. Raises RegionError."""
-    found = {id_: b"".join(lines) for id_, lines in _pieces(content) if id_ is not None}
+    """What the user has written in each region; blank ones are left out."""
+    found = {id_: b"".join(lines) for id_, lines in _whole(content) if id_ is not None}
     return {id_: text for id_, text in found.items() if text.strip()}
 
 
-def ids(content: bytes) -> set[str]:
-    """The regions of a file. Raises RegionError."""
-    return {id_ for id_, _ in _pieces(content) if id_ is not None}
+def ids(content: bytes) -> dict[str, int]:
+    """The regions of a file, with the line in which each begins, from 0."""
+    found: dict[str, int] = {}
+    line = 0
+    for id_, lines in _whole(content):
+        if id_ is not None:
+            found[id_] = line - 1
+        line += len(lines)
+    return found
 
 
 def filled(content: bytes, of_user: Mapping[str, bytes]) -> tuple[bytes, list[str]]:
     """A new file with what the user had written in its regions, and regions it does not have."""
-    try:
-        pieces = _pieces(content)
-    except RegionError:
-        pieces = [(None, [content])]
+    pieces = _whole(content)
     known = {id_ for id_, _ in pieces}
     text = b"".join(of_user.get(id_ or "", b"".join(lines)) for id_, lines in pieces)
     return text, [id_ for id_ in of_user if id_ not in known]
 
 
+def _whole(content: bytes) -> list[tuple[str | None, list[bytes]]]:
+    """The same as `_pieces`; where the marks are wrong, all is outside."""
+    try:
+        return _pieces(content)
+    except RegionError:
+        return [(None, [content])]
+
+
 def _pieces(content: bytes) -> list[tuple[str | None, list[bytes]]]:
-    """The lines outside (None) and inside of regions, in turn; marks are outside."""
-    pieces: list[tuple[str | None, list[bytes]]] = [(None, [])]
+    """The lines outside (None) and inside of regions, in turn; marks are outside.
+
+    Raises RegionError.
+    """
     if b"swarmc:" not in content:
         return [(None, [content])]
-    seen: set[str] = set()
-    for line in content.splitlines(keepends=True):
+    pieces: list[tuple[str | None, list[bytes]]] = [(None, [])]
+    begun: dict[str, int] = {}
+    for number, line in enumerate(content.splitlines(keepends=True)):
         mark = _MARK.search(line)
         if mark is None:
             pieces[-1][1].append(line)
@@ -66,16 +89,17 @@ def _pieces(content: bytes) -> list[tuple[str | None, list[bytes]]]:
         inside = pieces[-1][0]
         if kind == "begin":
             if inside is not None:
-                raise RegionError(f"region `{id_}` begins inside region `{inside}`")
-            if id_ in seen:
-                raise RegionError(f"there are two regions `{id_}`")
-            seen.add(id_)
+                raise RegionError(number, f"region `{id_}` begins inside region `{inside}`")
+            if id_ in begun:
+                raise RegionError(number, f"region `{id_}` begins a second time")
+            begun[id_] = number
             pieces[-1][1].append(line)
             pieces.append((id_, []))
         else:
             if inside != id_:
-                raise RegionError(f"region `{id_}` ends where it has not begun")
+                raise RegionError(number, f"region `{id_}` ends where it has not begun")
             pieces.append((None, [line]))
-    if pieces[-1][0] is not None:
-        raise RegionError(f"region `{pieces[-1][0]}` has no end")
+    last = pieces[-1][0]
+    if last is not None:
+        raise RegionError(begun[last], f"region `{last}` has no end")
     return pieces

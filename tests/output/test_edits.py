@@ -145,10 +145,13 @@ def test_a_conflict_ends_when_the_edit_is_given_up(conflict: Path) -> None:
     assert tree(conflict) == {"t/f": text(l2="new\n")}
 
 
-def test_an_edited_text_beside_a_file_is_not_overwritten(conflict: Path) -> None:
-    (conflict / "t/f.swarmc-new").write_text("my notes\n", encoding="utf-8")
+def test_an_edited_text_beside_a_file_is_not_overwritten_which_is_told(conflict: Path) -> None:
+    beside = conflict / "t/f.swarmc-new"
+    beside.write_text("my notes\n", encoding="utf-8")
 
-    build(conflict, plain(text(l2="newer\n")))
+    _, (notes, _) = build(conflict, plain(text(l2="newer\n")))
+    assert notes.message == f"`{beside}` is generated, and has been edited"
+    assert notes.notes == ("what is generated now is not in it",)
     assert tree(conflict)["t/f.swarmc-new"] == "my notes\n"
     (conflict / "t/f").write_text(text(l2="newer\n"), encoding="utf-8")
     build(conflict, plain(text(l2="newer\n")))
@@ -156,6 +159,20 @@ def test_an_edited_text_beside_a_file_is_not_overwritten(conflict: Path) -> None
         "t/f": text(l2="newer\n"),
         ".parked/t/f.swarmc-new": "my notes\n",
     }
+
+
+def test_an_edited_text_beside_a_file_that_is_taken_over_is_older_than_what_is_new(
+    conflict: Path,
+) -> None:
+    """Else the change of line 8, which nobody has seen, were lost."""
+    beside = conflict / "t/f.swarmc-new"
+    beside.write_text(text(l2="new, and mine\n"), encoding="utf-8")
+    for _ in range(2):
+        build(conflict, plain(text(l2="new\n", l8="newer\n")))
+    beside.replace(conflict / "t/f")
+
+    assert names(build(conflict, plain(text(l2="new\n", l8="newer\n")))) == ["edited-output"]
+    assert tree(conflict) == {"t/f": text(l2="new, and mine\n", l8="newer\n")}
 
 
 def test_without_the_texts_there_is_no_merge(tmp_path: Path) -> None:
@@ -177,14 +194,39 @@ def test_what_is_no_text_is_not_lost(tmp_path: Path) -> None:
     assert (tmp_path / "t/f").read_bytes() == b"\xff\x00\r\nmine"
 
 
-def test_other_line_ends_are_no_edit(tmp_path: Path) -> None:
+def of_windows(content: str) -> bytes:
+    return content.replace("\n", "\r\n").encode()
+
+
+def test_other_line_ends_are_no_edit_and_stay(tmp_path: Path) -> None:
     build(tmp_path, plain(text()))
-    (tmp_path / "t/f").write_bytes(text().replace("\n", "\r\n").encode())
+    (tmp_path / "t/f").write_bytes(of_windows(text()))
 
     written, found = build(tmp_path, plain(text()))
     assert (written and written.changes, found) == ((), [])
     assert names(build(tmp_path, plain(text(l2="new\n")))) == []
-    assert (tmp_path / "t/f").read_bytes() == text(l2="new\n").encode()
+    assert (tmp_path / "t/f").read_bytes() == of_windows(text(l2="new\n"))
+
+
+def test_a_merge_keeps_other_line_ends(tmp_path: Path) -> None:
+    build(tmp_path, plain(text()))
+    (tmp_path / "t/f").write_bytes(of_windows(text(l2="mine\n")))
+
+    assert names(build(tmp_path, plain(text(l8="new\n")))) == ["edited-output"]
+    assert (tmp_path / "t/f").read_bytes() == of_windows(text(l2="mine\n", l8="new\n"))
+    # One line that an editor has left with its old end is no conflict either.
+    mixed = of_windows(text(l2="mine\n", l8="new\n")).replace(b"line 4\r\n", b"line 4\n")
+    (tmp_path / "t/f").write_bytes(mixed)
+    assert names(build(tmp_path, plain(text(l8="newer\n")))) == ["edited-output"]
+    assert (tmp_path / "t/f").read_bytes() == mixed.replace(b"new\r\n", b"newer\r\n")
+
+
+def test_what_is_beside_a_conflict_has_the_line_ends_of_the_file(tmp_path: Path) -> None:
+    build(tmp_path, plain(text()))
+    (tmp_path / "t/f").write_bytes(of_windows(text(l2="mine\n")))
+
+    assert names(build(tmp_path, plain(text(l2="new\n")))) == ["merge-conflict"]
+    assert (tmp_path / "t/f.swarmc-new").read_bytes() == of_windows(text(l2="new\n"))
 
 
 # ---- files to fill in
@@ -212,6 +254,28 @@ def test_a_file_to_fill_in_follows_the_model_until_it_is_edited(tmp_path: Path) 
     file.write_text(file.read_text().replace(old, new), encoding="utf-8")
     assert names(build(tmp_path, *skeleton("rise", "goal.height : float32", body="return 1"))) == []
     assert set(tree(tmp_path)) == {"t/rise/rise.py", "t/rise/base.py"}
+
+
+@pytest.mark.parametrize("texts_there", [True, False], ids=["texts", "no texts"])
+def test_a_file_without_its_mark_is_still_known_to_be_outdated(
+    tmp_path: Path, texts_there: bool
+) -> None:
+    build(tmp_path, *skeleton("rise", "goal.height : float64"))
+    file = tmp_path / "t/rise/rise.py"
+    old = file.read_text()
+    mine = old[old.index("\n") + 1 :] + "mine\n"
+    file.write_text(mine, encoding="utf-8")
+    assert names(build(tmp_path, *skeleton("rise", "goal.height : float64"))) == []
+    if not texts_there:
+        (tmp_path / texts.NAME).unlink()
+    for _ in range(2):
+        _, (found,) = build(tmp_path, *skeleton("rise", "goal.height : float32"))
+        assert found.name == "outdated-code"
+        assert "- goal.height : float64" in found.notes or not texts_there
+    mark = fits(["class Rise", "goal.height : float32"])
+    assert f"a comment with `{mark}`" in str(found.help)
+    file.write_text(f"{mine}# {mark}\n", encoding="utf-8")
+    assert names(build(tmp_path, *skeleton("rise", "goal.height : float32"))) == []
 
 
 def test_what_was_filled_in_is_put_aside_and_comes_back(tmp_path: Path) -> None:

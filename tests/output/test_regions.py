@@ -80,30 +80,70 @@ def test_an_edit_outside_is_merged_beside_them(out: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new"),
+    ("old", "new", "fault", "line"),
     [
-        ("# swarmc:end m.a\n", ""),
-        ("# swarmc:begin m.a\n", ""),
-        ("# swarmc:end m.b\n", ""),
-        ("b\n# swarmc:end m.b\n", "# swarmc:end m.b\n# swarmc:begin m.b\n"),
+        ("# swarmc:end m.a\n", "", "region `m.b` begins inside region `m.a`", 7),
+        ("# swarmc:begin m.a\n", "", "region `m.a` ends where it has not begun", 5),
+        ("# swarmc:end m.b\n", "", "region `m.b` has no end", 8),
+        (
+            "b\n# swarmc:end m.b\n",
+            "# swarmc:end m.b\n# swarmc:begin m.b\n",
+            "region `m.b` begins a second time",
+            10,
+        ),
     ],
 )
-def test_where_marks_were_damaged_nothing_is_lost(out: Path, old: str, new: str) -> None:
+@pytest.mark.parametrize("options", [{}, {"force": True}], ids=str)
+def test_damaged_marks_are_named_and_nothing_is_lost(
+    out: Path, old: str, new: str, fault: str, line: int, options: dict[str, bool]
+) -> None:
     edit(out, old, new)
     before = (out / "t/f").read_bytes()
+    report = Diagnostics()
+    write({"t": [OutputFile("f", FIRST)]}, out, report, How(**options))
 
-    assert build(MOVED, out)[1] == [CONFLICT]
+    (found,) = report
+    assert found.name == "damaged-region"
+    assert found.message == f"in `{out / 't/f'}`, {fault}"
+    assert found.primary is not None
+    assert found.primary.span.line == line
+    assert build(MOVED, out, **options)[1] == [CONFLICT, f"in `OUT/t/f`, {fault}"]
     assert (out / "t/f").read_bytes() == before
+
+
+def test_a_region_that_is_not_generated_is_named(out: Path) -> None:
+    edit(out, "two\n", "two\n# swarmc:begin m.c\nmine too\n# swarmc:end m.c\n")
+    report = Diagnostics()
+    write({"t": [OutputFile("f", "zero\n" + FIRST)]}, out, report)
+
+    (found,) = report
+    assert found.message == f"in `{out / 't/f'}`, no region `m.c` is generated"
+    assert found.help == "did you mean `m.b`?"
+    assert found.primary is not None
+    assert found.primary.span.text == "# swarmc:begin m.c"
+    text = (out / "t/f").read_text()
+    assert text.startswith("zero\n")
+    assert "\nmine too\n" in text
 
 
 def test_a_region_that_is_gone_is_not_lost(out: Path) -> None:
     without = FIRST.replace("# swarmc:begin m.a\n# swarmc:end m.a\n", "")
 
     for _ in range(2):
-        assert build(without, out)[1] == [CONFLICT]
+        assert build(without, out)[1] == [CONFLICT, "in `OUT/t/f`, no region `m.a` is generated"]
         assert "\nmine\n" in (out / "t/f").read_text()
     edit(out, "mine\n\n  é\n", "\n")
     assert build(without, out)[1] == []
+
+
+def test_regions_in_a_file_with_other_line_ends(out: Path) -> None:
+    of_user = (out / "t/f").read_bytes().replace(b"\n", b"\r\n")
+    (out / "t/f").write_bytes(of_user)
+    assert build(FIRST, out)[1] == []
+    assert (out / "t/f").read_bytes() == of_user
+
+    assert build("zero\n" + FIRST, out)[1] == []
+    assert (out / "t/f").read_bytes() == b"zero\r\n" + of_user
 
 
 def test_a_file_that_is_not_made_any_more_is_put_aside_with_what_is_in_it(out: Path) -> None:

@@ -108,13 +108,16 @@ class Plan:
             elif self.is_pristine(path, old, known):
                 self.changes.append(Change(Action.CHANGE, path, old, content))
             else:
+                # What the user has seen of what is generated is in it, and nothing newer.
+                self.hashes[path] = known or self.texts.add("")
                 self.edited.append(path)
+                remarks.report_neighbour(self.disk.out / path, self.remarks)
 
     def is_pristine(self, path: str, content: bytes, base: str | None) -> bool:
         """Whether a file is as swarmc wrote it, with no line of the user in a region."""
         # What would be in place of another file has the lines from there.
         is_copy = path.endswith(NEW)
-        return self.is_generated(content, base) and (is_copy or not _has_lines_of_user(content))
+        return self.is_generated(content, base) and (is_copy or not regions.kept(content))
 
     def is_generated(self, content: bytes, base: str | None) -> bool:
         """The same, but for what is in regions."""
@@ -134,9 +137,3 @@ class Plan:
     def is_there(self, path: str) -> bool:
         """Whether there is something of that name."""
         return (self.disk.out / path).exists()
-
-
-def _has_lines_of_user(content: bytes) -> bool:
-    with suppress(regions.RegionError):
-        return bool(regions.kept(content))
-    return False

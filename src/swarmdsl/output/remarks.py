@@ -54,6 +54,22 @@ def report_conflict(place: Path, content: bytes, merge: Merge | None, report: Di
     report.report("merge-conflict", at, related=others, path=str(place), notes=notes, help=help_)
 
 
+def report_neighbour(place: Path, report: Diagnostics) -> None:
+    """What would be generated is not beside a file, since somebody has edited what is there."""
+    notes = ("what is generated now is not in it",)
+    help_ = "move it away or over the file that it is beside, and build again"
+    report.report("edited-output", path=str(place), notes=notes, help=help_)
+
+
+def report_damaged(
+    place: Path, content: bytes, line: int, fault: str, hint: str | None, report: Diagnostics
+) -> None:
+    """The marks of the user's regions in a file are not as they were generated."""
+    at = _lines(_source(place, content), line)
+    help_ = hint or "mend the mark: until then all lines of the file are kept as an edit"
+    report.report("damaged-region", at, path=str(place), fault=fault, help=help_)
+
+
 def report_link(link: Path, path: str, report: Diagnostics) -> None:
     """A symbolic link leads out of the output folder on the way to a file."""
     leads_to = os.path.realpath(link)
@@ -107,12 +123,13 @@ def report_old_name(
 def report_outdated(
     place: Path,
     file: OutputFile,
+    content: bytes,
     marks: tuple[str, str],
     facts: Sequence[str] | None,
     report: Diagnostics,
 ) -> None:
     """Code of the user was written for what the model said before."""
-    help_ = f"adapt it, and then write `swarmc:fits {marks[1]}` for `{marks[0]}` in it"
+    help_ = f"adapt it, and then {_write_mark(content, marks)}"
     notes = (*_differences(facts, file.facts), f"`{place.name}{NOTE}` beside it says more")
     report.report("outdated-code", file.origin, path=str(place), notes=notes, help=help_)
 
@@ -121,6 +138,7 @@ def changed_below(
     path: str,
     file: OutputFile,
     content: bytes,
+    marks: tuple[str, str],
     base: bytes | None,
     facts: Sequence[str] | None,
 ) -> bytes:
@@ -132,7 +150,7 @@ def changed_below(
     new = file.text.encode()
     lines = [
         f"`{name}` is yours, and was written for another state of the model.",
-        f"Adapt it, and write `swarmc:fits {mark_in(new)}` for `{mark_in(content)}` in it:",
+        f"Adapt it, and {_write_mark(content, marks)}:",
         "then this file goes.",
     ]
     differences = _differences(facts, file.facts)
@@ -145,6 +163,13 @@ def changed_below(
         text += "\nWhat would be generated in its place, before and now:\n\n"
         text += unified_diff(base, new, name, name)
     return text.encode()
+
+
+def _write_mark(content: bytes, marks: tuple[str, str]) -> str:
+    """What says that a file is adapted; its mark may have been deleted."""
+    if mark_in(content) is None:
+        return f"write a comment with `swarmc:fits {marks[1]}` into it, where that was deleted"
+    return f"write `swarmc:fits {marks[1]}` for `{marks[0]}` in it"
 
 
 def _differences(before: Sequence[str] | None, now: Sequence[str]) -> list[str]:

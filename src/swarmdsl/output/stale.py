@@ -24,7 +24,7 @@ _FAULTS = {
 
 
 # What else is told by a build is about what it did.
-_LASTING = ("outdated-code", "renamed-element", "merge-conflict")
+_LASTING = ("outdated-code", "renamed-element", "merge-conflict", "damaged-region")
 
 
 def report_stale(

@@ -7,20 +7,19 @@ worked on: it is kept where it is there to be filled in, else merged with what i
 
 from __future__ import annotations
 
-from contextlib import suppress
-
 from swarmdsl import regions
 from swarmdsl.dataclass import replace
 from swarmdsl.fitting_code import mark_of, outdated
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import content_hash
-from swarmdsl.output import remarks
+from swarmdsl.output import line_ends, remarks
 from swarmdsl.output.changes import PARKED, Action
 from swarmdsl.output.merge import merge
 from swarmdsl.output.moves import renamed
 from swarmdsl.output.names import Names
 from swarmdsl.output.plan import Found, Plan
 from swarmdsl.output.remarks import NEW, NOTE
+from swarmdsl.suggest import suggest
 
 
 def update(plan: Plan, path: str, file: OutputFile) -> None:
@@ -46,7 +45,9 @@ def update(plan: Plan, path: str, file: OutputFile) -> None:
             plan.owners[path] = f"{file.owner} {mark_of(file.facts)}"
         if found is None:
             plan.change(Action.CREATE, path, None, new, file)
-        elif file.keep:
+            return
+        new = line_ends.like(found.content, new)
+        if file.keep:
             _keep(plan, path, file, new, found)
         else:
             _update(plan, path, file, new, found)
@@ -58,16 +59,16 @@ def _keep(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> 
         _settle(plan, path, file, found, new)
         return
     found = renamed(plan, path, file, new, found)
-    marks = outdated(found.content, new)
-    if marks is not None:
+    base = plan.texts.get(found.base)
+    marks = outdated(found.content, new, base)
+    if marks is not None and (marks[0] or found.base not in (None, plan.hashes[path])):
         # What its code builds on is still the old text.
         plan.hashes[path] = found.base or plan.hashes[path]
-        base = plan.texts.get(found.base)
-        facts = plan.texts.facts(marks[0])
-        note = remarks.changed_below(path, file, found.content, base, facts)
+        facts = plan.texts.facts(marks[0]) if marks[0] else None
+        note = remarks.changed_below(path, file, found.content, marks, base, facts)
         place = plan.disk.out / path
         plan.add_neighbour(f"{path}{NOTE}", note)
-        remarks.report_outdated(place, file, marks, facts, plan.remarks)
+        remarks.report_outdated(place, file, found.content, marks, facts, plan.remarks)
     if found.source is None:
         plan.kept.append(path)
     else:
@@ -80,21 +81,32 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
     if pristine:
         found = replace(found, base=content_hash(found.content))
     found = renamed(plan, path, file, new, found)
-    try:
-        of_user = regions.kept(found.content)
-    except regions.RegionError:
-        of_user = {}
+    of_user = regions.kept(found.content)
     filled, lost = regions.filled(new, of_user)
     if found.content == filled or (pristine and not lost):
         _settle(plan, path, file, found, filled)
         return
-    if plan.how.force:
+    is_foreign = found.base is None and found.source is None
+    is_damaged = not is_foreign and regions.fault(found.content) is not None
+    if plan.how.force and not is_damaged:
         plan.change(Action.OVERWRITE, path, found.content, filled, file, found.source)
-        return
-    if found.base is None and found.source is None:
+    elif is_foreign:
         _report_foreign(plan, path)
-        return
-    _merge(plan, path, file, filled, found, of_user)
+    else:
+        _merge(plan, path, file, filled, found, of_user)
+
+
+def _report_marks(plan: Plan, path: str, content: bytes, new: bytes) -> bool:
+    """Tell of marks for which lines in regions are not known as such; whether there are any."""
+    place, known = plan.disk.out / path, regions.ids(new)
+    strange = [(id_, line) for id_, line in regions.ids(content).items() if id_ not in known]
+    for id_, line in strange:
+        fault, hint = f"no region `{id_}` is generated", suggest(id_, known, "regions")
+        remarks.report_damaged(place, content, line, fault, hint, plan.remarks)
+    wrong = regions.fault(content)
+    if wrong is not None:
+        remarks.report_damaged(place, content, wrong.line, wrong.fault, None, plan.remarks)
+    return bool(strange) or wrong is not None
 
 
 def _merge(
@@ -109,8 +121,10 @@ def _merge(
     if base is None and base_hash == plan.hashes[path]:
         base = file.text.encode()
     if base is not None:
-        base = _base_as_edited(plan, base, found, filled, of_user)
+        base = line_ends.like(found.content, base)
+        base = _base_as_edited(base, found, filled, of_user)
     place = plan.disk.out / path
+    told = _report_marks(plan, path, found.content, filled)
     merged = merge(base, found.content, filled) if base is not None else None
     if base is None or merged is None or merged.text is None:
         # Where nothing is known of it, all of it is the user's: it was made from nothing.
@@ -122,7 +136,8 @@ def _merge(
         else:
             plan.bring(path, found, found.content)
         return
-    remarks.report_edited(place, found.content, base, merged.taken, plan.remarks)
+    if not told:
+        remarks.report_edited(place, found.content, base, merged.taken, plan.remarks)
     if found.source is not None:
         plan.bring(path, found, merged.text)
     elif merged.text == found.content:
@@ -131,18 +146,13 @@ def _merge(
         plan.change(Action.MERGE, path, found.content, merged.text, file)
 
 
-def _base_as_edited(
-    plan: Plan, base: bytes, found: Found, filled: bytes, of_user: regions.Texts
-) -> bytes:
+def _base_as_edited(base: bytes, found: Found, filled: bytes, of_user: regions.Texts) -> bytes:
     """The text from before with the regions of the user that stay, and under the new name."""
     if found.names is not None:
         text, _ = found.names.rewritten(base.decode(), filled.decode(errors="surrogateescape"))
         base = text.encode(errors="surrogateescape")
-    with suppress(regions.RegionError):
-        staying = regions.ids(filled)
-        base, _ = regions.filled(
-            base, {id_: text for id_, text in of_user.items() if id_ in staying}
-        )
+    staying = regions.ids(filled)
+    base, _ = regions.filled(base, {id_: text for id_, text in of_user.items() if id_ in staying})
     return base
 
 
@@ -152,8 +162,7 @@ def _settle(plan: Plan, path: str, file: OutputFile, found: Found, new: bytes) -
         plan.bring(path, found, new)
         return
     has_mode = not file.executable or plan.disk.is_executable(path)
-    same = found.content == new or found.content.replace(b"\r\n", b"\n") == new
-    if same and has_mode:
+    if line_ends.plain(found.content) == line_ends.plain(new) and has_mode:
         plan.unchanged.append(path)
     else:
         plan.change(Action.CHANGE, path, found.content, new, file)
