@@ -35,8 +35,7 @@ from swarmdsl.ir.types import STRING
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-_EXAMPLES = (*("minimal", "search_and_rescue", "storage", "flocking", "emergency_exit", "cpswarm"),)
-MODELS = [*(ROOT / "examples" / name for name in _EXAMPLES), HERE / "models"]
+MODELS = [*sorted(p for p in (ROOT / "examples").iterdir() if p.is_dir()), HERE / "models"]
 _IN_WHEELS = ("builtin_interfaces", "geometry_msgs", "sensor_msgs", "std_msgs", "std_srvs")
 _READY = "ready.txt"
 # Both of our models and of the bridge, which describes it nowhere.
@@ -90,8 +89,9 @@ def build(folder: Path, *packages: str) -> None:
         "console_direct-",
     ]
     command += ["--packages-select", *packages] if packages else []
-    # Only Python uses the interfaces, so nothing is gained by an optimised build.
+    # Only Python uses the interfaces, so nothing is gained by an optimised build, nor by C++.
     command += ["--cmake-args", "-GNinja", "-DBUILD_TESTING=OFF", "-DCMAKE_BUILD_TYPE=None"]
+    command += [f"-DCMAKE_PROJECT_INCLUDE={HERE / 'without_cpp.cmake'}"]
     subprocess.run(command, cwd=folder / "ws", env=environment, check=True, stdout=sys.stderr)
 
 

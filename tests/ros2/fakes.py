@@ -32,6 +32,7 @@ class Fakes(Node):
         self.group = ReentrantCallbackGroup()
         self.servers = {}
         self.topics = {}
+        self.open = {}
         self.lock = threading.Lock()
 
     def tell(self, **what):
@@ -47,7 +48,7 @@ class Fakes(Node):
 
         def accept(goal):
             number = next(calls)
-            plan = script[min(number, len(script) - 1)]
+            plan = dict(script[min(number, len(script) - 1)])
             self.tell(goal=name, number=number, data=plain(goal))
             time.sleep(plan.get("hesitates", 0.0))
             plans.append(plan)
@@ -59,7 +60,6 @@ class Fakes(Node):
 
         def execute(handle):
             plan = plans[-1]
-            result = fill(made.Result(), plan.get("result", {}))
             for values in plan.get("feedback", ()):
                 handle.publish_feedback(fill(made.Feedback(), values))
             end = time.monotonic() + plan.get("after", 0.0)
@@ -72,6 +72,8 @@ class Fakes(Node):
                 if not handle.is_active:
                     return made.Result()
                 time.sleep(_STEP)
+            result = fill(made.Result(), plan.get("result", {}))
+            vary(result, plan.get("vary"))
             if plan["outcome"] == "succeeded":
                 handle.succeed()
             elif plan["outcome"] == "canceled":
@@ -80,7 +82,7 @@ class Fakes(Node):
                 handle.abort()
             return result
 
-        plans = []
+        plans = self.open[name] = []
         made = interface(kind)
         self.servers[name] = ActionServer(
             self,
@@ -97,14 +99,25 @@ class Fakes(Node):
 
         def respond(request, response):
             number = next(calls)
-            plan = script[min(number, len(script) - 1)]
+            plan = dict(script[min(number, len(script) - 1)])
+            plans.append(plan)
             self.tell(request=name, number=number, data=plain(request))
             time.sleep(plan.get("after", 0.0))
+            while plan["outcome"] == "never":
+                time.sleep(_STEP)
+            vary(response, plan.get("vary"))
             return fill(response, plan.get("result", {}))
 
+        plans = self.open[name] = []
         self.servers[name] = self.create_service(
             interface(kind), name, respond, callback_group=self.group
         )
+
+    def do_finish(self, name, outcome, number):
+        """End the goals and requests that wait for it, with values that depend on a number."""
+        for plan in self.open[name]:
+            if plan["outcome"] == "never":
+                plan.update(outcome=outcome, vary=number)
 
     def do_gone(self, name):
         server = self.servers.pop(name)
@@ -116,9 +129,9 @@ class Fakes(Node):
     def do_publisher(self, topic, kind):
         self.topics[topic] = self.create_publisher(interface(kind), topic, 10)
 
-    def do_publish(self, topic, data):
+    def do_publish(self, topic, data, number=None):
         publisher = self.topics[topic]
-        publisher.publish(fill(publisher.msg_type(), data))
+        publisher.publish(fill(vary(publisher.msg_type(), number), data))
 
     def do_clock(self, time):
         if "/clock" not in self.topics:
@@ -146,11 +159,12 @@ class Fakes(Node):
         future = client.call_async(fill(made.Request(), data))
         future.add_done_callback(lambda done: self.tell(called=name, data=plain(done.result())))
 
-    def do_listeners(self, topic, count):
-        """Wait until so many listen to a topic, and know of who publishes there."""
-        wait_for(self.topics[topic], count)
+    def do_listeners(self, topics, count):
+        """Wait until so many listen to each topic, and know of who publishes there."""
+        for topic in topics:
+            wait_for(self.topics[topic], count)
         time.sleep(_KNOWN)
-        self.tell(listeners=topic)
+        self.tell(listeners=topics)
 
 
 def wait_for(publisher, count=1):
@@ -168,6 +182,22 @@ def fill(message, values):
     for name, value in values.items():
         held = getattr(message, name)
         setattr(message, name, fill(held, value) if isinstance(value, dict) else value)
+    return message
+
+
+def vary(message, number):
+    """Fill in values that depend on a number, if there is one."""
+    if number is not None:
+        for name in message.get_fields_and_field_types():
+            held = getattr(message, name)
+            if isinstance(held, bool):
+                setattr(message, name, number % 2 == 0)
+            elif isinstance(held, (int, float)):
+                setattr(message, name, type(held)((1, 30, 0, 100)[number % 4]))
+            elif isinstance(held, str):
+                setattr(message, name, f"n{number % 2}")
+            elif hasattr(held, "get_fields_and_field_types"):
+                vary(held, number)
     return message
 
 

@@ -124,11 +124,11 @@ class Fakes:
         found: dict[str, Any] = self.wait("called", name, before + 1)["data"]
         return found
 
-    def listeners(self, topic: str, count: int = 1) -> None:
-        """Wait until so many nodes listen to a topic."""
-        before = self.count("listeners", topic)
-        self.do("listeners", topic=topic, count=count)
-        self.wait("listeners", topic, before + 1)
+    def listeners(self, *topics: str, count: int = 1) -> None:
+        """Wait until so many nodes listen to each topic."""
+        before = self.count("listeners", [*topics])
+        self.do("listeners", topics=topics, count=count)
+        self.wait("listeners", [*topics], before + 1)
 
     def count(self, key: str, value: Any) -> int:
         """How often something was seen."""

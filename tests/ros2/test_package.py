@@ -172,7 +172,7 @@ def test_twenty_robots_on_one_machine(ros: Any) -> None:
     nodes = [ros.node("blinker_behavior.blinking", each, timeouts__server=60.0) for each in robots]
     for robot in robots:
         fakes.wait("goal", f"{robot}/cmd/blink")
-    fakes.listeners("/fleet/stop", count)
+    fakes.listeners("/fleet/stop", count=count)
     fakes.publish("/fleet/stop")
 
     for node in nodes:

@@ -35,9 +35,8 @@ def test_search_and_rescue(ros: Any) -> None:
         fakes.action(f"{rover}/cmd/moveto", f"{ACTIONS}/MoveTo", "never")
     uavs = [_start(ros, "uav_search", uav) for uav in UAVS]
     rovers = [_start(ros, "rover_rescue", rover) for rover in ROVERS]
-    fakes.listeners("/sar/mission_start", 5)
-    fakes.listeners("/sar/mission_abort", 5)
-    fakes.listeners("/sar/target_found", 2)
+    fakes.listeners("/sar/mission_start", "/sar/mission_abort", count=5)
+    fakes.listeners("/sar/target_found", count=2)
     for node in uavs:
         node.wait_in("Mission.Idle")
 
@@ -77,8 +76,7 @@ def test_a_swarm_event_reaches_the_others_and_not_its_sender(ros: Any) -> None:
         ros.node("emergency_exit_behavior.evacuation", robot, min_width=0.5) for robot in robots
     ]
     fakes.publisher("/hall/saw_exit", "emergency_exit/msg/ExitSeen")
-    fakes.listeners("/hall/alarm", 2)
-    fakes.listeners("/hall/saw_exit", 2)
+    fakes.listeners("/hall/alarm", "/hall/saw_exit", count=2)
     time.sleep(1.0)
     fakes.publish("/hall/alarm")
 
