@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Set
 from functools import lru_cache
 
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
@@ -38,7 +38,8 @@ def is_ros_package_name(name: str) -> bool:
 
 def fresh(name: str, taken: Iterable[str]) -> str:
     """The name, with a number behind it where it is taken."""
-    known, number, made = set(taken), 1, name
+    known = taken if isinstance(taken, Set) else set(taken)
+    number, made = 1, name
     while made in known:
         number += 1
         made = f"{name}_{number}"

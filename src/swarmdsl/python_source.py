@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.source import Span
@@ -35,47 +36,68 @@ def layout(
 
     `indent` is the depth of the line it stands in, `before` and `after` what else is in it.
     """
-    flat = one_line(value)
-    room = width - len(before) - len(after)
-    if len(flat) <= room or isinstance(value, Source):
-        return f"{before}{flat}{after}"
-    opening, items, closing = _parts(value)
-    if not items:
-        return f"{before}{flat}{after}"
-    inner = _STEP * (indent + 1)
-    together = ", ".join(prefix + one_line(item) for prefix, item in items)
-    if isinstance(value, Call) and len(inner) + len(together) <= width:
-        lines = [inner + together]
-    else:
-        lines = [layout(item, indent + 1, inner + prefix, ",", width) for prefix, item in items]
-    return "\n".join([f"{before}{opening}", *lines, f"{_STEP * indent}{closing}{after}"])
+    return _laid_out(_written(value), indent, before, after, width)
 
 
 def one_line(value: object) -> str:
     """The value as an expression on one line."""
+    return _written(value).flat
+
+
+class _Written(NamedTuple):
+    """An expression on one line, and the parts that can have lines of their own."""
+
+    flat: str
+    opening: str = ""
+    items: Sequence[tuple[str, _Written]] = ()
+    """Each with what stands before it."""
+    closing: str = ""
+    together: str | None = None
+    """All items on one line, where they may share one: those of a call."""
+
+
+def _written(value: object) -> _Written:
     if isinstance(value, Source):
-        return value.text
-    if isinstance(value, (Call, Mapping, list, tuple)):
-        opening, items, closing = _parts(value)
-        inside = ", ".join(prefix + one_line(item) for prefix, item in items)
-        comma = "," if isinstance(value, tuple) and len(items) == 1 else ""
-        return f"{opening}{inside}{comma}{closing}"
-    return repr(value)
+        return _Written(value.text)
+    if isinstance(value, Call):
+        items = [("", _written(argument)) for argument in value.arguments]
+        items += [(f"{name}=", _written(item)) for name, item in value.keywords]
+        together = _side_by_side(items)
+        opening = f"{value.function}("
+        return _Written(f"{opening}{together})", opening, items, ")", together)
+    if isinstance(value, (str, int, float)):
+        return _Written(repr(value))
+    if isinstance(value, tuple):
+        items = [("", _written(item)) for item in value]
+        comma = "," if len(items) == 1 else ""
+        return _Written(f"({_side_by_side(items)}{comma})", "(", items, ")")
+    if isinstance(value, list):
+        items = [("", _written(item)) for item in value]
+        return _Written(f"[{_side_by_side(items)}]", "[", items, "]")
+    if isinstance(value, Mapping):
+        items = [(f"{key!r}: ", _written(item)) for key, item in value.items()]
+        return _Written(f"{{{_side_by_side(items)}}}", "{", items, "}")
+    return _Written(repr(value))
 
 
-def _parts(value: object) -> tuple[str, list[tuple[str, object]], str]:
-    """What opens it, its items with what stands before each, what closes it."""
-    match value:
-        case Call(function=function, arguments=arguments, keywords=keywords):
-            items = [("", argument) for argument in arguments]
-            return f"{function}(", items + [(f"{name}=", item) for name, item in keywords], ")"
-        case Mapping():
-            return "{", [(f"{key!r}: ", item) for key, item in value.items()], "}"
-        case tuple():
-            return "(", [("", item) for item in value], ")"
-        case Sequence() if not isinstance(value, str):
-            return "[", [("", item) for item in value], "]"
-    return repr(value), [], ""
+def _side_by_side(items: Sequence[tuple[str, _Written]]) -> str:
+    return ", ".join([prefix + item.flat for prefix, item in items])
+
+
+def _laid_out(written: _Written, indent: int, before: str, after: str, width: int) -> str:
+    if not written.items or len(before) + len(written.flat) + len(after) <= width:
+        return f"{before}{written.flat}{after}"
+    inner = _STEP * (indent + 1)
+    together = written.together
+    if together is not None and len(inner) + len(together) <= width:
+        lines = [inner + together]
+    else:
+        lines = [
+            _laid_out(item, indent + 1, inner + prefix, ",", width)
+            for prefix, item in written.items
+        ]
+    closing = f"{_STEP * indent}{written.closing}{after}"
+    return "\n".join([f"{before}{written.opening}", *lines, closing])
 
 
 def comment_lines(text: str) -> list[str]:
