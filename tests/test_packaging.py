@@ -87,6 +87,7 @@ def test_the_wheel_has_every_file_of_the_package(wheel):
     }
     assert "swarmdsl/grammar/swarm.tx" in expected
     assert expected - packed == set()
+    assert any(path.endswith(".data/data/share/man/man1/swarmc.1") for path in packed)
 
 
 def test_the_package_is_the_installed_one(installed, folder):

@@ -7,6 +7,12 @@ A block of code can say more after its language:
     swarm with=robot.swarm     a file that begins with an import of that one
     swarm reports=SW0505       a file about which the compiler says this, and nothing else
     swarm except=smach         a file that this target cannot express, and all others can
+
+Any block can be written, on the way through a page, or can be for another place:
+
+    toml file=swarm.toml       a file that the reader writes; `file=+swarm.toml` adds to its end
+    diff file=robot.swarm      a change that the reader makes in a file: lines with ` `, `-`, `+`
+    sh needs=ros2              for who has ROS 2, too: not run everywhere
 """
 
 from __future__ import annotations

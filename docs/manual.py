@@ -1,0 +1,182 @@
+"""Writes what the command line says of itself as pages: `python docs/manual.py`.
+
+`docs/swarmc.1` is the man page, which the wheel installs; `docs/commands.md` is the same for the
+handbook. One page has all commands: who looks for an option finds it with `/`.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from swarmdsl.cli.commands import cli
+
+HERE = Path(__file__).resolve().parent
+TEXTS = {
+    "EXIT STATUS": (
+        ("0", "No errors."),
+        ("1", "Errors in the model, in a file that was read, or in writing."),
+        ("2", "A wrong command line."),
+        ("3", "A bug in swarmc."),
+        ("130", "Ctrl-C, or the signal SIGINT."),
+        ("143", "The signal SIGTERM."),
+    ),
+    "ENVIRONMENT": (
+        ("NO_COLOR", "No colours, whatever the output is."),
+        ("FORCE_COLOR", "Colours, also where the output is no terminal."),
+        ("XDG_CACHE_HOME", "Where compiled templates are kept, in swarmdsl/. Default: ~/.cache."),
+        ("PYTHONDONTWRITEBYTECODE", "Compiled templates are not kept."),
+        (
+            "AMENT_PREFIX_PATH, CMAKE_PREFIX_PATH, ROS_PACKAGE_PATH",
+            "Folders of ROS that `swarmc lsp` may read, as a sourced workspace sets them.",
+        ),
+        ("ROS_DISTRO", "Told by `swarmc --version --verbose` and `swarmc doctor`."),
+    ),
+    "FILES": (
+        ("swarm.toml", "The project: what is compiled, and to what. Looked for upwards."),
+        ("*.swarm", "Models."),
+        ("*.swarmtest.toml", "Behaviour tests, beside the model."),
+        ("out/.swarmdsl.json", "What a build has generated, with the places it comes from."),
+        ("out/.swarmdsl.texts", "The texts of the last builds, to merge edits with."),
+    ),
+}
+_SAYS = "compile swarms of robots"
+# Options of all commands, which are told once.
+_EVERYWHERE = ("-h, --help", "--debug")
+_SEE_ALSO = "git(1), roslaunch(1)"
+
+
+@dataclass(frozen=True)
+class Page:
+    """What is said of a command: its name after those above it, how it is called, its options."""
+
+    name: str
+    usage: str
+    text: tuple[str, ...]
+    options: tuple[tuple[str, str], ...]
+    example: str
+
+
+def pages(command: click.Command = cli, above: click.Context | None = None) -> Iterator[Page]:
+    """The command and all below it, in the order of the help."""
+    context = click.Context(
+        command,
+        info_name=command.name if above else "swarmc",
+        parent=above,
+        help_option_names=["-h", "--help"],
+    )
+    help_ = inspect.cleandoc(command.help or "").replace("\b\n", "")
+    given = (each for each in command.get_params(context) if isinstance(each, click.Option))
+    records = (each.get_help_record(context) for each in given)
+    yield Page(
+        context.command_path,
+        " ".join((context.command_path, *command.collect_usage_pieces(context))),
+        tuple(" ".join(each.split()) for each in help_.split("\n\n")),
+        tuple(
+            (name, " ".join(about.split()))
+            for name, about in filter(None, records)
+            if not above or name not in _EVERYWHERE
+        ),
+        " ".join((command.epilog or "").removeprefix("Example:").split()),
+    )
+    if isinstance(command, click.Group):
+        for name in command.list_commands(context):
+            below = command.get_command(context, name)
+            assert below is not None
+            below.name = name
+            yield from pages(below, context)
+
+
+def man_page() -> str:
+    """The page as roff with the macros of man(7)."""
+    top, *others = pages()
+    lines = [
+        '.\\" Written by docs/manual.py.',
+        '.TH SWARMC 1 "" swarmdsl "User commands"',
+        *(".SH NAME", f"swarmc \\- {_SAYS}"),
+        *(".SH SYNOPSIS", ".B swarmc", _roff(top.usage.removeprefix("swarmc "))),
+        *(".SH DESCRIPTION", *_paragraphs(top.text)),
+        ".PP",
+        "Without a file or folder, most commands take what the project file names, or the current",
+        "folder. What was asked for goes to standard output, all about the run to standard error.",
+        *(".SH OPTIONS", *_options(top.options)),
+        ".SH COMMANDS",
+    ]
+    for page in others:
+        lines += [f".SS {_quoted(page.name)}", _roff(page.usage), ".PP", *_paragraphs(page.text)]
+        lines += _options(page.options)
+        if page.example:
+            lines += [".PP", "Example:", ".PP", ".nf", ".RS 4", _roff(page.example), ".RE", ".fi"]
+    for title, entries in TEXTS.items():
+        lines += [f".SH {_quoted(title)}", *_options(entries)]
+    lines += [".SH SEE ALSO", _roff(_SEE_ALSO)]
+    return "\n".join(lines) + "\n"
+
+
+def markdown() -> str:
+    """The page of the handbook."""
+    lines = ["<!-- Written by docs/manual.py: change the help of the command. -->", ""]
+    lines += [
+        "# Every command",
+        "",
+        "What `swarmc COMMAND --help` says; the man page `swarmc(1)` has the same.",
+    ]
+    for page in pages():
+        lines += ["", f"## {page.name}", "", "```text", page.usage, "```"]
+        for paragraph in page.text:
+            lines += ["", _plain(paragraph)]
+        if page.options:
+            lines += ["", "| option | |", "|---|---|"]
+            lines += (
+                f"| `{_cell(name)}` | {_cell(_plain(about))} |" for name, about in page.options
+            )
+        if page.example:
+            lines += ["", "```text", page.example, "```"]
+    for title, entries in TEXTS.items():
+        lines += ["", f"## {title.capitalize()}", "", "| | |", "|---|---|"]
+        lines += (f"| `{name}` | {_cell(_plain(about))} |" for name, about in entries)
+    return "\n".join(lines) + "\n"
+
+
+def _paragraphs(texts: tuple[str, ...]) -> Iterator[str]:
+    for number, text in enumerate(texts):
+        if number:
+            yield ".PP"
+        yield _roff(text)
+
+
+def _options(entries: Iterable[tuple[str, str]]) -> Iterator[str]:
+    for name, about in entries:
+        yield from (".TP", f".B {_roff(name)}", _roff(about))
+
+
+def _roff(text: str) -> str:
+    """Text in which nothing is a request or an escape; `code` is bold."""
+    text = text.replace("\\", "\\e").replace("-", "\\-")
+    text = re.sub(r"`([^`]+)`", r"\\fB\1\\fR", text)
+    return f"\\&{text}" if text.startswith((".", "'")) else text
+
+
+def _quoted(text: str) -> str:
+    return f'"{_roff(text)}"'
+
+
+def _plain(text: str) -> str:
+    """Text without marks of Markdown outside of code."""
+    parts = text.split("`")
+    parts[::2] = (re.sub(r"([*_<>\[\]])", r"\\\1", part) for part in parts[::2])
+    return "`".join(parts)
+
+
+def _cell(text: str) -> str:
+    return text.replace("|", "\\|")
+
+
+if __name__ == "__main__":
+    (HERE / "swarmc.1").write_text(man_page(), encoding="utf-8")
+    (HERE / "commands.md").write_text(markdown(), encoding="utf-8")
