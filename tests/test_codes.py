@@ -32,7 +32,7 @@ NO_MODEL = {
     *("cannot-write", "target-left-out", "generator-failed", "outdated-code"),
     *("edited-output", "merge-conflict", "stale-output", "parked-code", "renamed-element"),
     *("bad-rename", "old-name", "unreadable-list", "interrupted-build"),
-    "damaged-region",
+    *("damaged-region", "other-model"),
     *("broken-library", "bad-toml", "unknown-key", "wrong-value", "unknown-diagnostic"),
     *("not-a-warning", "outside-workspace", "no-source-map"),
 }

@@ -5,11 +5,12 @@ A model is made of the two on the way, which nobody sees; targets make the packa
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from swarmdsl.compiler import Result
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, Level
 from swarmdsl.emit import Output, Request, emit
 from swarmdsl.generator import OutputFile
 from swarmdsl.importing import import_scxml
@@ -27,12 +28,15 @@ from swarmdsl.source import Source
 PACKAGE = "fsm_behaviour"
 """What the package is called where nobody says otherwise, as it is there."""
 
+_NO_LEVELS: Mapping[str, Level] = {}
+
 
 def codegen(
     scxml: Path,
     described: Path | None,
     out: Path,
     package: str,
+    levels: Mapping[str, Level] = _NO_LEVELS,
     *,
     language: str,
     simulation: bool,
@@ -45,7 +49,7 @@ def codegen(
 
     A package that is there already is brought up to date, as `how` says.
     """
-    report = Diagnostics()
+    report = Diagnostics(levels)
     name = package_of(scxml)
     guesses: set[tuple[str, str]] = set()
     paths = [scxml] if described is None else [scxml, described]
@@ -71,6 +75,7 @@ def codegen(
     )
     if report.has_errors:
         return Result(report, files)
+    how = replace(how, model=name)
     return Result(report, files, written=write(packages, out, report, how))
 
 

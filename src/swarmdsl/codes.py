@@ -219,6 +219,9 @@ CODES: dict[str, Code] = {
         "SW0927", "error", "a build into `{path}` was interrupted, and is not complete"
     ),
     "damaged-region": Code("SW0928", "warning", "in `{path}`, {fault}"),
+    "other-model": Code(
+        "SW0929", "warning", "`{path}` loses {files} of model `{model}`, which was built into it"
+    ),
     # ---- simulation
     "nothing-to-simulate": Code("SW1001", "error", "there is no state machine to simulate"),
     "unclear-subject": Code("SW1002", "error", "there is more than one thing to simulate"),

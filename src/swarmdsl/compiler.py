@@ -83,4 +83,5 @@ def generate(
     report.include(placed(one, lambda span: span.absolute) for one in found)
     if report.has_errors:
         return checked
-    return replace(checked, written=write(files, out, report, how or How()))
+    how = replace(how or How(), model=checked.system.name)
+    return replace(checked, written=write(files, out, report, how))

@@ -28,13 +28,15 @@ class Manifest:
     `files` has the hash of the text that each file was made from: of a file that the user has
     written in too. `parked` has the same of files that were put aside, by the path that they
     had. `owners` says of files to fill in which element of the model they are of, and with which
-    mark of what code in them builds on; `maps` where the lines of a file come from.
+    mark of what code in them builds on; `maps` where the lines of a file come from. `model` is
+    what the model is called.
     """
 
     files: Hashes = field(default_factory=dict)
     parked: Hashes = field(default_factory=dict)
     owners: dict[str, str] = field(default_factory=dict)
     maps: map_file.Maps = field(default_factory=dict)
+    model: str = ""
 
 
 def content_hash(content: bytes) -> str:
@@ -53,7 +55,8 @@ def read(out: Path, name: str = NAME) -> Manifest:
     """
     stored = _stored(out, name)
     files, parked, owners = (_section(stored, name) for name in ("files", "parked", "owners"))
-    return Manifest(files, parked, owners, map_file.from_json(stored.get("map")))
+    model = str(stored.get("model", ""))
+    return Manifest(files, parked, owners, map_file.from_json(stored.get("map")), model)
 
 
 def _stored(out: Path, name: str) -> dict[str, Any]:
@@ -80,7 +83,8 @@ def _section(stored: Mapping[str, object], name: str) -> dict[str, str]:
 
 def to_bytes(manifest: Manifest) -> bytes:
     """The list as it is stored: the same bytes for the same files."""
-    stored: dict[str, object] = {"files": manifest.files, "map": map_file.to_json(manifest.maps)}
+    maps = map_file.to_json(manifest.maps)
+    stored: dict[str, object] = {"files": manifest.files, "map": maps, "model": manifest.model}
     if manifest.parked:
         stored["parked"] = manifest.parked
     if manifest.owners:

@@ -10,12 +10,14 @@ from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.libraries import SUFFIX
 from swarmdsl.source import Source, Span
-from swarmdsl.suggest import did_you_mean
+from swarmdsl.suggest import did_you_mean, suggest
 
 # No format can carry them: all but tab and line end (XML 1.0, 2.2).
 _CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
 
 _MODEL = "a .swarm file"
+# As many files may be named where one is not there.
+_FEW = 5
 
 
 def read_source(
@@ -114,11 +116,16 @@ def _unified(text: str) -> str:
 def _similar_file(path: Path) -> str | None:
     if path.with_name(f"{path.name}{SUFFIX}").is_file():
         return f"did you mean `{path.name}{SUFFIX}`?"
+    suffix = path.suffix or SUFFIX
     try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.suffix == SUFFIX]
+        names = [entry.name for entry in path.parent.iterdir() if entry.suffix == suffix]
+    except FileNotFoundError:
+        return f"there is no folder `{path.parent}`"
     except OSError:
         return None
-    return did_you_mean(path.name, names)
+    if suffix == SUFFIX or not 0 < len(names) <= _FEW:
+        return did_you_mean(path.name, names)
+    return suggest(path.name, sorted(names), f"files that end with `{suffix}` there")
 
 
 def without_control_characters(source: Source, report: Diagnostics) -> Source:

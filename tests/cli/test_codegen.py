@@ -122,6 +122,38 @@ def test_what_smach_does_not_have_fails(
     assert not (tmp_path / "out").exists()
 
 
+def test_a_file_that_is_not_there_has_a_way_out(
+    door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "uav.json").write_text("{}", encoding="utf-8")
+    for adf, help_ in (
+        ("uaw.json", "did you mean `uav.json`?"),
+        ("functions.json", "the files that end with `.json` there are `uav.json`"),
+        ("no/uav.json", f"there is no folder `{tmp_path / 'no'}`"),
+    ):
+        words = ["--scxml", str(door), "--adf", str(tmp_path / adf), "-o", str(tmp_path / "out")]
+        assert run(["codegen", *words]) == 1
+        said = capsys.readouterr().out
+        assert "error[SW0001]" in said
+        assert f"= help: {help_}\n" in said
+
+
+def test_warnings_have_the_levels_that_are_asked_for(
+    climb: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    unhandled = CLIMB.format(function="lift").replace('event="aborted"', 'event="elsewhere"')
+    (tmp_path / "climb.xml").write_text(unhandled, encoding="utf-8")
+
+    assert run([*climb, "--deny", "open-outcome"]) == 1
+    assert "error[SW1206]" in capsys.readouterr().out
+    assert not (tmp_path / "out").exists()
+    assert run(climb) == 0
+    assert "warning[SW1206]" in capsys.readouterr().out
+    assert run([*climb, "--allow", "warnings"]) == 0
+    assert capsys.readouterr().out == ""
+    assert run([*climb, "--deny", "nonsense"]) == 2
+
+
 def test_wrong_files_and_options(door: Path, tmp_path: Path) -> None:
     adf, out = tmp_path / "a.json", str(tmp_path / "out")
     adf.write_text(json.dumps([1]), encoding="utf-8")

@@ -220,6 +220,15 @@ def test_renames_that_cannot_be_understood_are_wrong_usage(build, rename):
     assert f"`--rename {rename}`" in ran.err
 
 
+@pytest.mark.parametrize("words", [("lab.swarm", "-o", ""), ("lab.swarm", "--out="), ("",)])
+def test_an_empty_path_is_not_the_current_folder(swarmc, model, words):
+    before = set(Path().rglob("*"))
+    ran = swarmc("build", *words)
+    assert ran.code == 2
+    assert "the path is empty" in ran.err
+    assert set(Path().rglob("*")) == before
+
+
 @pytest.mark.parametrize("renames", [("a=b", "a=c"), ("a=c", "b=c")])
 def test_renames_that_contradict_each_other_are_wrong_usage(build, renames):
     ran = build(*(word for rename in renames for word in ("--rename", rename)))

@@ -161,6 +161,24 @@ def test_the_output_of_targets_that_are_not_built_stays(tmp_path):
     assert write_ok({"b": [OutputFile("y", "2")]}, tmp_path).written == ("b/y",)
 
 
+def test_two_models_in_one_folder_are_told_when_they_take_turns(tmp_path):
+    write_ok(files(a="1", both="1"), tmp_path, model="uav")
+    for model, name, other in (("rover", "b", "uav"), ("uav", "a", "rover")):
+        report = Diagnostics()
+        assert write(files(both="1", **{name: "1"}), tmp_path, report, How(model=model)) is not None
+        (found,) = report
+        assert found.name == "other-model"
+        assert found.message == (
+            f"`{tmp_path}` loses one file of model `{other}`, which was built into it"
+        )
+        write_ok(files(both="1", **{name: "1"}), tmp_path, model=model)
+    # Another name alone is no other model.
+    write_ok(files(a="2", both="1"), tmp_path, model="plane")
+    report = Diagnostics()
+    clean(tmp_path, (), report, dry=False)
+    assert len(report) == 0
+
+
 def test_a_target_that_makes_nothing_any_more_leaves_nothing(tmp_path):
     write_ok(files(a="1"), tmp_path)
     assert write_ok({"t": []}, tmp_path).removed == ("t/a",)

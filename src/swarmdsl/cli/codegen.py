@@ -8,9 +8,10 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.writing import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
-from swarmdsl.project.command_line import UsageError
+from swarmdsl.diagnostics import Level
+from swarmdsl.project.command_line import UsageError, named_levels
 
-_FILE = click.Path(path_type=Path)
+_FILE = options.PLACE
 
 
 @click.command(epilog="Example: swarmc codegen --env ROS --scxml sar.xml --adf uav.json -o out")
@@ -54,6 +55,7 @@ _FILE = click.Path(path_type=Path)
 @options.option(DRY_RUN)
 @options.option(DIFF)
 @options.option(RENAME)
+@options.levels
 @options.diagnostics_format
 @options.debug
 def codegen(
@@ -69,6 +71,9 @@ def codegen(
     dry_run: bool,
     diff: bool,
     renames: tuple[str, ...],
+    allow: tuple[str, ...],
+    warn: tuple[str, ...],
+    deny: tuple[str, ...],
     format_: str,
 ) -> int:
     """Generate ROS packages from SCXML and ADF files, as the CPSwarm code generator does.
@@ -79,10 +84,14 @@ def codegen(
 
     try:
         how_to_write = writing(locals())
+        levels = named_levels({Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny})
     except UsageError as error:
         raise click.UsageError(str(error)) from error
     described = () if adf is None else ("--adf", adf)
-    how = how_to_write.how("swarmc", "codegen", "--scxml", scxml, *described, "-o", out)
-    simulation = mode is not None
-    result = generate(scxml, adf, out, package, language=language, simulation=simulation, how=how)
+    simulation = () if mode is None else ("--mode", mode)
+    called = ("--package", package, "--language", language, *simulation)
+    how = how_to_write.how("swarmc", "codegen", "--scxml", scxml, *described, "-o", out, *called)
+    result = generate(
+        scxml, adf, out, package, levels, language=language, simulation=mode is not None, how=how
+    )
     return how_to_write.conclude(result, format_)

@@ -3,19 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import reduce
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
-from swarmdsl.cli.parameters import FORMAT, Option
+from swarmdsl.cli.parameters import FORMAT, LEVELS, Option
+
+
+class _Place(click.Path):
+    """The path of a file or folder. An empty one is a mistake, not the current folder."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, context: click.Context | None
+    ) -> Any:
+        if value == "":
+            self.fail("the path is empty", param, context)
+        return super().convert(value, param, context)
+
+
+PLACE = _Place(path_type=Path)
 
 _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 
 def option(about: Option) -> Callable[[_Decorated], _Decorated]:
     """What adds an option that is described as plain data."""
-    types = {None: None, str: None, Path: click.Path(path_type=Path)}
+    types = {None: None, str: None, Path: PLACE}
     return click.option(
         *about.flags,
         about.parameter,
@@ -29,10 +44,13 @@ def option(about: Option) -> Callable[[_Decorated], _Decorated]:
     )
 
 
-files = click.argument(
-    "paths", metavar="[FILE|FOLDER]...", nargs=-1, type=click.Path(path_type=Path)
-)
+files = click.argument("paths", metavar="[FILE|FOLDER]...", nargs=-1, type=PLACE)
 diagnostics_format = option(FORMAT)
+
+
+def levels(function: _Decorated) -> _Decorated:
+    """Add the options that say what becomes of warnings."""
+    return reduce(lambda inner, about: option(about)(inner), reversed(LEVELS), function)
 
 
 def _show_debug(_context: click.Context, _param: click.Parameter, debug: bool) -> None:

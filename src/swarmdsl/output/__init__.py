@@ -11,6 +11,7 @@ from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
+from swarmdsl.output import remarks
 from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.changes import Action, Change, How, Written
 from swarmdsl.output.disk import report_os_error
@@ -65,6 +66,9 @@ def decide(plan: Plan, output: Mapping[str, Sequence[OutputFile]]) -> None:
     except OSError as error:
         report_os_error(plan.disk.out, error, plan.report)
     find_renamed(plan, made)
+    gone = plan.written.paths(Action.REMOVE, Action.PARK)
+    if gone and plan.before.model != plan.manifest.model and plan.before.model:
+        remarks.report_other_model(plan.disk.out, plan.before.model, len(gone), plan.remarks)
 
 
 __all__ = ["Action", "Change", "How", "Written", "write"]

@@ -91,7 +91,7 @@ class How:
     `force` gives up what the user has written where it is in the way, except in files that are
     the user's to fill in. `dry` changes nothing; `check` does not either, and reports what would
     change. `renames` are elements of the model that had another name. `command` is what a person
-    would repeat.
+    would repeat, `model` what the model is called.
     """
 
     force: bool = False
@@ -99,3 +99,4 @@ class How:
     check: bool = False
     renames: Renames = ()
     command: str = "swarmc build"
+    model: str = ""

@@ -25,6 +25,10 @@ class Names:
         """A path or a text of the generator under the new name."""
         return self._forward(text)
 
+    def place(self, text: str) -> tuple[int, int]:
+        """Where the old name first stands in a text that has it."""
+        return self._forward.place(text)
+
     def same(self, before: Sequence[str], now: Sequence[str]) -> bool:
         """Whether lines are the same, but for the new name where it may be meant."""
         pairs = zip(before, now, strict=False)
@@ -68,6 +72,10 @@ class _Replacement:
             f"{apart}({snake}){after}|({camel})(?![a-z0-9])"
             f"|{apart}({upper}){after}|{apart}({plain}){after}"
         )
+
+    def place(self, text: str) -> tuple[int, int]:
+        found = self._pattern.search(text)
+        return found.span() if found is not None else (0, len(text))
 
     def __call__(self, text: str) -> str:
         return self._pattern.sub(lambda found: self._into[(found.lastindex or 1) - 1], text)

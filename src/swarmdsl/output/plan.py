@@ -73,7 +73,8 @@ class Plan:
     @property
     def manifest(self) -> Manifest:
         """The list as it will be."""
-        return Manifest(self.hashes, self.parked, self.owners, self.maps)
+        model = self.how.model or self.before.model
+        return Manifest(self.hashes, self.parked, self.owners, self.maps, model)
 
     def change(
         self,

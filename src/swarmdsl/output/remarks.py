@@ -9,6 +9,7 @@ from pathlib import Path
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.fitting_code import mark_in
 from swarmdsl.generator import OutputFile
+from swarmdsl.output import line_ends
 from swarmdsl.output.changes import PARKED
 from swarmdsl.output.merge import Merge, first_difference
 from swarmdsl.output.names import Names
@@ -30,7 +31,7 @@ def report_edited(
 ) -> None:
     """A generated file has been edited, and `taken` changes were merged into it."""
     source = _source(place, content)
-    at = _lines(source, first_difference(base, content))
+    at = _line(source, first_difference(base, content))
     changes = "one change" if taken == 1 else f"{taken} changes"
     notes = (f"{changes} of what is generated merged into it",) if taken else ()
     help_ = "a region or a file of yours keeps lines for good; `--force` gives up the edit"
@@ -44,7 +45,7 @@ def report_conflict(place: Path, content: bytes, merge: Merge | None, report: Di
     at: Span | None = None
     notes: tuple[str, ...] = ("what it was made from is not known",)
     if merge is not None:
-        spans = [_lines(source, *lines) for lines in merge.conflicts]
+        spans = [_line(source, first) for first, _ in merge.conflicts]
         at, notes = spans[0], ()
         others = tuple(Label(span, "and here") for span in spans[1:])
     help_ = (
@@ -65,7 +66,7 @@ def report_damaged(
     place: Path, content: bytes, line: int, fault: str, hint: str | None, report: Diagnostics
 ) -> None:
     """The marks of the user's regions in a file are not as they were generated."""
-    at = _lines(_source(place, content), line)
+    at = _line(_source(place, content), line)
     help_ = hint or "mend the mark: until then all lines of the file are kept as an edit"
     report.report("damaged-region", at, path=str(place), fault=fault, help=help_)
 
@@ -77,6 +78,16 @@ def report_link(link: Path, path: str, report: Diagnostics) -> None:
     notes = (f"it is a symbolic link to `{leads_to}`",)
     help_ = "remove the link; to write there, give that folder with `-o`"
     report.report("outside-output", target=target, path=str(link), notes=notes, help=help_)
+
+
+def report_other_model(out: Path, model: str, gone: int, report: Diagnostics) -> None:
+    """A folder has files of a model of another name, which go."""
+    files = "one file" if gone == 1 else f"{gone} files"
+    help_ = (
+        "build each model into a folder of its own, with `-o`, or all of them at once; "
+        f"where `{model}` has got another name, all is well"
+    )
+    report.report("other-model", path=str(out), model=model, files=files, help=help_)
 
 
 def report_parked(place: Path, aside: Path, report: Diagnostics) -> None:
@@ -111,12 +122,14 @@ def report_old_name(
     if not lines:
         return
     source = _source(place, content)
-    spans = [_lines(source, line - 1) for line in lines[:_MOST_LINES]]
+    spans = [_name(source, line - 1, names) for line in lines[:_MOST_LINES]]
     others = tuple(Label(span, "and here") for span in spans[1:])
     more = len(lines) - len(spans)
     notes = (f"and in {more} more lines",) if more else ()
+    help_ = f"write `{names.new}` where the element is meant; this is told once"
+    first, path = spans[0], str(place)
     report.report(
-        "old-name", spans[0], related=others, notes=notes, path=str(place), name=names.old
+        "old-name", first, related=others, notes=notes, help=help_, path=path, name=names.old
     )
 
 
@@ -181,11 +194,18 @@ def _differences(before: Sequence[str] | None, now: Sequence[str]) -> list[str]:
 
 
 def _source(place: Path, content: bytes) -> Source:
-    return Source(str(place), content.decode(errors="replace"), place)
+    return Source(str(place), line_ends.plain(content).decode(errors="replace"), place)
 
 
-def _lines(source: Source, first: int, end: int | None = None) -> Span:
-    """Lines of a source, counted from 0; of more than one, the first."""
+def _line(source: Source, number: int) -> Span:
+    """A line of a source, counted from 0; the last where there are not so many."""
     starts = [*source.line_starts, len(source.text)]
-    first = min(first, len(starts) - 2)
-    return Span(source, starts[first], max(starts[first], starts[first + 1] - 1))
+    number = min(number, len(starts) - 2)
+    return Span(source, starts[number], max(starts[number], starts[number + 1] - 1))
+
+
+def _name(source: Source, number: int, names: Names) -> Span:
+    """The old name in a line."""
+    line = _line(source, number)
+    start, end = names.place(line.text)
+    return Span(source, line.start + start, line.start + end)

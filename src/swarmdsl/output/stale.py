@@ -24,7 +24,13 @@ _FAULTS = {
 
 
 # What else is told by a build is about what it did.
-_LASTING = ("outdated-code", "renamed-element", "merge-conflict", "damaged-region")
+_LASTING = (
+    "outdated-code",
+    "renamed-element",
+    "merge-conflict",
+    "damaged-region",
+    "other-model",
+)
 
 
 def report_stale(

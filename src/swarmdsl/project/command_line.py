@@ -28,7 +28,7 @@ def run_settings(
     paths: tuple[Path, ...], levels: Mapping[Level, Iterable[str]], report: Diagnostics
 ) -> Settings:
     """The settings of a run: those of the project, and over them those given here."""
-    given = _levels(levels)
+    given = named_levels(levels)
     found = find_settings(paths, report)
     return replace(found, sources=paths or found.sources, levels={**found.levels, **given})
 
@@ -71,8 +71,8 @@ def _place(option: str) -> Span:
     return Span(source, len(source.text) - len(option), len(source.text))
 
 
-def _levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
-    """The level of each diagnostic that is named."""
+def named_levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
+    """The level of each diagnostic that is named; UsageError for what none has."""
     found: dict[str, Level] = {}
     for level, words in levels.items():
         for word in words:
