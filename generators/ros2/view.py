@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagram.readme import Picture, pictures
 from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
 from swarmdsl.ir import StateMachine, System
@@ -85,6 +86,7 @@ class PackageView:
     launches: tuple[Launch, ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
+    pictures: tuple[Picture, ...]
     variant: Variant
 
 
@@ -128,6 +130,7 @@ def package_view(
         launches=tuple(launched),
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=3, build_type="ament_python"),
+        pictures=pictures(system, machines),
         variant=variant,
     )
 

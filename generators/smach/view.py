@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagram.readme import Picture, pictures
 from swarmdsl.generator import chosen_machines
 from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
@@ -93,6 +94,7 @@ class PackageView:
     callbacks: tuple[tuple[str, str], ...]
     interfaces: tuple[InterfacePackage, ...]
     manifest: str
+    pictures: tuple[Picture, ...]
     modules: tuple[str, ...]
     timeouts: dict[str, int]
     robots: tuple[Robot, ...]
@@ -166,6 +168,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         callbacks=tuple(callbacks.items()),
         interfaces=interfaces,
         manifest=manifest(name, doc, depends, options, format_=2),
+        pictures=pictures(system, machines),
         modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
         timeouts=options.timeouts,
         robots=tuple(made),

@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import compiler
-from swarmdsl.diagram import Diagram, diagrams
+from swarmdsl.diagram.graph import Diagram
+from swarmdsl.diagram.views import diagrams
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]

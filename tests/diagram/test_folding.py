@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from swarmdsl.diagram import Diagram
 from swarmdsl.diagram.folding import folded
+from swarmdsl.diagram.graph import Diagram
 from swarmdsl.diagram.layout import lay_out
 from swarmdsl.diagram.svg import svg
 

@@ -9,8 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from swarmdsl.diagram import Diagram
-from swarmdsl.diagram.graph import Edge, Node
+from swarmdsl.diagram.graph import Diagram, Edge, Node
 from swarmdsl.diagram.layout import Box, Picture, lay_out
 from swarmdsl.diagram.layout.cycles import backward
 from swarmdsl.diagram.layout.simplex import Constraint, minimized

@@ -9,8 +9,7 @@ import pytest
 from lxml import etree
 
 from swarmdsl.cli import run
-from swarmdsl.diagram import Diagram
-from swarmdsl.diagram.graph import Edge, Node
+from swarmdsl.diagram.graph import Diagram, Edge, Node
 from swarmdsl.diagram.svg import svg
 
 from .conftest import MODEL, ROOT, drawn_of

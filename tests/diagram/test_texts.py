@@ -9,7 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagram import FORMATS, SUFFIXES, Diagram, diagrams
+from swarmdsl.diagram.formats import FORMATS, SUFFIXES
+from swarmdsl.diagram.graph import Diagram
+from swarmdsl.diagram.views import diagrams
 from swarmdsl.ir import StateKind, System
 
 from .conftest import MODEL, drawn_of, system_of

@@ -20,7 +20,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.emit import Request, emit
 from swarmdsl.format import formatted
 from swarmdsl.ir import System
-from swarmdsl.printer import UnprintableError, print_system
+from swarmdsl.printer.system import UnprintableError, print_system
 from swarmdsl.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -15,7 +15,7 @@ from swarmdsl.emit import Request
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.command import run as import_files
 from swarmdsl.ir import State, System
-from swarmdsl.printer import print_system
+from swarmdsl.printer.system import print_system
 from swarmdsl.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]

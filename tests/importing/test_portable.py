@@ -34,7 +34,7 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir.types import BOOL, DURATION, INT
-from swarmdsl.printer import normalized
+from swarmdsl.printer.system import normalized
 from swarmdsl.source import Source
 from swarmdsl.translate import Dialect, translate
 

@@ -9,8 +9,8 @@ import pytest
 from swarmdsl.diagnostics import Diagnostics, Severity
 from swarmdsl.importing import import_scxml
 from swarmdsl.ir import EventTrigger, OutcomeTrigger, State, StateKind, System
-from swarmdsl.printer import print_system
 from swarmdsl.printer.expressions import expression as written
+from swarmdsl.printer.system import print_system
 from swarmdsl.source import Source
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="keeper"'

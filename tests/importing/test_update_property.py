@@ -32,7 +32,7 @@ from swarmdsl.ir import (
     System,
 )
 from swarmdsl.ir.types import FLOAT, INT, STRING
-from swarmdsl.printer import print_system
+from swarmdsl.printer.system import print_system
 from swarmdsl.source import Source
 
 from ..printer.expressions import literals

@@ -16,7 +16,7 @@ from swarmdsl.importing import import_scxml
 from swarmdsl.importing.command import run as import_files
 from swarmdsl.ir import System
 from swarmdsl.naming import camel_case
-from swarmdsl.printer import print_system
+from swarmdsl.printer.system import print_system
 from swarmdsl.runtime import Event
 from swarmdsl.source import Source
 

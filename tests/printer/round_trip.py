@@ -7,7 +7,7 @@ from pathlib import Path
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Severity
 from swarmdsl.ir import System
-from swarmdsl.printer import print_system
+from swarmdsl.printer.system import print_system
 
 
 def compiled(*paths: Path) -> System:

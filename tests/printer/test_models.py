@@ -9,7 +9,7 @@ import pytest
 
 from swarmdsl.ir import Binary, Literal, Named, Service, State, StateMachine, System, Transition
 from swarmdsl.ir.types import FLOAT, INT
-from swarmdsl.printer import UnprintableError, normalized, print_system
+from swarmdsl.printer.system import UnprintableError, normalized, print_system
 
 from .round_trip import compiled, printed_and_compiled
 

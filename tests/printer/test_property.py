@@ -8,7 +8,7 @@ import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 
 from swarmdsl.ir import System
-from swarmdsl.printer import normalized
+from swarmdsl.printer.system import normalized
 
 from .round_trip import printed_and_compiled
 from .systems import systems

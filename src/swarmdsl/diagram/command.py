@@ -9,7 +9,9 @@ from pathlib import Path
 from swarmdsl import compiler
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.diagram import FORMATS, KINDS, SUFFIXES, Diagram, diagrams
+from swarmdsl.diagram.formats import FORMATS, SUFFIXES
+from swarmdsl.diagram.graph import KINDS, Diagram
+from swarmdsl.diagram.views import diagrams
 from swarmdsl.project import find_settings
 from swarmdsl.source import COMMAND_LINE, Source, Span
 from swarmdsl.staging import Staging

@@ -8,10 +8,10 @@ from urllib.parse import quote
 from markupsafe import Markup
 
 from swarmdsl import ir
-from swarmdsl.diagram import diagrams
 from swarmdsl.diagram.graph import Diagram
 from swarmdsl.diagram.layout import lay_out
 from swarmdsl.diagram.svg import draw
+from swarmdsl.diagram.views import diagrams
 from swarmdsl.document.elements import Element, Elements
 from swarmdsl.document.page import Figure
 from swarmdsl.source import Span

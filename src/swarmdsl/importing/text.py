@@ -9,7 +9,7 @@ from swarmdsl.format import formatted
 from swarmdsl.importing.update import read_model
 from swarmdsl.ir import System
 from swarmdsl.load import Project
-from swarmdsl.printer import UnprintableError, print_system
+from swarmdsl.printer.system import UnprintableError, print_system
 from swarmdsl.source import Source
 from swarmdsl.validate import validate
 

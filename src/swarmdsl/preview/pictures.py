@@ -9,9 +9,9 @@ from typing import TypedDict
 
 from swarmdsl.compiler import Result
 from swarmdsl.diagnostics import Severity
-from swarmdsl.diagram import diagrams
 from swarmdsl.diagram.folding import folded
 from swarmdsl.diagram.svg import svg
+from swarmdsl.diagram.views import diagrams
 from swarmdsl.ir import System
 from swarmdsl.simulate.subject import Subject
 

@@ -1,0 +1,49 @@
+"""Diagrams in the README of a generated package, as Mermaid: GitHub and GitLab draw them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagram.composition import composition
+from swarmdsl.diagram.graph import Diagram
+from swarmdsl.diagram.mermaid import mermaid
+from swarmdsl.diagram.statechart import statechart
+from swarmdsl.ir import StateMachine, System
+
+# What Mermaid draws at most, unless somebody has told it otherwise (`maxTextSize`, `maxEdges`).
+_MOST_TEXT, _MOST_EDGES = 50_000, 500
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A diagram as a block of Markdown, and whose it is."""
+
+    title: str
+    block: str
+
+
+def pictures(system: System, machines: Sequence[StateMachine]) -> tuple[Picture, ...]:
+    """The swarms with members that run these machines, and the machines themselves.
+
+    What is too large for Mermaid is left out.
+    """
+    return tuple(_drawn(system, machines))
+
+
+def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture]:
+    names = {machine.name for machine in machines}
+    running = {member.name for member in system.members if member.behavior in names}
+    for swarm in system.swarms:
+        if any(role.member in running for role in swarm.roles):
+            yield from _picture(f"Swarm `{swarm.name}`", composition(swarm, system))
+    known = {machine.name: machine for machine in system.machines}
+    for machine in machines:
+        yield from _picture(f"State machine `{machine.name}`", statechart(machine, known))
+
+
+def _picture(title: str, diagram: Diagram) -> Iterator[Picture]:
+    text = mermaid(diagram)
+    if len(text) <= _MOST_TEXT and len(diagram.edges) <= _MOST_EDGES:
+        # Mermaid's own text has no backquote: it would be an entity.
+        yield Picture(title, f"```mermaid\n{text}```")
