@@ -7,15 +7,15 @@ decided before, by which edges point backwards in the outer one. So Sander 1996,
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
 from swarmdsl.diagram.content import Block, label_block
 from swarmdsl.diagram.graph import Diagram, Node
+from swarmdsl.diagram.layout.inside import Inside
 from swarmdsl.diagram.layout.layered import layered
 from swarmdsl.diagram.layout.level import Cell, Link, Placement, Point, Side
 from swarmdsl.diagram.layout.loops import Loop, loop_room
 from swarmdsl.diagram.layout.passages import Passages, Route
 from swarmdsl.diagram.layout.placing import END_GAP
+from swarmdsl.diagram.layout.regions import put_beside, stretch
 from swarmdsl.diagram.measure import width
 from swarmdsl.diagram.shapes import (
     PORT,
@@ -31,29 +31,6 @@ PADDING = 18
 _REGION_PADDING = 14
 _PORT_LINE = 16
 """Above and below the line to a port at the border, above which is its name."""
-
-
-@dataclass
-class Inside:
-    """The layout of one container, and of a node without anything inside.
-
-    Sizes are along and across; `loops` is how far loops reach beyond the box, across.
-    `crossings` are where edges cross the border, by their number and side; `pieces` the parts
-    of edges inside, `labels` the corners of their labels, from the corner of the box. The nodes
-    inside are `regions` if they fill it.
-    """
-
-    shape: Shape
-    length: int
-    breadth: int
-    loops: int = 0
-    children: dict[str, Point] = field(default_factory=dict)
-    crossings: dict[int, int] = field(default_factory=dict)
-    pieces: dict[int, list[Point]] = field(default_factory=dict)
-    labels: dict[int, Point] = field(default_factory=dict)
-    own_loops: list[Loop] = field(default_factory=list)
-    ports: dict[str, Point] = field(default_factory=dict)
-    regions: bool = False
 
 
 class Compound:
@@ -146,7 +123,7 @@ class Compound:
             shift = 0
         pitch, before = (5, False) if self.direction == "down" else (3, True)
         if beside:
-            placement = _beside(cells, links)
+            placement = put_beside(cells, links)
         else:
             in_row = self.diagram.kind == "composition"
             placement = layered(cells, links, pitch, before, in_row)
@@ -234,7 +211,8 @@ class Compound:
         for at, child in enumerate(node.nodes):
             inside.children[child.id] = moved(placement.cells[at + shift])
         if beside:
-            self._stretch_regions(node, inside, before_along, before_across)
+            regions = {child.id: self.inside[child.id] for child in node.nodes}
+            stretch(inside, regions, inside.length - before_along, self.passages)
         for key, cell in borders.items():
             across = placement.cells[cell + shift][1] + before_across
             inside.crossings[key[0]] = across
@@ -272,24 +250,6 @@ class Compound:
             inside.ports[port_id] = (length if at_end else 0, across + _PORT_LINE)
         return inside
 
-    def _stretch_regions(
-        self, node: Node, inside: Inside, before_along: int, before_across: int
-    ) -> None:
-        """Make regions fill the state that they are in."""
-        for child in node.nodes:
-            region = self.inside[child.id]
-            region.length = inside.length - before_along
-            for number, points in region.pieces.items():
-                route = self.passages.routes[number]
-                leg = next(at for at, each in enumerate(route.legs) if each[0] == child.id)
-                _, source, target = route.legs[leg]
-                if source is None and points[0][0] > 0:
-                    points[0] = (region.length, points[0][1])
-                if target is None and points[-1][0] > 0:
-                    points[-1] = (region.length, points[-1][1])
-        last = self.inside[node.nodes[-1].id]
-        last.breadth = inside.breadth - inside.children[node.nodes[-1].id][1]
-
 
 def _with_title(links: list[Link], cells: list[Cell], title: int) -> tuple[list[Link], list[Cell]]:
     """The same with room for a name in the first layer."""
@@ -297,28 +257,3 @@ def _with_title(links: list[Link], cells: list[Cell], title: int) -> tuple[list[
         link.source += 1
         link.target += 1
     return links, [Cell(0, title - PADDING, 0, 0, title=True), *cells]
-
-
-def _beside(cells: list[Cell], links: list[Link]) -> Placement:
-    """Put regions beside each other, and what crosses their borders at that of the state."""
-    places: list[Point] = []
-    across = 0
-    inner = [cell for cell in cells if cell.border is None]
-    length = max((cell.length for cell in inner), default=0)
-    for cell in inner:
-        places.append((0, across))
-        across += cell.breadth
-    places += [(0, 0)] * (len(cells) - len(inner))
-    routes: list[list[Point]] = []
-    for link in links:
-        ends = []
-        for end, at in ((link.source, link.source_at), (link.target, link.target_at)):
-            if cells[end].border is None:
-                ends.append((end, at if at is not None else cells[end].breadth // 2))
-        (region, at) = ends[0]
-        border = link.target if region == link.source else link.source
-        along = 0 if cells[border].border == "first" else length
-        point = (along, places[region][1] + at)
-        places[border] = point
-        routes.append([point])
-    return Placement(length, across, places, routes, [None] * len(links))

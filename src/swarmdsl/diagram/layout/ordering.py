@@ -36,11 +36,14 @@ def order(layers: Layers) -> None:
         after.setdefault(id(upper.vertex), []).append((above, lower.vertex, below))
         before.setdefault(id(lower.vertex), []).append((below, upper.vertex, above))
     _begin(layers, before)
-    best, least = [list(layer) for layer in layers.layers], _crossings(layers, after)
     count = sum(map(len, layers.layers))
+    sweeps = min(_SWEEPS, _WORK // max(count, 1))
+    if not sweeps:
+        return
+    best, least = [list(layer) for layer in layers.layers], _crossings(layers, after)
     small = count <= _EXCHANGED
     since = 0
-    for sweep in range(min(_SWEEPS, _WORK // max(count, 1))):
+    for sweep in range(sweeps):
         if not least or since == _PATIENCE:
             break
         since += 1
