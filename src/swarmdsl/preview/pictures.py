@@ -13,7 +13,6 @@ from swarmdsl.diagram.folding import folded
 from swarmdsl.diagram.svg import svg
 from swarmdsl.diagram.views import diagrams
 from swarmdsl.ir import System
-from swarmdsl.simulate.subject import Subject
 
 _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state machine"}
 
@@ -84,12 +83,14 @@ class Pictures:
             return
         machines = {each.name: each for each in self._system.machines}
         runs = {(name, name) for name in machines}
-        for swarm in self._system.swarms:
-            subject = Subject(swarm.name, self._system, swarm)
-            for robot in subject.crew({role.name: 1 for role in swarm.roles}):
-                for part, machine in subject.behaviours(robot):
-                    who = robot.role if part is None else f"{robot.role}.{part.name}"
-                    runs.add((who, machine.name))
+        behaviors = {each.name: each.behavior for each in self._system.components}
+        members = {each.name: each for each in self._system.members}
+        for role in (role for swarm in self._system.swarms for role in swarm.roles):
+            member = members[role.member]
+            parts = ((f"{role.name}.{part.name}", part.component) for part in member.parts)
+            found = [(role.name, member.behavior)]
+            found += [(who, behaviors[component]) for who, component in parts]
+            runs.update((who, behavior) for who, behavior in found if behavior is not None)
         for who, name in sorted(runs):
             yield who, name, ""
             for state in machines[name].walk():
