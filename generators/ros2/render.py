@@ -125,10 +125,10 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
 
 def within_width(line: str) -> list[str]:
     """A line, a comment in several that are not too long; code that is says so."""
-    stripped = line.lstrip()
-    indent = line[: len(line) - len(stripped)]
     if len(line) <= WIDTH:
         return [line]
+    stripped = line.lstrip()
+    indent = line[: len(line) - len(stripped)]
     if stripped.startswith("#"):
         return [f"{indent}# {part}" for part in wrap(stripped[1:], WIDTH - len(indent) - 2)]
     return [f"{line}  # noqa: E501"]

@@ -91,14 +91,15 @@ def mapped(text: str, printed: Sequence[Placed]) -> MappedText:
     around: list[tuple[int, Span]] = []
     lines = []
     for number, line in enumerate(text.split("\n"), 1):
-        bare = _MARK.sub("", line)
+        marks = list(_MARK.finditer(line)) if "\ufdd0" in line else ()
+        bare = _MARK.sub("", line) if marks else line
         lines.append(bare)
         if not bare.strip():
             continue
         depth = len(bare) - len(bare.lstrip())
         while around and around[-1][0] > depth:
             around.pop()
-        for mark in _MARK.finditer(line):
+        for mark in marks:
             place = printed[int(mark[1])]
             least = depth if place.holds or place.origin is None else depth + 1
             while around and around[-1][0] >= least:
