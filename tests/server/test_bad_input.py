@@ -8,7 +8,7 @@ import time
 import pytest
 
 from swarmdsl.server.models import Models
-from swarmdsl.server.protocol import REQUESTS
+from swarmdsl.server.service import REQUESTS
 
 from .model import MODEL, ROVER
 from .test_process import SERVER, answer, message

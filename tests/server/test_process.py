@@ -56,6 +56,32 @@ def test_an_editor_is_asked_to_tell_of_changes_on_disk():
     assert {"globPattern": "**/*.swarm"} in watchers
 
 
+def test_an_editor_with_commands_of_its_own_is_offered_them(tmp_path):
+    uri = (tmp_path / "a.swarm").as_uri()
+    document = {"uri": uri, "languageId": "swarm", "version": 1, "text": "swarm One { }\n"}
+    commands = ["swarmdsl.preview", "swarmdsl.references"]
+    options = {"capabilities": {}, "initializationOptions": {"commands": commands}}
+    process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+    for each in (
+        message(id=1, method="initialize", params=options),
+        message(method="textDocument/didOpen", params={"textDocument": document}),
+        message(id=2, method="textDocument/codeLens", params={"textDocument": {"uri": uri}}),
+    ):
+        process.stdin.write(each)
+    process.stdin.flush()
+    capabilities(process.stdout)
+    uses, preview = answer(process.stdout)["result"]
+    process.stdin.write(message(id=3, method="codeLens/resolve", params=uses))
+    process.stdin.flush()
+    while (resolved := answer(process.stdout)).get("id") != 3:
+        pass
+    process.communicate(timeout=20)
+    assert preview["command"]["arguments"] == [uri, {"kind": "swarm", "name": "One"}]
+    command = resolved["result"]["command"]
+    assert (command["title"], command["command"]) == ("0 references", "swarmdsl.references")
+    assert command["arguments"] == [uri, uses["range"]["start"], []]
+
+
 def test_a_server_on_a_port_of_the_loopback_interface():
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))

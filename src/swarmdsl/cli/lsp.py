@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import gc
-import io
 import os
 import signal
 import socket
+from typing import BinaryIO, cast
 
 import click
 
@@ -29,27 +28,24 @@ def lsp(stdio: bool, port: int | None) -> int:
     """Serve editors: the Language Server Protocol."""
     if stdio and port is not None:
         raise click.UsageError("`--stdio` and `--tcp` exclude each other")
-    from swarmdsl.server.protocol import serve
+    from swarmdsl.server.service import serve
 
-    gc.enable()  # a server runs for days
     if hasattr(signal, "SIGPIPE"):
         # An editor that is gone is noticed where something is written.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     if port is None:
-        with _taken(0, "rb") as reader, _taken(1, "wb") as writer:
-            return serve(reader, writer)
+        return serve(_taken(0, "rb"), _taken(1, "wb"))
     with _connected(port) as connection:
-        stream = connection.makefile("rwb", buffering=0)
-        return serve(stream, stream)
+        return serve(connection.makefile("rb"), connection.makefile("wb"))
 
 
-def _taken(descriptor: int, mode: str) -> io.FileIO:
-    """A standard stream without a buffer; what is printed by mistake does not get into it."""
-    stream = io.FileIO(os.dup(descriptor), mode)
+def _taken(descriptor: int, mode: str) -> BinaryIO:
+    """A standard stream; what is printed by mistake does not get into it."""
+    stream = os.fdopen(os.dup(descriptor), mode)
     null = os.open(os.devnull, os.O_RDWR)
     os.dup2(null, descriptor)
     os.close(null)
-    return stream
+    return cast(BinaryIO, stream)
 
 
 def _connected(port: int) -> socket.socket:

@@ -142,9 +142,10 @@ class Models:
 
     def _forget(self) -> None:
         """Make all models anew when they are needed."""
-        self._workspaces.clear()
+        if self._workspaces:
+            self._workspaces.clear()
+            gc.unfreeze()
         self._changed = dict.fromkeys(self._texts, True)
-        gc.unfreeze()
 
     def _workspace_of(self, path: Path) -> Workspace:
         found = [each for each in self._workspaces.values() if each.file(path) is not None]

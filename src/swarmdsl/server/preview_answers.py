@@ -5,14 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcInvalidParams
+
 from swarmdsl.compiler import Result
-from swarmdsl.server.connection import Json
 from swarmdsl.server.session import Session
 
 
-def _pictures(session: Session, params: Json) -> Json | None:
+def _pictures(session: Session, params: Any) -> dict[str, Any] | None:
     """The diagrams of the model that a file belongs to, that of `id` drawn with `folded` nodes."""
-    found = session.file(params)
+    uri = getattr(getattr(params, "textDocument", None), "uri", None)
+    if not isinstance(uri, str):
+        raise JsonRpcInvalidParams("the document is missing")
+    found = session.file(lsp.TextDocumentIdentifier(uri=uri))
     if found is None:
         return None
     # Layout and lowering are imported by those who look at pictures.
@@ -24,7 +29,7 @@ def _pictures(session: Session, params: Json) -> Json | None:
     made = pictures(Result(report, workspace.files, valid))
     if not isinstance(made, Pictures):
         return dict(made)
-    wanted, hidden = params.get("id"), params.get("folded")
+    wanted, hidden = getattr(params, "id", None), getattr(params, "folded", None)
     return {
         **made.listed(),
         **made.drawn(
@@ -34,4 +39,4 @@ def _pictures(session: Session, params: Json) -> Json | None:
     }
 
 
-REQUESTS: Mapping[str, Callable[[Session, Json], Any]] = {"swarmdsl/pictures": _pictures}
+REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {"swarmdsl/pictures": _pictures}
