@@ -6,11 +6,15 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value
-from swarmdsl.ir import Component, Member, Part, Role, StateMachine, Swarm, System
+from swarmdsl.exchange.nodes import behavior_name, bringup_package, has_node
+from swarmdsl.exchange.wiring import Remaps, check_wiring, wiring
+from swarmdsl.ir import Member, Role, Swarm, System
 from swarmdsl.naming import fresh, snake_case
 from swarmdsl.source import Span
 
+from .names import TARGET
 from .params import given
 
 
@@ -22,11 +26,15 @@ class LaunchedNode:
     name: str
     part: str | None
     values: Mapping[str, Value]
+    remaps: Remaps = ()
 
 
 @dataclass(frozen=True)
 class LaunchedRole:
-    """A role of the swarm; `least` members are launched if nothing else is said."""
+    """A role of the swarm; `least` members are launched if nothing else is said.
+
+    `components` is the launch file, in another package, of the nodes of its components.
+    """
 
     name: str
     member: str
@@ -34,6 +42,7 @@ class LaunchedRole:
     lower: int
     upper: int | None
     nodes: tuple[LaunchedNode, ...]
+    components: str | None
 
 
 @dataclass(frozen=True)
@@ -44,23 +53,41 @@ class Launch:
     swarm: str
     doc: str
     roles: tuple[LaunchedRole, ...]
+    bringup: str
     origin: Span | None
 
+    @property
+    def has_components(self) -> bool:
+        """Whether components need nodes besides those of behaviours."""
+        return any(role.components is not None for role in self.roles)
 
-def launches(system: System, modules: Mapping[str, str]) -> list[Launch]:
+    @property
+    def has_remaps(self) -> bool:
+        """Whether a node is to find topics under other names."""
+        return any(node.remaps for role in self.roles for node in role.nodes)
+
+
+def launches(system: System, modules: Mapping[str, str], report: Diagnostics) -> list[Launch]:
     """The launch files; there is none for a swarm in which nobody has a behaviour."""
     found: list[Launch] = []
     for swarm in system.swarms:
         roles = tuple(role for role in _roles(swarm, system, modules) if role.nodes)
         if roles:
             name = fresh(snake_case(swarm.name) or "swarm", (each.name for each in found))
-            found.append(Launch(name, swarm.name, swarm.doc, roles, swarm.origin))
+            bringup = bringup_package(system)
+            found.append(Launch(name, swarm.name, swarm.doc, roles, bringup, swarm.origin))
+    launched = {role.member for launch in found for role in launch.roles}
+    for member in system.members:
+        if member.name in launched:
+            check_wiring(wiring(member, system), TARGET, report)
     return found
 
 
 def _roles(swarm: Swarm, system: System, modules: Mapping[str, str]) -> Iterator[LaunchedRole]:
+    components = {component.name: component for component in system.components}
     for role in swarm.roles:
         member = next(each for each in system.members if each.name == role.member)
+        parts = any(has_node(components[part.component]) for part in member.parts)
         yield LaunchedRole(
             role.name,
             member.name,
@@ -68,6 +95,7 @@ def _roles(swarm: Swarm, system: System, modules: Mapping[str, str]) -> Iterator
             role.multiplicity.lower,
             role.multiplicity.upper,
             tuple(_nodes(member, system, modules)),
+            f"{snake_case(member.name)}.launch.py" if parts else None,
         )
 
 
@@ -76,26 +104,17 @@ def _nodes(member: Member, system: System, modules: Mapping[str, str]) -> Iterat
     components = {component.name: component for component in system.components}
     if member.behavior is not None:
         machine = machines[member.behavior]
-        yield _node(machine, modules[machine.name], member, None, modules)
+        module = modules[machine.name]
+        yield LaunchedNode(module, module, None, given(machine, member.params, {}, ()))
+    wired = wiring(member, system)
     for part in member.parts:
         component = components[part.component]
         if component.behavior is not None:
-            yield _node(machines[component.behavior], part.name, component, part, modules)
-
-
-def _node(
-    machine: StateMachine,
-    name: str,
-    owner: Member | Component,
-    part: Part | None,
-    modules: Mapping[str, str],
-) -> LaunchedNode:
-    return LaunchedNode(
-        modules[machine.name],
-        name,
-        part.name if part is not None else None,
-        given(machine, owner, part),
-    )
+            machine = machines[component.behavior]
+            values = given(machine, component.params, dict(part.values), member.params)
+            name = behavior_name(part, component, member)
+            remaps = wired.remaps(part.name)
+            yield LaunchedNode(modules[machine.name], name, part.name, values, remaps)
 
 
 def configuration(role: LaunchedRole, head: Iterable[str]) -> str:

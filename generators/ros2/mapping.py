@@ -1,6 +1,6 @@
 """What becomes of each construct of a model, for `swarmc targets ros2`.
 
-What stands between backticks is found in the generated module.
+What stands between backticks is found in the generated module, or in launch files.
 """
 
 from __future__ import annotations
@@ -49,6 +49,7 @@ MAPPING = tuple(
         ),
         ("param that is a message", _REJECTED, "ROS 2 has no such parameters (SW0903)"),
         ("sent event", _EXACT, "published: `machine.emit(`, with `sent=True`"),
+        ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
         ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),

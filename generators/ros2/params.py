@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value, constant, params_by_name
-from swarmdsl.ir import Array, Component, Member, Param, Part, Primitive, StateMachine
+from swarmdsl.ir import Array, Expression, Param, Primitive, StateMachine
 from swarmdsl.python_source import Call
 
 from .names import TARGET
@@ -44,18 +44,24 @@ def fitted(param: Param, value: Value | None) -> Value | None:
 
 
 def given(
-    machine: StateMachine, owner: Member | Component, part: Part | None
+    machine: StateMachine,
+    params: tuple[Param, ...],
+    values: Mapping[str, Expression],
+    around: tuple[Param, ...],
 ) -> Mapping[str, Value]:
-    """What whoever runs a machine says of its params."""
+    """What whoever runs a machine says of its params: by params of its own, as a part by `values`.
+
+    In the values of a part, params of the member can be meant, `around`.
+    """
     names = {param.name: param for param in machine.params}
-    known = params_by_name(owner.params)
+    known = params_by_name(params)
     found: dict[str, Value] = {}
-    for param in owner.params:
+    for param in params:
         value = constant(param.default, known) if param.default is not None else None
         if value is not None:
             found[param.name] = value
-    for name, expression in part.values if part is not None else ():
-        value = constant(expression, known)
+    for name, expression in values.items():
+        value = constant(expression, params_by_name(around))
         if value is not None:
             found[name] = value
     return {

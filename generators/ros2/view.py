@@ -113,7 +113,7 @@ def package_view(
         for machine in machines
     )
     doc = system.doc or f"Behaviour of {system.name}."
-    launched = launches(system, modules)
+    launched = launches(system, modules, report)
     depends = [("depend", needed) for needed in package.dependencies(system, machines)]
     if launched:
         tools = ("ament_index_python", "launch", "launch_ros")

@@ -10,6 +10,7 @@ from typing import Literal
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.exchange.constants import Value, constant, params_by_name
+from swarmdsl.exchange.nodes import has_node
 from swarmdsl.ir import Array, Component, Function, Named, Param, Primitive, System, Type
 from swarmdsl.naming import camel_case, is_ros_package_name, snake_case
 from swarmdsl.source import Span
@@ -138,7 +139,7 @@ def nodes(system: System, options: Options, report: Diagnostics) -> list[Node]:
     found += (
         _of_component(component, system, options, report)
         for component in system.components
-        if component.ports or component.operations
+        if has_node(component)
     )
     chosen = _chosen(found, options.only, report)
     _check_packages(chosen, report)

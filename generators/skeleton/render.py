@@ -21,6 +21,8 @@ from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
 from swarmdsl.templates import environment, fill
 
+from .bringup import bringup
+from .bringup_files import bringup_files
 from .languages import language
 from .nodes import TARGET, Node, nodes
 from .options import Options
@@ -75,6 +77,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     """The files of the packages of nodes, and of those of interfaces."""
     found = nodes(system, options, report)
     made = packages(system, found, options, report)
+    robots = bringup(system, made, report)
     if report.has_errors or not found:
         return []
     files: list[OutputFile] = []
@@ -82,6 +85,8 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
         files += _node_files(node, inside, system, options, report)
     for package in made.interfaces:
         files += _interface_files(package, options, report)
+    if robots is not None:
+        files += bringup_files(robots, options, _fill)
     return files
 
 

@@ -264,14 +264,14 @@ def _setting(setting: Setting, language: Language) -> SettingView:
     type_ = setting.type
     unit = " in seconds" if type_ == DURATION else ""
     about = " ".join((setting.doc or setting.key).split())
-    value = _as_float(setting.default, type_)
+    value = as_float(setting.default, type_)
     return SettingView(
         name=Placed(setting.name, setting.origin),
         key=setting.key,
         type=language.setting_type(type_),
         default="" if value is None else language.value(value, type_),
         zero=language.zero(type_),
-        yaml="" if value is None else _yaml(value),
+        yaml="" if value is None else in_yaml(value),
         said=f"{type_}{unit}",
         about=about,
         about_literal=language.literal(about),
@@ -281,13 +281,13 @@ def _setting(setting: Setting, language: Language) -> SettingView:
     )
 
 
-def _as_float(value: object, type_: Primitive | Array) -> object:
+def as_float(value: object, type_: Primitive | Array) -> object:
     """A whole number of a model can be the default of a real one; ROS tells them apart."""
     is_real = isinstance(type_, Primitive) and type_.name in (*FLOATS, "duration")
     return float(value) if is_real and isinstance(value, int) else value
 
 
-def _yaml(value: object) -> str:
+def in_yaml(value: object) -> str:
     """A value as YAML 1.1 reads it back: a real number has a point."""
     if isinstance(value, float):
         text = repr(value)

@@ -17,6 +17,7 @@ from .robots import Fleet, Robot, Team
 _SWITCHES = {
     "introspection": "let smach_viewer look into the machines",
     "bridge": "start the bridge between the robots, swarmros",
+    "components": "start the components, connected: needs package ",
 }
 
 
@@ -27,6 +28,11 @@ def robot_launch(robot: Robot, package: str) -> str:
     _arg(root, "name", f"{robot.name}_0", "the namespace of the robot")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
+    if robot.components is not None:
+        # Before the params of this robot, so that these can be for components, too.
+        file = f"$(find {robot.components.package})/launch/{robot.name}.launch"
+        include = etree.SubElement(root, "include", {"file": file, "if": "$(arg components)"})
+        _pass(include, "name", "$(arg name)")
     group = etree.SubElement(root, "group", ns="$(arg name)")
     _load(group, f"$(find {package})/param/{robot.name}.yaml")
     _load(group, "$(arg params)")
@@ -34,6 +40,8 @@ def robot_launch(robot: Robot, package: str) -> str:
     for node in robot.nodes:
         element = _node(group, package, snake_case(node.machine.name), node.name)
         _param(element, "introspection", "$(arg introspection)")
+        for name, topic in node.remaps:
+            etree.SubElement(element, "remap", {"from": name, "to": topic})
     if robot.bridge is not None:
         bridge = _node(group, "swarmros", "bridge", "swarmros")
         bridge.set("args", f"-C$(find {package})/param/{robot.name}.swarmros.cfg")
@@ -130,8 +138,13 @@ def _count(team: Team) -> str:
 
 
 def _switches(root: etree._Element, robots: Iterable[Robot]) -> None:
+    robots = list(robots)
+    components = next((robot.components for robot in robots if robot.components is not None), None)
     for name in _names(robots):
-        _arg(root, name, "false", _SWITCHES[name])
+        default, doc = "false", _SWITCHES[name]
+        if name == "components" and components is not None:
+            default, doc = str(components.unasked).lower(), f"{doc}{components.package}"
+        _arg(root, name, default, doc)
 
 
 def _pass_switches(include: etree._Element, robots: Iterable[Robot]) -> None:
@@ -140,8 +153,11 @@ def _pass_switches(include: etree._Element, robots: Iterable[Robot]) -> None:
 
 
 def _names(robots: Iterable[Robot]) -> list[str]:
-    bridged = any(robot.bridge is not None for robot in robots)
-    return [name for name in _SWITCHES if name != "bridge" or bridged]
+    has = {"introspection"}
+    for robot in robots:
+        has |= {"bridge"} if robot.bridge is not None else set()
+        has |= {"components"} if robot.components is not None else set()
+    return [name for name in _SWITCHES if name in has]
 
 
 def _arg(parent: etree._Element, name: str, default: str, doc: str) -> None:

@@ -1,6 +1,6 @@
 """What becomes of each construct of a model, for `swarmc targets smach`.
 
-What stands between backticks is found in the generated module.
+What stands between backticks is found in the generated module, or in launch files.
 """
 
 from __future__ import annotations
@@ -49,6 +49,7 @@ MAPPING = tuple(
         ("param", _EXACT, "ROS parameter, checked at the start: `param(`, and userdata"),
         ("param that is a message", _EMULATED, "dictionary, made a `message(`"),
         ("sent event", _EXACT, "published: `.send(`"),
+        ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
         ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
         ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
     )

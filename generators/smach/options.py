@@ -29,6 +29,12 @@ class Options(PackageOptions):
     simulation: bool = option(
         False, "whether to write launch files for Gazebo, with the worlds of the environments"
     )
+    components: bool = option(
+        False,
+        "whether launch files start the components, too, by the package that target skeleton "
+        "writes; true where that is built with it",
+        beside="skeleton.ros=1",
+    )
     missing_server: int = option(
         10, "seconds to wait for the server of an action or service", check=_seconds_fault
     )

@@ -7,23 +7,38 @@ from collections.abc import Collection
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange import swarmros
-from swarmdsl.exchange.nodes import BehaviorNode, behavior_nodes
+from swarmdsl.exchange.nodes import BehaviorNode, behavior_nodes, bringup_package, has_node
+from swarmdsl.exchange.wiring import check_wiring, wiring
 from swarmdsl.generator import NoOptions
 from swarmdsl.ir import Environment, Member, Role, Swarm, System
 from swarmdsl.naming import snake_case
+
+from .module import TARGET
 
 # As many robots as one launch file starts.
 MOST_ROBOTS = 100
 
 
 @dataclass(frozen=True)
+class Components:
+    """The package that starts the nodes of components, and whether launch files do so unasked."""
+
+    package: str
+    unasked: bool
+
+
+@dataclass(frozen=True)
 class Robot:
-    """A type of robot with its nodes; `bridge` is the configuration of swarmros for it."""
+    """A type of robot with its nodes; `bridge` is the configuration of swarmros for it.
+
+    `components` is None where no part needs a node besides that of its behaviour.
+    """
 
     name: str
     member: Member
     nodes: tuple[BehaviorNode, ...]
     bridge: str | None
+    components: Components | None
 
 
 @dataclass(frozen=True)
@@ -46,15 +61,22 @@ class Fleet:
     environment: Environment | None
 
 
-def robots(system: System, machines: Collection[str]) -> list[Robot]:
-    """The members that run one of these machines."""
+def robots(
+    system: System, machines: Collection[str], unasked: bool, report: Diagnostics
+) -> list[Robot]:
+    """The members that run one of these machines, with their components started `unasked`."""
     bridges = _bridges(system)
+    nodes_of = {component.name: has_node(component) for component in system.components}
+    components = Components(bringup_package(system), unasked)
     found = []
     for member in system.members:
         nodes = tuple(n for n in behavior_nodes(member, system) if n.machine.name in machines)
         name = snake_case(member.name)
         if nodes:
-            found.append(Robot(name, member, nodes, bridges.get(name)))
+            check_wiring(wiring(member, system), TARGET, report)
+            parts = any(nodes_of[part.component] for part in member.parts)
+            bridge = bridges.get(name)
+            found.append(Robot(name, member, nodes, bridge, components if parts else None))
     return found
 
 

@@ -32,7 +32,7 @@ from .module import TARGET, Container, Function, Module
 from .names import NAMES
 from .options import Options
 from .readme import Rows, uses
-from .robots import Fleet, Robot, fleets, robots
+from .robots import Components, Fleet, Robot, fleets, robots
 from .statements import STEP
 from .structure import build
 
@@ -102,6 +102,12 @@ class PackageView:
     simulation: bool
 
     @property
+    def components(self) -> Components | None:
+        """What starts the components of robots; None where they need no nodes."""
+        found = (robot.components for robot in self.robots)
+        return next((each for each in found if each is not None), None)
+
+    @property
     def simulations(self) -> list[str]:
         """The launch files that simulate a swarm."""
         worlds = [fleet for fleet in self.fleets if self.simulation and world_file(fleet)]
@@ -150,13 +156,16 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     doc = system.doc or f"Behaviour of {system.name}."
     event_imports = Imports(types)
     event_views = _event_views(events, constants, event_imports)
-    made = robots(system, {machine.name for machine in machines})
+    launched = {machine.name for machine in machines}
+    made = robots(system, launched, options.components, report)
+    bringup = {each.components.package for each in made if each.components is not None}
     depends = [
         ("buildtool_depend", "catkin"),
         ("buildtool_depend", "python3-setuptools"),
         *(("exec_depend", needed) for needed in package.dependencies(used)),
         *([("exec_depend", "roslaunch"), ("test_depend", "rostest")] if made else []),
         *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
+        *(("exec_depend", each) for each in bringup if options.components),
     ]
     return PackageView(
         name=name,

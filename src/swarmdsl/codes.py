@@ -87,6 +87,10 @@ CODES: dict[str, Code] = {
     "unknown-setting": Code("SW0406", "error", "there is no setting `{name}`"),
     "unconnected-port": Code("SW0407", "warning", "nothing is connected to `{port}`"),
     "driven-twice": Code("SW0408", "warning", "`{port}` gets data from two connectors"),
+    "shared-topic": Code("SW0409", "warning", "two connections share topic `{topic}`"),
+    "replaced-topic": Code(
+        "SW0410", "warning", "a connector puts `{port}` on topic `{topic}`, not on `{own}`"
+    ),
     # ---- state machines
     "missing-initial": Code("SW0501", "error", "{owner} has no initial state"),
     "missing-final": Code("SW0502", "error", "{owner} has no final state"),

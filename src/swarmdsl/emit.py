@@ -12,7 +12,7 @@ from swarmdsl.features import unsupported
 from swarmdsl.foreign import failure
 from swarmdsl.generator import Generator, OutputFile
 from swarmdsl.ir import System
-from swarmdsl.options import parse_options
+from swarmdsl.options import options_of, parse_options
 from swarmdsl.output_path import clash_key, stays_inside
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
@@ -44,9 +44,10 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
     """What the requested targets make of the system; incomplete when errors were reported."""
     output: Output = {}
     left_out: dict[str, Diagnostics] = {}
-    for request in _merged(requests, report):
+    merged = _merged(requests, report)
+    for request in merged:
         found = Diagnostics()
-        files = _emit_target(system, request, found)
+        files = _emit_target(system, request, merged, found)
         if not request.required and _is_unable(found):
             left_out[request.target] = found
             continue
@@ -82,7 +83,10 @@ def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
     return list(merged.values())
 
 
-def _emit_target(system: System, request: Request, report: Diagnostics) -> list[OutputFile] | None:
+def _emit_target(
+    system: System, request: Request, built: Iterable[Request], report: Diagnostics
+) -> list[OutputFile] | None:
+    """The files of one of the targets that are built."""
     generator = plugins.load(request.target)
     if generator is None:
         hint = suggest(request.target, plugins.target_names(), "targets")
@@ -98,7 +102,8 @@ def _emit_target(system: System, request: Request, report: Diagnostics) -> list[
         report.report(
             "unsupported-construct", place, target=request.target, construct=feature.value
         )
-    options = parse_options(generator, request.options, report, request.places)
+    given = {**_implied(generator, built), **request.options}
+    options = parse_options(generator, given, report, request.places)
     if report.has_errors:
         return None
     files = _run(generator, lambda: generator.emit(system, options, report), report)
@@ -110,6 +115,22 @@ def _emit_target(system: System, request: Request, report: Diagnostics) -> list[
     if not files and not report.has_errors:
         report.report("nothing-to-generate", target=request.target)
     return files
+
+
+def _implied(generator: Generator, built: Iterable[Request]) -> dict[str, str]:
+    """The options that are true because of what else is built."""
+    beside = {name: each.beside for name, each in options_of(generator).items() if each.beside}
+    if not beside:
+        return {}
+    chosen = {f"{each.target}.{name}={value}" for each in built for name, value in _all(each)}
+    return {name: "true" for name, other in beside.items() if other in chosen}
+
+
+def _all(request: Request) -> Iterable[tuple[str, str]]:
+    """The options of a target, as they are without anything else being said or as given."""
+    generator = plugins.load(request.target)
+    known = options_of(generator) if isinstance(generator, Generator) else {}
+    return {**{name: str(each.default) for name, each in known.items()}, **request.options}.items()
 
 
 def _run(

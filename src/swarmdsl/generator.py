@@ -102,13 +102,17 @@ def option(
     text: str,
     choices: tuple[str, ...] = (),
     check: Callable[[V], str | None] | None = None,
+    beside: str = "",
 ) -> Any:
     """A field of an options class: its default, what it is for, the values it may take.
+
+    `beside` is for one that is true where nothing else is said and another target is built too:
+    `skeleton.ros=1` is target `skeleton` with its option `ros` at 1.
 
     `check` is called with a value of the option's type that somebody gave, and returns what
     is wrong with it, in words, or None. It is reported where the value stands.
     """
-    about = {"help": text, "choices": choices, "check": check}
+    about = {"help": text, "choices": choices, "check": check, "beside": beside}
     return field_of_python(default=default, metadata=about)
 
 

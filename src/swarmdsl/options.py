@@ -28,6 +28,7 @@ class Option:
     help: str
     choices: tuple[str, ...]
     check: Callable[[Any], str | None] | None
+    beside: str
 
     @property
     def takes(self) -> str:
@@ -61,6 +62,7 @@ def _option(field: Field[Any], type_: type) -> Option:
         field.metadata.get("help", ""),
         tuple(field.metadata.get("choices", ())),
         field.metadata.get("check"),
+        field.metadata.get("beside", ""),
     )
 
 

@@ -12,7 +12,7 @@ from swarmdsl.generator import OutputFile, Support
 from swarmdsl.plugins import load
 
 
-def _constructs() -> tuple[str, dict[str, str]]:
+def _constructs() -> tuple[str, str, dict[str, str]]:
     """The models that the table of target `smach` is tested with: a model for each construct."""
     path = Path(__file__).parents[1] / "smach" / "test_mapping.py"
     spec = importlib.util.spec_from_file_location("smach_mapping", path)
@@ -20,10 +20,10 @@ def _constructs() -> tuple[str, dict[str, str]]:
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    return module.HEADER, module.MODELS
+    return module.HEADER, module.PARTS, module.MODELS
 
 
-HEADER, _COMMON = _constructs()
+HEADER, PARTS, _COMMON = _constructs()
 MODELS = {
     **_COMMON,
     "swarm event": "state A { on Call -> End }",
@@ -54,6 +54,10 @@ def test_the_table_is_true(
     end = "" if body == "final A" else "final End"
     head = f"{HEADER}swarm event Call : Note\n"
     model = f"{head}statemachine Work {{ initial A {body} {end} }}"
+    if mapped.construct == "connector":
+        (word,) = re.findall("`([^`]*)`", mapped.means)
+        assert word in generate(model + PARTS)["lab_behavior/launch/uavs.launch.py"].text
+        return
     if mapped.support is Support.REJECTED:
         (code,) = re.findall(r"\((SW\d{4})\)", mapped.means)
         assert [CODES[name].code for name, _, _ in reported(model)] == [code]

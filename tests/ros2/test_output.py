@@ -7,7 +7,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import pytest
@@ -15,6 +14,10 @@ import yaml
 from lxml import etree
 
 from swarmdsl.generator import OutputFile
+
+from .conftest import load_module
+
+launching = load_module("launching")
 
 Files = dict[str, OutputFile]
 Generate = Callable[..., Files]
@@ -228,64 +231,34 @@ def test_the_copyright_stands_in_each_file(generate: Generate) -> None:
             assert file.text.startswith("# Copyright 2026 Example Robotics\n#\n# Licensed"), path
 
 
-class _Recorder:
-    """A class of `launch` or `launch_ros`, which keeps what it is made of."""
-
-    def __init__(self, *arguments: Any, **keywords: Any) -> None:
-        self.arguments = arguments
-        self.keywords = keywords
-
-    def perform(self, context: dict[str, str]) -> str:
-        return context[self.arguments[0]]
-
-
 @pytest.mark.parametrize("lifecycle", ["false", "true"])
 def test_the_launch_file_starts_every_member(
     generate: Generate, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, lifecycle: str
 ) -> None:
-    """`launch` is in no package index: what is asked of it is looked at on stand-ins."""
+    """`launch` is in no package index: what is asked of it is looked at on a stand-in."""
     files = generate(MODEL, lifecycle=lifecycle)
     write(files, tmp_path)
-    node = "LifecycleNode" if lifecycle == "true" else "Node"
-    kinds = {
-        "launch": ("LaunchDescription",),
-        "launch.actions": ("DeclareLaunchArgument", "GroupAction", "OpaqueFunction"),
-        "launch.substitutions": ("LaunchConfiguration",),
-        "launch_ros": (),
-        "launch_ros.actions": (node, "PushRosNamespace"),
-        "ament_index_python": (),
-        "ament_index_python.packages": (),
-    }
-    for name, classes in kinds.items():
-        module = ModuleType(name)
-        for each in classes:
-            setattr(module, each, type(each, (_Recorder,), {}))
-        monkeypatch.setitem(sys.modules, name, module)
-    share = str(tmp_path / "lab_behavior")
-    packages = sys.modules["ament_index_python.packages"]
-    packages.get_package_share_directory = lambda name: share  # type: ignore[attr-defined]
-    code: dict[str, Any] = {}
-    exec(files["lab_behavior/launch/eyes.launch.py"].text, code)
+    package = tmp_path / "lab_behavior"
 
-    (content,) = code["generate_launch_description"]().arguments
-    context = {each.arguments[0]: each.keywords["default_value"] for each in content[:-1]}
-    groups = content[-1].keywords["function"](context)
+    def launch(**arguments: str) -> list[dict[str, Any]]:
+        path = package / "launch" / "eyes.launch.py"
+        return launching.launch(path, {"lab_behavior": package}, monkeypatch.setitem, **arguments)
+
     members = []
-    for group in groups:
-        *spaces, launched = group.arguments[0]
-        where = [space.arguments[0] for space in spaces]
-        values, *paths = launched.keywords["parameters"]
+    for node in launch():
+        values, *paths = node["parameters"]
         assert all(Path(path).is_file() for path in paths)
         assert len(paths) == 2
-        assert launched.keywords["package"] == "lab_behavior"
-        members.append((where[1], launched.keywords["name"], values["member"]))
+        assert node["package"] == "lab_behavior"
+        assert node["kind"] == ("LifecycleNode" if lifecycle == "true" else "Node")
+        members.append((node["namespace"], node["name"], values["member"]))
     assert members == [
-        ("left_0", "watch", "left[0]"),
-        ("left_1", "watch", "left[1]"),
-        ("head_0", "eye", "head[0].eye"),
+        ("/eyes/left_0", "watch", "left[0]"),
+        ("/eyes/left_1", "watch", "left[1]"),
+        ("/eyes/head_0", "eye", "head[0].eye"),
     ]
     with pytest.raises(ValueError, match="there cannot be 5 members in role left"):
-        content[-1].keywords["function"]({**context, "left_count": "5"})
+        launch(left_count="5")
 
 
 def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:

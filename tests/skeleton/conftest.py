@@ -61,8 +61,8 @@ def emit(tmp_path_factory: pytest.TempPathFactory) -> Emit:
 def write(emit: Emit) -> Callable[..., dict[str, OutputFile]]:
     """Write what the generator makes below a folder; no complaints."""
 
-    def write(folder: Path, **options: str) -> dict[str, OutputFile]:
-        files, complaints = emit(**options)
+    def write(folder: Path, model: Path = MODEL, **options: str) -> dict[str, OutputFile]:
+        files, complaints = emit(model, **options)
         assert complaints == []
         for file in files.values():
             path = folder / file.path

@@ -195,6 +195,74 @@ def test_a_node_without_a_needed_param_says_so(
     assert "Traceback" not in run.stderr
 
 
+CAMERA = """
+from camera.base import CameraBase
+class Camera(CameraBase):
+    def __init__(self, *words, **options):
+        super().__init__(*words, **options)
+        self.create_timer(0.05, self.see)
+    def see(self):
+        message = self.outputs.image.msg_type()
+        message.data = self.parameters.rate
+        self.outputs.image.publish(message)
+"""
+STEREO = """
+from stereo.base import StereoBase
+class Stereo(StereoBase):
+    def on_left(self, message):
+        if self.inputs.right is not None:
+            message.data = message.data * 10 + self.inputs.right.data
+            self.outputs.depth.publish(message)
+"""
+WITNESS = """
+import sys, rclpy, std_msgs.msg
+rclpy.init()
+node = rclpy.create_node('witness')
+heard = []
+node.create_subscription(std_msgs.msg.Float64, sys.argv[1], heard.append, 10)
+while not heard:
+    rclpy.spin_once(node)
+print(heard[0].data)
+"""
+
+
+def test_a_message_goes_through_connectors(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The nodes run with the names and remappings that the launch file gives them."""
+    given = os.environ.get("SWARMDSL_ROS2")
+    if given is None:
+        pytest.skip("no ROS 2: `make test-ros2` makes an environment with it")
+    made = tmp_path / "src"
+    write(made, model=HERE / "connected.swarm", ros="2")
+    for name, code in (("camera", CAMERA), ("stereo", STEREO)):
+        (made / name / name / "implementation.py").write_text(code, encoding="utf-8")
+    launching = load_module("skeleton_launching", ROS2 / "launching.py")
+    packages = {path.name: path for path in made.iterdir()}
+    path = made / "lab_bringup" / "launch" / "uav.launch.py"
+    nodes = launching.launch(path, packages, monkeypatch.setitem, namespace="seeing")
+    harness = load_module("skeleton_harness", ROS2 / "harness.py")
+    domain = 20 + (os.getpid() + 1) % 80
+    ros = harness.Ros(Path(given), [made / "camera", made / "stereo"], domain, tmp_path)
+    try:
+        for node in nodes:
+            if node["package"] != "memory":
+                ros.start("-m", f"{node['package']}.node", "--ros-args", *_as_arguments(node))
+        witness = ros.start("-c", WITNESS, "/seeing/range/depth", stdout=subprocess.PIPE)
+        assert witness.communicate(timeout=60)[0].split() == ["24.0"]
+    finally:
+        ros.close()
+
+
+def _as_arguments(node: dict[str, Any]) -> Iterator[str]:
+    """What launch would start a node with."""
+    yield from ("-r", f"__ns:={node['namespace']}", "-r", f"__node:={node['name']}")
+    for name, topic in node["remappings"]:
+        yield from ("-r", f"{name}:={topic}")
+    for file in node["parameters"][1:]:
+        yield from ("--params-file", str(file))
+
+
 HOOK = """
 from camera.base import CameraBase
 class Camera(CameraBase):

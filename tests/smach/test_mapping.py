@@ -18,6 +18,12 @@ function ask  : abstraction { service "ask" : Ask }
 event Go   : Note
 event Stop : Note
 """
+PARTS = """
+sensor Eye { out seen : Note  behavior Work }
+sensor Ear { in heard : Note }
+member Uav { left : Eye  right : Eye  ear : Ear  connect right.seen -> ear.heard }
+swarm Uavs { uav : Uav }
+"""
 BOX = "state In { on Go -> Deep }  state Deep { on Go -> In }"
 MOVE = "do move(x = 1.0)"
 ENDS = "on succeeded, aborted -> End"
@@ -107,6 +113,7 @@ MODELS = {
         param first : Note
         state A { on Go [first.level > 1] -> End  on Stop -> End }""",
     "sent event": "state A { on Go / send Stop() -> End }",
+    "connector": "state A { on Go -> End }",
     "initial state of a machine that is final": "final A",
     "name that Python cannot have": """
         var lambda : int32
@@ -128,6 +135,10 @@ def test_the_table_is_true(
     body = MODELS[mapped.construct]
     end = "" if body == "final A" else "final End"
     model = f"{HEADER}statemachine Work {{ initial A {body} {end} }}"
+    if mapped.construct == "connector":
+        (word,) = re.findall("`([^`]*)`", mapped.means)
+        assert word in generate(model + PARTS)["launch/uav.launch"].text
+        return
     if mapped.support is Support.REJECTED:
         (code,) = re.findall(r"\((SW\d{4})\)", mapped.means)
         assert [CODES[name].code for name, _, _ in reported(model)] == [code]

@@ -77,7 +77,10 @@ def _launch(
     for node in behavior_nodes(member, system):
         type_ = snake_case(node.machine.name)
         attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
-        _add_params(etree.SubElement(group, "node", attributes), node.params, report)
+        element = etree.SubElement(group, "node", attributes)
+        _add_params(element, node.params, report)
+        for name, topic in node.remaps:
+            etree.SubElement(element, "remap", {"from": name, "to": topic})
     return root
 
 

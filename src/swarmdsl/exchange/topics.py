@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from swarmdsl.dataclass import dataclass, field
+from swarmdsl.exchange.wiring import wiring
 from swarmdsl.ir import (
     Component,
     Effect,
@@ -39,9 +40,9 @@ def uses(member: Member, system: System) -> Iterator[Use]:
     for owner in owners:
         if owner.behavior is not None:
             found.update(dict.fromkeys(_of_machine(machines[owner.behavior], system)))
-    for owner in owners:
-        for port in owner.ports:
-            found.update(dict.fromkeys(_of_port(port)))
+    wired = wiring(member, system)
+    for (part, _), port in wired.ports.items():
+        found.update(dict.fromkeys(_of_port(port, wired.topic(part, port))))
     yield from found
 
 
@@ -66,8 +67,8 @@ def _of_effects(effects: tuple[Effect, ...], system: System) -> Iterator[Use]:
             yield Use(event.topic, event.type, False, event.origin)
 
 
-def _of_port(port: Port) -> Iterator[Use]:
+def _of_port(port: Port, topic: str) -> Iterator[Use]:
     if port.direction != "out":
-        yield Use(port.topic, port.type, True, port.origin)
+        yield Use(topic, port.type, True, port.origin)
     if port.direction != "in":
-        yield Use(port.topic, port.type, False, port.origin)
+        yield Use(topic, port.type, False, port.origin)

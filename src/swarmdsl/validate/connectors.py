@@ -5,6 +5,8 @@ from __future__ import annotations
 from swarmdsl.diagnostics import Label
 from swarmdsl.inference import fits
 from swarmdsl.inheritance import all_items
+from swarmdsl.naming import snake_case
+from swarmdsl.nets import Net, Pin, PortTopic, nets
 from swarmdsl.syntax import Connector, Member, Part, Port, PortRef
 from swarmdsl.validate.context import Context
 
@@ -14,6 +16,7 @@ def check_connectors(member: Member, context: Context) -> None:
     connectors = all_items(member, Connector)
     _check_connected(member, connectors, context)
     _check_driven_once(connectors, context)
+    _check_topics(member, connectors, context)
     for item in member.items:
         if isinstance(item, Connector):
             _check_connector(item, context)
@@ -76,6 +79,56 @@ def _check_driven_once(connectors: list[Connector], context: Context) -> None:
                 related=(Label(others[0].span, "already connected here"),),
                 help="what comes from two sides mixes on one topic: give each a port of its own",
             )
+
+
+def _check_topics(member: Member, connectors: list[Connector], context: Context) -> None:
+    """Check that ports can be on the topics that are given for them, and only connected ones meet.
+
+    What is given for a port of the member itself goes before what its parts say.
+    """
+    declared: dict[Pin, Port] = {(None, str(p.name)): p for p in all_items(member, Port)}
+    for part in all_items(member, Part):
+        if part.component.target is not None:
+            ports = all_items(part.component.target, Port)
+            declared.update(((str(part.name), str(port.name)), port) for port in ports)
+    topics = {pin: _topic(pin, port) for pin, port in declared.items()}
+    ends = [(connector.source, connector.target) for connector in connectors]
+    at = {_pin(end): end for both in reversed(ends) for end in both}
+    first: dict[str, Net] = {}
+    for net in nets(topics, ((_pin(source), _pin(target)) for source, target in ends)):
+        other = first.setdefault(net.topic, net)
+        if other is not net:
+            context.report.report(
+                "shared-topic",
+                at[net.pins[0]].span,
+                topic=net.topic,
+                related=(Label(at[other.pins[0]].span, "the other one is here"),),
+                help="each hears what the other one sends: give the ports topics of their own",
+            )
+        if net.pins[0][0] is None:
+            continue
+        for pin in net.pins:
+            if topics[pin].given and topics[pin].topic != net.topic:
+                context.report.report(
+                    "replaced-topic",
+                    at[pin].span,
+                    port=at[pin].span.text,
+                    topic=net.topic,
+                    own=topics[pin].topic,
+                    related=(Label(declared[pin].name.span, "declared here"),),
+                    help="what is connected is on one topic: give it at one of the ports, or at "
+                    "a port of the member",
+                )
+
+
+def _topic(pin: Pin, port: Port) -> PortTopic:
+    name = snake_case(port.name)
+    topic = str(port.topic) if port.topic is not None else name
+    return PortTopic(topic, pin[0] is None or topic != name, port.direction != "in")
+
+
+def _pin(end: PortRef) -> Pin:
+    return end.part.name if end.part is not None else None, end.port.name
 
 
 def _check_connector(connector: Connector, context: Context) -> None:

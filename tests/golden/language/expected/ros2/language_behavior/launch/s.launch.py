@@ -3,14 +3,27 @@
 
 import os
 
-from ament_index_python.packages import get_package_share_directory
+from ament_index_python.packages import get_package_share_directory, PackageNotFoundError
 from launch import LaunchDescription
-from launch.actions import DeclareLaunchArgument, GroupAction, OpaqueFunction
+from launch.actions import (
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    OpaqueFunction,
+)
+from launch.launch_description_sources import PythonLaunchDescriptionSource
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node, PushRosNamespace
 
 PACKAGE = 'language_behavior'
 CONFIG = os.path.join(get_package_share_directory(PACKAGE), 'config', 's')
+
+# The package with launch files for the components of members, and the file of each role.
+BRINGUP = 'language_bringup'
+COMPONENTS = {
+    'uav': 'uav.launch.py',
+    'big': 'big.launch.py',
+}
 
 # For each role how many members there are, how many there may be (None for any number), and
 # the nodes of each: executable, name, and the part of the member that it is.
@@ -20,7 +33,7 @@ ROLES = {
         (3, 3),
         [
             ('b', 'b', None),
-            ('b', 'cam', 'cam'),
+            ('b', 'cam_behavior', 'cam'),
         ],
     ),
     'big': (
@@ -28,7 +41,7 @@ ROLES = {
         (1, 1),
         [
             ('b', 'b', None),
-            ('b', 'cam', 'cam'),
+            ('b', 'cam_behavior', 'cam'),
         ],
     ),
 }
@@ -42,6 +55,9 @@ def generate_launch_description():
         ('log_level', 'info', 'the least level of messages that are logged'),
         ('trace_dir', '', 'folder for the trace of each node; none is written when empty'),
     ]
+    installed = 'true' if has_bringup() else 'false'
+    about = f'whether components are launched, by package {BRINGUP}'
+    arguments.append(('components', installed, about))
     for role, (count, (least, most), _) in ROLES.items():
         allowed = f'{least} to {most}' if most is not None else f'at least {least}'
         arguments.append((f'{role}_count', str(count), f'how many of {role}: {allowed}'))
@@ -54,6 +70,15 @@ def generate_launch_description():
             OpaqueFunction(function=launch_members),
         ]
     )
+
+
+def has_bringup():
+    """Tell whether the package that launches components is installed."""
+    try:
+        get_package_share_directory(BRINGUP)
+    except PackageNotFoundError:
+        return False
+    return True
 
 
 def launch_members(context):
@@ -70,6 +95,7 @@ def launch_members(context):
                         PushRosNamespace(LaunchConfiguration('namespace')),
                         PushRosNamespace(f'{role}_{number}'),
                         *(launch_node(context, role, number, *node) for node in nodes),
+                        *launch_components(context, role, number),
                     ]
                 )
             )
@@ -100,3 +126,20 @@ def launch_node(context, role, number, executable, name, part):
         arguments=['--ros-args', '--log-level', LaunchConfiguration('log_level')],
         output='screen',
     )
+
+
+def launch_components(context, role, number):
+    """Launch the components of a member, where they are wanted, with its own parameters."""
+    wanted = LaunchConfiguration('components').perform(context) == 'true'
+    if not wanted or role not in COMPONENTS:
+        return []
+    own = os.path.join(CONFIG, f'{role}_{number}.yaml')
+    path = os.path.join(get_package_share_directory(BRINGUP), 'launch', COMPONENTS[role])
+    arguments = {
+        # The group is the namespace already.
+        'namespace': '',
+        'use_sim_time': LaunchConfiguration('use_sim_time'),
+        'params_file': own if os.path.exists(own) else '',
+    }
+    source = PythonLaunchDescriptionSource(path)
+    return [IncludeLaunchDescription(source, launch_arguments=arguments.items())]

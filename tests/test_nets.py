@@ -1,0 +1,74 @@
+"""Which topic connected ports are on."""
+
+from __future__ import annotations
+
+import pytest
+
+from swarmdsl.nets import Pin, PortTopic, nets
+
+
+def _pin(text: str) -> Pin:
+    part, _, port = text.rpartition(".")
+    return part or None, port
+
+
+def _topics(ports: str, connectors: str) -> dict[str, str]:
+    """The topics of connected ports: `a.out` sends, all others hear; `=` gives a topic."""
+    known = {}
+    for text in ports.split():
+        name, _, topic = text.partition("=")
+        pin = _pin(name)
+        given = bool(topic) or pin[0] is None
+        known[pin] = PortTopic(topic or pin[1], given, pin[1].startswith("out"))
+    ends = [line.split("->") for line in connectors.split()]
+    found = nets(known, ((_pin(source), _pin(target)) for source, target in ends))
+    return {".".join(filter(None, pin)): net.topic for net in found for pin in net.pins}
+
+
+@pytest.mark.parametrize(
+    ("ports", "connectors", "topics"),
+    [
+        ("a.out b.in", "a.out->b.in", {"a.out": "out", "b.in": "out"}),
+        # What is connected to one sender is on one topic.
+        (
+            "a.out b.in c.in",
+            "a.out->b.in a.out->c.in",
+            {"a.out": "out", "b.in": "out", "c.in": "out"},
+        ),
+        # A topic that is given goes before a name, that of the sender first.
+        ("a.out b.in=x", "a.out->b.in", {"a.out": "x", "b.in": "x"}),
+        ("b.in=x a.out=y", "a.out->b.in", {"a.out": "y", "b.in": "y"}),
+        # That of the member goes before both, wherever it is connected.
+        ("in a.in=x b.in", "in->a.in in->b.in", {"in": "in", "a.in": "in", "b.in": "in"}),
+        (
+            "out=z a.out=x b.in=y",
+            "a.out->b.in a.out->out",
+            dict.fromkeys(("out", "a.out", "b.in"), "z"),
+        ),
+        # Senders of one name are told apart by their parts.
+        (
+            "a.out b.out c.in c.other",
+            "a.out->c.in b.out->c.other",
+            {"a.out": "a/out", "c.in": "a/out", "b.out": "b/out", "c.other": "b/out"},
+        ),
+        # Also from one that is not connected, and that keeps its topic.
+        ("a.out b.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
+        ("out a.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
+        # Topics that are given are not changed.
+        (
+            "a.out=x b.out=x c.in c.other",
+            "a.out->c.in b.out->c.other",
+            dict.fromkeys(("a.out", "c.in", "b.out", "c.other"), "x"),
+        ),
+        # Two nets that become one.
+        (
+            "a.out b.in c.out d.in",
+            "a.out->b.in c.out->d.in c.out->b.in",
+            dict.fromkeys(("a.out", "b.in", "c.out", "d.in"), "out"),
+        ),
+        # What the model does not have, which is reported.
+        ("a.out b.in", "a.out->x.in b.in->b.in", {"b.in": "in"}),
+    ],
+)
+def test_topics(ports: str, connectors: str, topics: dict[str, str]) -> None:
+    assert _topics(ports, connectors) == topics
