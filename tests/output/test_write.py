@@ -2,54 +2,23 @@
 
 import json
 import os
-from pathlib import Path
-from threading import Thread
 
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import NAME
-from swarmdsl.output import Action, How, Written, texts, write
+from swarmdsl.output import Action, How, texts, write
 from swarmdsl.output.clean import clean
-from swarmdsl.output.lock import locked
 
-
-def write_ok(output, out: Path, **options) -> Written:
-    report = Diagnostics()
-    written = write(output, out, report, How(**options))
-    assert written is not None, [found.message for found in report]
-    assert len(report) == 0
-    return written
-
-
-def errors(output, out: Path, **options) -> list[str]:
-    """The names of what was reported; nothing may have been written."""
-    before = tree(out)
-    report = Diagnostics()
-    assert write(output, out, report, How(**options)) is None
-    assert tree(out) == before
-    return [found.name for found in report]
-
-
-def tree(folder: Path) -> dict[str, bytes | None]:
-    if not folder.is_dir():
-        return {}
-    return {
-        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else None
-        for path in sorted(folder.rglob("*"))
-    }
-
-
-def files(**texts: str) -> dict[str, list[OutputFile]]:
-    return {"t": [OutputFile(name.replace("_", "."), text) for name, text in texts.items()]}
+from .builds import errors, everything, files, write_ok
 
 
 def test_files_lie_below_the_folder_of_their_target(tmp_path):
     output = {"a": [OutputFile("x/y.txt", "é\n")], "b": [OutputFile("run", "", executable=True)]}
     written = write_ok(output, tmp_path / "deep" / "out")
     out = tmp_path / "deep" / "out"
-    assert tree(out).keys() == {NAME, texts.NAME, "a", "a/x", "a/x/y.txt", "b", "b/run"}
+    assert everything(out).keys() == {NAME, texts.NAME, "a", "a/x", "a/x/y.txt", "b", "b/run"}
     assert (out / "a/x/y.txt").read_bytes() == "é\n".encode()
     assert os.access(out / "b/run", os.X_OK)
     assert not os.access(out / "a/x/y.txt", os.X_OK)
@@ -139,7 +108,7 @@ def test_a_file_to_fill_in_is_the_users_once_it_is_edited(tmp_path):
 def test_what_is_no_longer_generated_is_removed_with_its_folder(tmp_path):
     write_ok({"t": [OutputFile("d/e/old", "1"), OutputFile("new", "1")]}, tmp_path)
     assert write_ok(files(new="1"), tmp_path).removed == ("t/d/e/old",)
-    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/new"}
+    assert everything(tmp_path).keys() == {NAME, texts.NAME, "t", "t/new"}
 
 
 def test_what_is_no_longer_generated_but_was_edited_is_put_aside(tmp_path):
@@ -182,65 +151,13 @@ def test_two_models_in_one_folder_are_told_when_they_take_turns(tmp_path):
 def test_a_target_that_makes_nothing_any_more_leaves_nothing(tmp_path):
     write_ok(files(a="1"), tmp_path)
     assert write_ok({"t": []}, tmp_path).removed == ("t/a",)
-    assert tree(tmp_path).keys() == {NAME, texts.NAME}
+    assert everything(tmp_path).keys() == {NAME, texts.NAME}
 
 
 def test_a_file_renamed_in_case_only_is_not_lost(tmp_path):
     write_ok(files(Robot="1"), tmp_path)
     write_ok(files(robot="1"), tmp_path)
     assert (tmp_path / "t/robot").read_text() == "1"
-
-
-@pytest.mark.parametrize(
-    ("content", "reason"),
-    [
-        ("", "line 1 is not JSON"),
-        ('{\n<<<<<<< ours\n  "files": {}\n}', "line 2 is not JSON"),
-        ("[]", "it is not an object"),
-        ('{"files": 1}', "`files` in it is not paths with a text each"),
-        ('{"files": {"t/a": 7}}', "`files` in it is not paths with a text each"),
-        ("\xff", "it is not JSON"),
-    ],
-)
-@pytest.mark.parametrize("options", [{}, {"force": True}, {"check": True}], ids=str)
-def test_with_a_spoilt_list_nothing_is_done(tmp_path, content, reason, options):
-    write_ok(files(a="1"), tmp_path)
-    (tmp_path / NAME).write_text(content, encoding="latin-1")
-    before = tree(tmp_path)
-    for change in (write, clean_all):
-        report = Diagnostics()
-        assert change(files(a="2"), tmp_path, report, How(**options)) is None
-        (found,) = report
-        assert found.message == (
-            f"cannot read `{tmp_path / NAME}`, the list of generated files: {reason}"
-        )
-    assert tree(tmp_path) == before
-
-
-def clean_all(_output, out, report, _how):
-    return clean(out, (), report, dry=False)
-
-
-def test_a_list_that_cannot_be_read_is_told(tmp_path):
-    # A folder, since for some users all files can be read.
-    (tmp_path / NAME).mkdir(parents=True)
-    assert errors(files(a="2"), tmp_path) == ["unreadable-list"]
-
-
-def test_without_the_list_what_is_as_it_was_written_is_known_by_the_texts(tmp_path):
-    write_ok(files(a="1", b="1"), tmp_path)
-    (tmp_path / "t/b").write_text("mine")
-    (tmp_path / NAME).unlink()
-    assert errors(files(a="2", b="2"), tmp_path) == ["would-overwrite"]
-    (tmp_path / "t/b").unlink()
-    assert write_ok(files(a="2", b="2"), tmp_path).written == ("t/a", "t/b")
-
-
-def test_without_list_and_texts_every_file_is_the_users(tmp_path):
-    write_ok(files(a="1"), tmp_path)
-    (tmp_path / NAME).unlink()
-    (tmp_path / texts.NAME).unlink()
-    assert errors(files(a="2"), tmp_path) == ["would-overwrite"]
 
 
 @pytest.mark.parametrize("path", ["t/../../victim", "/victim", "../victim", "t/link/victim"])
@@ -332,127 +249,3 @@ def test_a_name_too_long_for_the_disk_changes_nothing(tmp_path):
     assert errors({"t": [OutputFile("a", "1"), OutputFile("x" * 300, "1")]}, tmp_path) == [
         "cannot-write"
     ]
-
-
-def fail_at(monkeypatch, name: str, error: BaseException) -> None:
-    """Let `os.open` and `os.replace` fail for a file of this name, or when it is staged."""
-    real_open, real_replace = os.open, os.replace
-
-    def open_(path, flags, *mode):
-        if Path(path).name.startswith(name):
-            raise error
-        return real_open(path, flags, *mode)
-
-    def replace(source, destination):
-        if Path(destination).name.startswith(name):
-            raise error
-        real_replace(source, destination)
-
-    monkeypatch.setattr(os, "open", open_)
-    monkeypatch.setattr(os, "replace", replace)
-
-
-FULL = OSError(28, "No space left on device")
-
-
-@pytest.mark.parametrize("error", [FULL, KeyboardInterrupt()], ids=["full", "interrupted"])
-@pytest.mark.parametrize("before", [False, True], ids=["new", "changed"])
-def test_what_fails_before_a_file_is_replaced_changes_nothing(tmp_path, monkeypatch, error, before):
-    out = tmp_path / "out"
-    if before:
-        write_ok(files(a="1"), out)
-    there = tree(tmp_path)
-    report = Diagnostics()
-    with monkeypatch.context() as patch:
-        fail_at(patch, ".swarmc-", error)
-        if isinstance(error, OSError):
-            assert write(files(a="2", b="2"), out, report) is None
-            (found,) = report
-            place = out / texts.NAME
-            assert found.message == f"cannot write `{place}`: no space left on device"
-        else:
-            with pytest.raises(KeyboardInterrupt):
-                write(files(a="2", b="2"), out, report)
-    assert tree(tmp_path) == there
-
-
-def test_what_fails_later_is_completed_by_the_next_build(tmp_path, monkeypatch):
-    write_ok(files(a="1", b="1"), tmp_path)
-    with monkeypatch.context() as patch:
-        fail_at(patch, "b", OSError(5, "Input/output error"))
-        report = Diagnostics()
-        assert write(files(a="2", b="2"), tmp_path, report) is None
-    (found,) = report
-    assert found.message == f"cannot write `{tmp_path / 't/b'}`: input/output error"
-    assert ((tmp_path / "t/a").read_text(), (tmp_path / "t/b").read_text()) == ("2", "1")
-    assert write_ok(files(a="2", b="2"), tmp_path).unchanged == ("t/a", "t/b")
-    assert tree(tmp_path).keys() == {NAME, texts.NAME, "t", "t/a", "t/b"}
-
-
-@pytest.fixture
-def locked_away(tmp_path, monkeypatch):
-    """A file that was generated and cannot be read, by no user."""
-    write_ok(files(a="1", b="1"), tmp_path)
-    read = Path.read_bytes
-
-    def read_bytes(path):
-        if path.name == "a":
-            raise PermissionError(13, "Permission denied", str(path))
-        return read(path)
-
-    monkeypatch.setattr(Path, "read_bytes", read_bytes)
-    return tmp_path / "t/a"
-
-
-@pytest.mark.parametrize("names", [{"a": "2"}, {"b": "1"}], ids=["still made", "not any more"])
-def test_a_file_that_cannot_be_read_is_named(locked_away, tmp_path, names):
-    report = Diagnostics()
-    assert write(files(**names), tmp_path, report) is None
-    (found,) = report
-    assert found.message == f"cannot read `{locked_away}`: permission denied"
-    assert locked_away.exists()
-
-
-def test_a_clean_leaves_what_it_cannot_read_and_says_so(locked_away, tmp_path):
-    report = Diagnostics()
-    written = clean(tmp_path, (), report, dry=False)
-    assert written is not None
-    assert written.removed == ("t/b",)
-    assert [found.name for found in report] == ["unreadable-file"]
-    assert locked_away.exists()
-
-
-@pytest.mark.skipif(getattr(os, "geteuid", int)() == 0, reason="root can read all files")
-def test_a_clean_names_files_in_a_folder_that_cannot_be_read(tmp_path):
-    write_ok(files(a="1"), tmp_path)
-    (tmp_path / "t").chmod(0)
-    report = Diagnostics()
-    clean(tmp_path, (), report, dry=False)
-    (tmp_path / "t").chmod(0o700)
-    assert [found.name for found in report] == ["unreadable-file"]
-
-
-def test_a_clean_of_a_target_that_is_none(tmp_path):
-    write_ok({"smach": [OutputFile("a", "1")], "roster": [OutputFile("a", "1")]}, tmp_path)
-    before = tree(tmp_path)
-    report = Diagnostics()
-    # The one is known but was not built, the other one is of a generator that is not installed.
-    clean(tmp_path, ["skeleton"], report, dry=False)
-    assert (len(report), tree(tmp_path)) == (0, before)
-    clean(tmp_path, ["smatch", "roster"], report, dry=False)
-    (found,) = report
-    assert (found.name, found.help) == ("unknown-target", "did you mean `smach`?")
-    assert tree(tmp_path).keys() == {NAME, texts.NAME, "smach", "smach/a"}
-
-
-def test_one_build_waits_for_another(tmp_path):
-    write_ok(files(a="1"), tmp_path)
-    done = []
-    with locked(tmp_path):
-        other = Thread(target=lambda: done.append(write_ok(files(a="2"), tmp_path)))
-        other.start()
-        other.join(0.2)
-        assert (tmp_path / "t/a").read_text() == "1"
-        assert done == []
-    other.join()
-    assert [each.written for each in done] == [("t/a",)]
