@@ -10,11 +10,16 @@ from pathlib import Path
 
 import pytest
 
-from .pages import ROOT, Page
+from .pages import ROOT, Block, Page
 from .walk import Walk, commands, matches
 
 TUTORIAL = Page(ROOT / "docs" / "tutorial.md")
 PICTURES = ROOT / "docs" / "pictures" / "tutorial"
+
+
+def _blocks(needs: str) -> list[Block]:
+    """Those that need this beside swarmdsl: `ros2`, or the traces of a `flight`."""
+    return [block for block in TUTORIAL.blocks if block.attributes.get("needs", "") == needs]
 
 
 @pytest.fixture(scope="module")
@@ -22,7 +27,7 @@ def walked(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of somebody who has followed all that does not need ROS."""
     folder = tmp_path_factory.mktemp("tutorial")
     walk = Walk(folder)
-    for block in TUTORIAL.blocks:
+    for block in _blocks(""):
         walk.follow(block)
     return folder / "rescue"
 
@@ -52,16 +57,17 @@ def test_on_ros_2(walked: Path) -> None:
     )
     done = [f". {shlex.quote(ros)}/setup.sh", f". {shlex.quote(ros)}/ws/install/setup.sh"]
     shown = ""
-    for block in TUTORIAL.blocks:
-        if block.attributes.get("needs") == "ros2":
-            if "file" in block.attributes:
-                (folder / block.attributes["file"]).write_text(block.text, encoding="utf-8")
-            else:
-                done += (each.text for each in commands(block))
-                shown += "".join(each.shown or "" for each in commands(block))
+    for block in _blocks("ros2"):
+        if "file" in block.attributes:
+            (folder / block.attributes["file"]).write_text(block.text, encoding="utf-8")
+        else:
+            done += (each.text for each in commands(block))
+            shown += "".join(each.shown or "" for each in commands(block))
     environment = {
         **os.environ,
         "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
+        # As in a shell in which swarmdsl's environment is active.
+        "VIRTUAL_ENV": sys.prefix,
         "COLCON_DEFAULTS_FILE": str(walked / "colcon.yaml"),
         "FASTDDS_DEFAULT_PROFILES_FILE": str(ROOT / "tests" / "ros2" / "loopback.xml"),
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(ROOT / "tests" / "ros2" / "loopback.xml"),
@@ -83,3 +89,7 @@ def test_on_ros_2(walked: Path) -> None:
 
     assert run.returncode == 0, run.stdout
     assert matches(run.stdout, f"...\n{shown}"), run.stdout
+    flights = _blocks("flight")
+    assert flights
+    for block in flights:
+        Walk(walked).follow(block)

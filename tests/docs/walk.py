@@ -11,18 +11,20 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+
+import tomli
 
 from .pages import Block
 
 # What is run, and what only a person should run: it installs, or takes long.
-_RUN = ("swarmc", "textx", "pygmentize", "echo", "ls", "find", "cat", "sed", "cd")
+_RUN = ("swarmc", "textx", "pygmentize", "echo", "ls", "find", "cat", "sed", "cd", "pip", "pytest")
 _NOT_RUN = (
     "python3 -m venv",
     ". ~/swarm/",
     ". .venv",
-    "pip install",
+    "pip install path/",
     "make ",
     # What needs ROS 2 is run by tests/ros2.
     "colcon build",
@@ -44,11 +46,10 @@ class Walk:
     """A reader in a folder, on the way through a page."""
 
     folder: Path
+    installed: list[Path] = field(default_factory=list)
 
     def follow(self, block: Block) -> None:
-        """Do what a block says, unless it needs more than swarmdsl."""
-        if "needs" in block.attributes:
-            return
+        """Do what a block says."""
         if "file" in block.attributes:
             self._write(block)
         elif block.language in ("console", "sh"):
@@ -57,6 +58,7 @@ class Walk:
     def _write(self, block: Block) -> None:
         name = block.attributes["file"]
         path = self.folder / name.removeprefix("+")
+        path.parent.mkdir(parents=True, exist_ok=True)
         if block.language == "diff":
             text = path.read_text(encoding="utf-8")
             before, after = sides(block.text)
@@ -82,17 +84,40 @@ class Walk:
                 assert matches(printed, command.shown), f"{block}\n$ {command.text}\n{printed}"
         assert code == 0, f"{block}: the exit code {code} is not shown"
 
+    def _install(self, package: Path) -> str:
+        """Do for a package what pip does, for this reader alone and without an index."""
+        about = tomli.loads((package / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        info = package / f"{about['name'].replace('-', '_')}-{about['version']}.dist-info"
+        info.mkdir()
+        (info / "METADATA").write_text(
+            f"Metadata-Version: 2.1\nName: {about['name']}\nVersion: {about['version']}\n"
+        )
+        with (info / "entry_points.txt").open("w", encoding="utf-8") as stream:
+            for group, points in about["entry-points"].items():
+                stream.write(f"[{group}]\n")
+                stream.writelines(f"{name} = {place}\n" for name, place in points.items())
+        self.installed.append(package)
+        return ""
+
     def run(self, text: str, before: int = 0) -> tuple[str, int]:
         """Run a command in a shell, `$?` being the exit code of the one before."""
         if text.startswith("cd "):
             self.folder = (self.folder / text.removeprefix("cd ")).resolve(strict=True)
             return "", 0
+        if text.startswith("pip install -e "):
+            return self._install(self.folder / text.removeprefix("pip install -e ")), 0
         path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
         done = subprocess.run(
             ["bash", "-c", f"(exit {before}); {text}"],
             cwd=self.folder,
             # As on a terminal: the streams in the order in which they are written.
-            env={**os.environ, "PATH": path, "PYTHONUNBUFFERED": "1", "NO_COLOR": "1"},
+            env={
+                **os.environ,
+                "PATH": path,
+                "PYTHONPATH": os.pathsep.join(map(str, self.installed)),
+                "PYTHONUNBUFFERED": "1",
+                "NO_COLOR": "1",
+            },
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,

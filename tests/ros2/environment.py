@@ -49,7 +49,8 @@ _HEADER = Message(
 def ready(folder: Path) -> bool:
     """Whether the environment is there, and of today's requirements and models."""
     mark = folder / _READY
-    return mark.exists() and mark.read_text() == _fingerprint()
+    usable = mark.exists() and (folder / "setup.sh").exists()
+    return usable and mark.read_text() == _fingerprint()
 
 
 def make(folder: Path) -> None:
@@ -78,6 +79,8 @@ def install(folder: Path) -> None:
     _relocate(python)
     lines = [
         f"export PATH={shlex.quote(str(venv / 'bin'))}:$PATH",
+        # CMake looks there first: another one that is active would hide this Python.
+        f"export VIRTUAL_ENV={shlex.quote(str(venv))}",
         f"export AMENT_PREFIX_PATH={shlex.quote(str(venv))}",
         f"export CMAKE_PREFIX_PATH={shlex.quote(str(venv))}",
         "export PYTHONWARNINGS=ignore  # setuptools about what colcon asks of it",
