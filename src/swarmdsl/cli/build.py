@@ -91,15 +91,19 @@ def build(
     wanted = requests(targets, given, settings)
     how = mode.how("swarmc", "build", *paths, *_repeated(targets, given, out))
     if watch:
-        from swarmdsl.cli.watch import watch_files
+        from swarmdsl.cli.watch import Concluded, watch_files
 
-        def build_again(checked: Result, settings: Settings) -> str:
+        def build_again(checked: Result, settings: Settings) -> Concluded:
             wanted = requests(targets, given, settings)
             result = compiler.generate(checked, wanted, out or settings.out, how)
-            if not how.dry:
-                return briefly(result, format_, sys.stdout)
-            mode.show(result, format_)
-            return briefly(replace(result, written=None), format_, sys.stderr)
+
+            def say() -> str:
+                if not how.dry:
+                    return briefly(result, format_, sys.stdout)
+                mode.show(result, format_)
+                return briefly(replace(result, written=None), format_, sys.stderr)
+
+            return Concluded(how.dry or len(result.report) > 0, say)
 
         return watch_files(paths, lambda report: run_settings(paths, levels, report), build_again)
     stream = sys.stderr if dump_ir else sys.stdout

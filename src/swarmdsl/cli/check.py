@@ -31,12 +31,14 @@ def check(
 
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
     if watch:
-        from swarmdsl.cli.watch import watch_files
+        from swarmdsl.cli.watch import Concluded, watch_files
 
         return watch_files(
             paths,
             lambda report: run_settings(paths, levels, report),
-            lambda result, _: briefly(result, format_, sys.stdout),
+            lambda result, _: Concluded(
+                len(result.report) > 0, lambda: briefly(result, format_, sys.stdout)
+            ),
         )
     report = Diagnostics()
     settings = run_settings(paths, levels, report)

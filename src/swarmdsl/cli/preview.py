@@ -69,7 +69,7 @@ def preview(
     are as well: those of a simulation in real time, or others.
     """
     from swarmdsl.cli.outcome import briefly
-    from swarmdsl.cli.watch import watch_files
+    from swarmdsl.cli.watch import Concluded, watch_files
     from swarmdsl.compiler import Result
     from swarmdsl.preview.following import follow
     from swarmdsl.preview.pictures import pictures
@@ -86,10 +86,13 @@ def preview(
     # With whole paths, by which places lead into an editor.
     whole = tuple(Path(os.path.abspath(path)) for path in paths)  # noqa: PTH100 - keeps links
 
-    def show(result: Result, _settings: Settings) -> str:
-        said = briefly(result, "text", sys.stdout)
-        news.tell(pictures(result))
-        return f"{said}; {address}"
+    def show(result: Result, _settings: Settings) -> Concluded:
+        def say() -> str:
+            said = briefly(result, "text", sys.stdout)
+            news.tell(pictures(result))
+            return f"{said}; {address}"
+
+        return Concluded(len(result.report) > 0, say)
 
     with ExitStack() as stack:
         try:

@@ -12,6 +12,7 @@ from time import perf_counter, sleep, strftime
 import click
 
 from swarmdsl.compiler import Result
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.project import places
 from swarmdsl.project.command_line import UsageError
@@ -23,8 +24,21 @@ _PAUSE = 0.2
 
 Stamp = tuple[int, int]
 Stamps = Mapping[str, Stamp | None]
-# Says what came of a check, or builds what it found valid; returns all in all, in a few words.
-Conclude = Callable[[Result, Settings], str]
+
+
+@dataclass(frozen=True)
+class Concluded:
+    """What came of a run: `say` prints it and returns, in a few words, what it is all in all.
+
+    `has_more` is whether it prints anything.
+    """
+
+    has_more: bool
+    say: Callable[[], str]
+
+
+Conclude = Callable[[Result, Settings], Concluded]
+"""What is made of a check: what it found, or a build of what it found valid."""
 
 
 def watch_files(
@@ -39,17 +53,18 @@ def watch_files(
     """
     try:
         changed: set[str] = set()
+        screen = _Screen(conclude)
         while True:
             start = perf_counter()
             before = _stamps(places(paths[0] if paths else Path()))
             report = Diagnostics()
             settings = read_settings(report)
             if report.has_errors:
-                _show(conclude, Result(report, files=1), settings, changed, start)
+                screen.show(Result(report, files=1), settings, changed, start)
                 while _stamps(before) == before:
                     sleep(_PAUSE)
             else:
-                _watch(before, settings, conclude, changed, start)
+                _watch(before, settings, screen, changed, start)
             changed = {FILE_NAME}
     except KeyboardInterrupt:
         click.echo(err=True)
@@ -57,14 +72,14 @@ def watch_files(
 
 
 def _watch(
-    project: Stamps, settings: Settings, conclude: Conclude, changed: set[str], start: float
+    project: Stamps, settings: Settings, screen: _Screen, changed: set[str], start: float
 ) -> None:
     """Watch the files of a model until the project file changes; `start` is when it did."""
     workspace = Workspace(settings.sources, settings)
     gc.collect()
     gc.freeze()
     known = _stamps(workspace.watched())
-    _show(conclude, _result(workspace, settings), settings, changed, start)
+    screen.show(_result(workspace, settings), settings, changed, start)
     while _stamps(project) == project:
         sleep(_PAUSE)
         found = _stamps(workspace.watched())
@@ -75,7 +90,7 @@ def _watch(
             # Of what changed meanwhile the older time counts, so that it is seen next.
             known = _stamps(workspace.watched())
             known.update((path, found[path]) for path in known.keys() & found.keys())
-            _show(conclude, _result(workspace, settings), settings, changed, start)
+            screen.show(_result(workspace, settings), settings, changed, start)
             gc.collect()
 
 
@@ -85,26 +100,36 @@ def _result(workspace: Workspace, settings: Settings) -> Result:
     return Result(report, workspace.files, valid, settings.name)
 
 
-def _show(
-    conclude: Conclude,
-    result: Result,
-    settings: Settings,
-    changed: Iterable[str],
-    start: float,
-) -> None:
-    if sys.stdout.isatty():
-        click.clear()
-    names = ", ".join(sorted(Path(each).name for each in changed))
-    if names:  # by this line an editor knows that what was said before is no longer true
-        click.echo(f"changed: {names}", err=True)
-    try:
-        said = conclude(result, settings)
-    except UsageError as error:  # of what the project file leaves open
-        said = f"Error: {error}"
-    sys.stdout.flush()
-    took = f"{(perf_counter() - start) * 1000:.0f} ms"
-    ending = "" if names else "; end with Ctrl-C"
-    click.echo(f"waiting for changes ({strftime('%H:%M:%S')}, {took}): {said}{ending}", err=True)
+class _Screen:
+    """What is shown of each run: a line, and before it what is wrong."""
+
+    def __init__(self, conclude: Conclude) -> None:
+        self._conclude = conclude
+        self._had_more = False
+
+    def show(
+        self, result: Result, settings: Settings, changed: Iterable[str], start: float
+    ) -> None:
+        """Show what came of a run that began at `start`, for which some files had changed."""
+        try:
+            concluded = self._conclude(result, settings)
+        except UsageError as error:  # of what the project file leaves open
+            fault = f"Error: {error}"
+            concluded = Concluded(False, lambda: fault)
+        if sys.stdout.isatty():
+            click.clear()
+        names = ", ".join(sorted(Path(each).name for each in changed))
+        if names and (concluded.has_more or self._had_more):
+            # By this line an editor knows that what was said before is no longer true.
+            click.echo(f"changed: {names}", err=True)
+        self._had_more = concluded.has_more
+        said = concluded.say()
+        sys.stdout.flush()
+        about = f"{strftime('%H:%M:%S')}, {(perf_counter() - start) * 1000:.0f} ms"
+        if names:
+            about = f"{names}, {about}"
+        ending = "" if names else "; end with Ctrl-C"
+        click.echo(f"waiting for changes ({about}): {said}{ending}", err=True)
 
 
 def _stamps(paths: Iterable[str | Path]) -> dict[str, Stamp | None]:
