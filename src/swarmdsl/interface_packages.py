@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.graph import cycles
-from swarmdsl.interface_files import Generation, definition, depends, file_name
-from swarmdsl.ir import Interface, Named, System
+from swarmdsl.interface_files import Generation, definition, depends, file_name, named, parts
+from swarmdsl.ir import Action, Interface, Named, System
 from swarmdsl.source import Span
+
+_OF_ACTION = re.compile(r"(Action)?(Goal|Result|Feedback)$")
 
 
 @dataclass(frozen=True)
@@ -50,14 +53,24 @@ def check_described(system: System, others: str, target: str, report: Diagnostic
     packages = others.split(",")
     used = [(event.type, event.origin) for event in system.events]
     used += ((each.communication.type, each.origin) for each in system.functions)
+    fields = (f for each in written(system, others) for part in parts(each) for f in part)
+    used += ((type_, field.origin) for field in fields for type_ in named(field.type))
+    first: dict[Named, Span | None] = {}
     for type_, origin in used:
-        if not isinstance(type_, Named) or type_.package not in packages:
-            continue
-        if system.interface(type_) is None:
+        if isinstance(type_, Named) and type_.package in packages:
+            first.setdefault(type_, origin)
+    for type_, origin in first.items():
+        if system.interface(type_) is None and not _is_of_action(type_, system):
             construct = (
                 f"`{type_}`, which the model does not describe, in a package that is written"
             )
             report.report("unsupported-construct", origin, target=target, construct=construct)
+
+
+def _is_of_action(type_: Named, system: System) -> bool:
+    """Whether ROS makes it of an action that the model describes, as `FlyActionFeedback`."""
+    base = _OF_ACTION.sub("", type_.name)
+    return isinstance(system.interface(Named(type_.package, base)), Action)
 
 
 def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:

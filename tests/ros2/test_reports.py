@@ -124,6 +124,31 @@ def test_what_is_used_of_a_package_that_is_written_is_described(reported: Report
     assert found[0][2]
 
 
+def test_so_is_what_their_messages_are_made_of(reported: Reported) -> None:
+    message = "message other_msgs/Done { header : other_msgs/Header  again : other_msgs/Header }\n"
+    text = HEAD + message + "event Done : other_msgs/Done\n" + MACHINE
+    found = reported(text, interfaces="other_msgs")
+
+    assert [each[0] for each in found] == ["unsupported-construct"]
+    assert "`other_msgs/Header`, which the model does not describe" in found[0][1]
+    assert found[0][2].startswith("header")
+
+
+def test_what_ros_makes_of_an_action_is_described_with_it(reported: Reported) -> None:
+    text = """
+      package lab
+      action fly_msgs/Fly { feedback { height : float64 } }
+      function fly : abstraction { action "fly" : fly_msgs/Fly }
+      statemachine Work {
+        initial A
+        state A { do fly  on succeeded, aborted -> B
+          monitor "fly/feedback" : fly_msgs/FlyActionFeedback [event.feedback.height > 2] -> B }
+        final B
+      }
+    """
+    assert reported(text, interfaces="fly_msgs") == []
+
+
 @pytest.mark.parametrize(
     ("option", "value", "part"),
     [
