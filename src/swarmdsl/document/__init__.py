@@ -104,10 +104,11 @@ def _page(book: Book) -> Page:
     sections = []
     for id_, title, kinds, make in _SECTIONS:
         found = [each for each in book.elements.tops if each.kind in kinds]
-        tables = [_TABLES[id_](book)] if id_ in _TABLES else []
-        kept = tuple(table.without_empty_columns() for table in tables if table.rows)
-        if found or kept:
-            entries = tuple(make(each, book) for each in found)
-            sections.append(Section(id_, title, entries, kept))
+        table = _TABLES[id_](book) if id_ in _TABLES else None
+        if table is not None and not table.rows:
+            table = None
+        if found or table:
+            kept = table.without_empty_columns() if table is not None else None
+            sections.append(Section(id_, title, tuple(make(each, book) for each in found), kept))
     system: ir.System = book.system
     return Page(system.name, system.doc, (overview.packages(book),), tuple(sections))

@@ -91,12 +91,17 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """Entries of one kind, and tables about all of them."""
+    """Entries of one kind, and perhaps a table about all of them."""
 
     id: str
     title: str
     entries: tuple[Entry, ...]
-    tables: tuple[Table, ...] = ()
+    table: Table | None = None
+
+    @property
+    def table_id(self) -> str:
+        """Where the table is."""
+        return f"{self.id}-table"
 
 
 @dataclass(frozen=True, slots=True)

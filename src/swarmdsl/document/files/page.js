@@ -1,5 +1,5 @@
 "use strict";
-// Search, contents that follow, colours, and pictures in full size. Without it, the page has all
+// Links, search, contents that follow, colours, and pictures in full size. Without it, the page has all
 // of its text and links.
 (() => {
   const MOST = 40;
@@ -10,6 +10,24 @@
 
   root.classList.add("scripted");
   field.parentElement.hidden = menu.hidden = theme.hidden = false;
+
+  // ---- links: what comes into view gets its true height, and moves what is below
+  const settle = (id) => {
+    const target = byId(id);
+    const again = (left) => {
+      target.scrollIntoView();
+      if (left > 0) requestAnimationFrame(() => again(left - 1));
+    };
+    if (target) requestAnimationFrame(() => again(4));
+  };
+  const goal = (hash) => decodeURIComponent(hash.slice(1));
+  document.addEventListener("click", (event) => {
+    const link = event.target.closest("a[href^='#']");
+    if (link) settle(goal(link.getAttribute("href")));
+  });
+  // Where somebody goes back to, the browser knows where it was.
+  const comes = performance.getEntriesByType("navigation")[0]?.type === "navigate";
+  if (comes) addEventListener("load", () => settle(goal(location.hash)));
 
   // ---- search
   let index;
@@ -70,6 +88,7 @@
     target.tabIndex = -1;
     target.focus({ preventScroll: true });
     target.scrollIntoView();
+    settle(id);
   };
   const option = (item, at) => {
     const made = document.createElement("li");
@@ -135,7 +154,7 @@
   };
   menu.addEventListener("click", () => open(!contents.classList.contains("open")));
   contents.addEventListener("click", (event) => event.target.closest("a") && open(false));
-  const links = new Map([...contents.querySelectorAll("li a")].map((a) => [decodeURIComponent(a.hash.slice(1)), a]));
+  const links = new Map([...contents.querySelectorAll("li a")].map((a) => [goal(a.hash), a]));
   let current;
   const inView = new Set();
   const watcher = new IntersectionObserver(
@@ -147,7 +166,7 @@
       current = links.get(first);
       current.setAttribute("aria-current", "true");
     },
-    { rootMargin: "-60px 0px -60% 0px" },
+    { rootMargin: "-20% 0px -60% 0px" },
   );
   for (const id of links.keys()) watcher.observe(byId(id));
 
@@ -172,7 +191,7 @@
   const paint = (name) => {
     if (name === "system") delete root.dataset.theme;
     else root.dataset.theme = name;
-    theme.textContent = `Theme: ${name}`;
+    theme.querySelector("span").textContent = `: ${name}`;
   };
   let painted = THEMES.includes(kept.get()) ? kept.get() : "system";
   paint(painted);
