@@ -72,7 +72,11 @@ def visit(browser: Any, path: Path) -> Iterator[Visit]:
     yield visit
     visit.page.close()
     assert visit.wrong == []
-    assert {address.partition("#")[0] for address in visit.asked} <= {visit.address, "about:blank", "data:,"}
+    assert {address.partition("#")[0] for address in visit.asked} <= {
+        visit.address,
+        "about:blank",
+        "data:,",
+    }
 
 
 def test_search_leads_to_a_state(visit: Visit) -> None:
