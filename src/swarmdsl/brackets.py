@@ -9,9 +9,10 @@ outside of the block. Where that makes for more mistakes than counting, it is no
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from typing import NamedTuple
 
-from swarmdsl.comments import starts_line
+from swarmdsl.comments import end_before, starts_line
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.source import Source, Span
@@ -21,6 +22,7 @@ _OPENER = {closer: opener for opener, closer in CLOSER.items()}
 _TOKEN = re.compile(r"^[ \t]*(?=[^\s})\]])|->|[{}()\[\]]", re.MULTILINE)
 _BRACKET = re.compile(r"[{}()\[\]]")
 _CLOSERS = re.compile(r"[})\]\s]*")
+_INDENTATION = re.compile(r"[ \t]*")
 
 
 class Repair(NamedTuple):
@@ -122,6 +124,7 @@ class _Match:
     def __init__(self, code: str, *, trust_indentation: bool) -> None:
         self.faults: list[BracketFault] = []
         self._code = code
+        self._lines = [0, *(found.end() for found in re.finditer("\n", code))]
         self._trusts = trust_indentation
         self._open: list[int] = []
         skip = 0
@@ -184,9 +187,9 @@ class _Match:
 
     def _is_wrong(self, at: int) -> bool:
         """Whether a `}` closes a parenthesis of its line: no block was opened there."""
-        line = self._code.rfind("\n", 0, at)
+        line = self._line(at)
         block = self._last_block()
-        return self._open[-1] > line and (block < 0 or self._open[block] < line)
+        return self._open[-1] >= line and (block < 0 or self._open[block] < line)
 
     def _wrong(self, at: int) -> int:
         opener = self._open.pop()
@@ -195,14 +198,15 @@ class _Match:
         return at + 1
 
     def _last_block(self) -> int:
-        return max((i for i, at in enumerate(self._open) if self._code[at] == "{"), default=-1)
+        blocks = (i for i in reversed(range(len(self._open))) if self._code[self._open[i]] == "{")
+        return next(blocks, -1)
 
     def _unclosed(self, end: int, before: int | None) -> None:
         at = self._open.pop()
-        end = len(self._code[:end].rstrip())
         if before is None and self._code[at] != "{":  # it does not go on on the next line
-            line = self._code.find("\n", at)
-            end = min(end, len(self._code[: line if line >= 0 else end].rstrip()))
+            following = bisect_right(self._lines, at)
+            end = min(end, *self._lines[following : following + 1], len(self._code))
+        end = end_before(self._code, end)
         # A brace gets a line of its own, or a parser would find it where something is missing.
         closer = "\n}" if self._code[at] == "{" else CLOSER[self._code[at]]
         repair = Repair(end, end, closer)
@@ -222,24 +226,28 @@ class _Match:
 
     def _header(self, at: int) -> BracketFault | None:
         """The line before an indented block without `{` that the closer at `at` closes."""
-        column = self._column(at)
-        lines = list(re.finditer(r"^[ \t]*(\S.*?)[ \t]*$", self._code[:at], re.MULTILINE))
-        inside = [line for line in lines if line.start(1) < at]
-        for count, line in enumerate(reversed(inside)):
-            if self._column(line.start(1)) <= column:
-                if count == 0 or re.search(r"[{}]", line[1]) or not line[1][0].isalpha():
-                    return None
-                word = re.search(r"[\w./]+$|\S$", line[1])
-                assert word is not None
-                start = line.start(1) + word.start()
-                return BracketFault("unopened", start, Repair(line.end(1), line.end(1), " {"))
-        return None
+        code = self._code
+        end = end_before(code, at)
+        if not starts_line(code, at) or self._indentation(end) <= self._column(at):
+            return None
+        while end and self._indentation(end) > self._column(at):
+            end = end_before(code, self._line(end))
+        header = code[self._line(end) : end].lstrip()
+        if not header[:1].isalpha() or "{" in header or "}" in header:
+            return None
+        word = end
+        while word and (code[word - 1].isalnum() or code[word - 1] in "_./"):
+            word -= 1
+        return BracketFault("unopened", min(word, end - 1), Repair(end, end, " {"))
 
     def _indentation(self, at: int) -> int:
-        line = self._code.rfind("\n", 0, at) + 1
-        found = re.compile(r"[ \t]*").match(self._code, line)
+        found = _INDENTATION.match(self._code, self._line(at))
         return len(found[0].expandtabs(4)) if found else 0
 
     def _column(self, at: int) -> int:
-        line = self._code.rfind("\n", 0, at) + 1
-        return len(self._code[line:at].expandtabs(4))
+        """The column of what begins a line."""
+        return len(self._code[self._line(at) : at].expandtabs(4))
+
+    def _line(self, at: int) -> int:
+        """Where the line of an offset begins."""
+        return self._lines[bisect_right(self._lines, at) - 1]

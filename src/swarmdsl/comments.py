@@ -8,9 +8,10 @@ from typing import NamedTuple
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
-_TOKEN = re.compile(r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/')
+# What has no end goes on to that of its line, or of the file.
+_TOKEN = re.compile(r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)')
 _DOC_LINE = re.compile(r"///(?!/)")
-_BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)*")
+_BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
 _ESCAPE = re.compile(r"\\[^\n]")
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
@@ -100,7 +101,7 @@ def _look_at_all(source: Source, comments: Comments) -> None:
     for token in _TOKEN.finditer(source.text):
         written = token[0]
         if written[0] == '"':
-            if has_escapes:
+            if has_escapes and token["closed"]:
                 comments.quoted(*token.span())
         elif written.startswith("///"):
             comments.comment(*token.span())
@@ -108,7 +109,18 @@ def _look_at_all(source: Source, comments: Comments) -> None:
 
 def starts_line(text: str, offset: int) -> bool:
     """Whether nothing but space stands before an offset on its line."""
-    return not text[text.rfind("\n", 0, offset) + 1 : offset].strip()
+    end = end_before(text, offset)
+    return end == 0 or "\n" in text[end:offset]
+
+
+def end_before(text: str, offset: int) -> int:
+    """Where what stands before an offset ends: the space between is passed over.
+
+    As fast in a large text as in a small one.
+    """
+    while offset and text[offset - 1].isspace():
+        offset -= 1
+    return offset
 
 
 def _next_token(text: str, offset: int) -> int:

@@ -31,15 +31,20 @@ class Draft:
         """The part between two offsets."""
         return Draft(self.text[start:end], self.origins[start : end + 1])
 
-    def repaired(self, repair: Repair) -> Draft:
-        """The same with one more repair."""
-        start, end, text = repair
-        first, last = self.origins[start], self.origins[end]
-        between = [min(first + at, last) for at in range(len(text))]
-        return Draft(
-            self.text[:start] + text + self.text[end:],
-            [*self.origins[:start], *between, *self.origins[end:]],
-        )
+    def repaired(self, *repairs: Repair) -> Draft:
+        """The same with more repairs, in order; of those that overlap the first is made."""
+        texts: list[str] = []
+        origins: list[int] = []
+        done = 0
+        for start, end, text in repairs:
+            if start < done:
+                continue
+            first, last = self.origins[start], self.origins[end]
+            texts += (self.text[done:start], text)
+            origins += self.origins[done:start]
+            origins += (min(first + at, last) for at in range(len(text)))
+            done = end
+        return Draft("".join([*texts, self.text[done:]]), [*origins, *self.origins[done:]])
 
     def blanked(self, start: int, end: int) -> Draft:
         """The same with spaces in place of a piece."""

@@ -35,11 +35,11 @@ _GOES_ON = {
 
 _BRACKET = re.compile(r"[{}()\[\]]")
 _MARK = re.compile(r"^(?:<{7}|>{7})", re.MULTILINE)
-_NO_CODE = re.compile(
-    r'(?P<text>"(?:[^"\\\n]|\\[^\n])*"?)|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/'
-    r"|(?P<mark>^(?:<{7}|>{7})(?![<>])[^\n]*)",
-    re.MULTILINE,
+_ON_ONE_LINE = (
+    r'(?P<text>"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?)|//[^\n]*|(?P<mark>^(?:<{7}|>{7})(?![<>])[^\n]*)'
 )
+_NO_CODE = re.compile(rf"{_ON_ONE_LINE}|/\*(?s:.*?)(?P<end>\*/|\Z)", re.MULTILINE)
+_LINES = re.compile(_ON_ONE_LINE, re.MULTILINE)
 
 
 def split(text: str) -> list[tuple[int, int]]:
@@ -74,7 +74,8 @@ def _boundaries(text: str) -> Iterator[int]:
         block = bisect_right(openings, start) - 1
         if block >= 0 and start < blocks[block][1]:
             continue
-        if any(first < start < end for first, end in merges):
+        merge = bisect_right(merges, (start,)) - 1
+        if merge >= 0 and start < merges[merge][1]:
             continue
         before = code[last:start].rstrip()
         if not before or _continues(before, code, start):
@@ -98,19 +99,32 @@ def _code(text: str) -> tuple[str, list[tuple[int, int]]]:
     With it come the pieces in which a merge was not finished.
     """
     marks: list[tuple[int, str]] = []
+    base = 0
 
     def blank(found: re.Match[str]) -> str:
         if found["mark"]:
-            marks.append((found.start(), found[0][0]))
+            marks.append((base + found.start(), found[0][0]))
         return '"' * len(found[0]) if found["text"] else " " * len(found[0])
 
-    code = _NO_CODE.sub(blank, text)
+    end = _end_of_comments(text)
+    code = _NO_CODE.sub(blank, text[:end])
+    base = end
+    code += _LINES.sub(blank, text[end:])
     merges = [
         (first, end)
         for (first, opening), (end, closing) in pairwise(marks)
         if opening == "<" and closing == ">"
     ]
     return code, merges
+
+
+def _end_of_comments(text: str) -> int:
+    """Where a comment begins that has no end; it is code, and no other has one behind it."""
+    if text.rfind("/*") > text.rfind("*/"):
+        for found in _NO_CODE.finditer(text):
+            if found["end"] == "":
+                return found.start()
+    return len(text)
 
 
 def joined(source: Source, parts: Sequence[Parsed], report: Diagnostics) -> Parsed:

@@ -22,7 +22,7 @@ from swarmdsl.parsed import Parsed
 from swarmdsl.repairs import mend
 from swarmdsl.scan import Scan
 from swarmdsl.source import Source, Span
-from swarmdsl.statements import Statement, statement_at
+from swarmdsl.statements import Statement, statement_at, statements_at
 from swarmdsl.syntax import Model, Vertex, Word, walk
 from swarmdsl.syntax_errors import Failure, report_syntax_error
 
@@ -53,9 +53,7 @@ class _Recovery:
     def parse(self) -> Parsed:
         """Parse what can be read of the text."""
         parsed, source = self._parsed, self._source
-        draft = untouched(source.text)
-        for repair in reversed(self._scanned.repairs):
-            draft = draft.repaired(repair)
+        draft = untouched(source.text).repaired(*self._scanned.repairs)
         if self._scanned.hopeless is not None:
             self._lose_names(draft.text)
             return parsed
@@ -111,10 +109,10 @@ class _Recovery:
 
     def _lose(self, draft: Draft, known: set[int]) -> None:
         """Take the names in statements with a mistake for possibly declared there."""
-        for at in known:
-            inside = bisect_right(draft.origins, at) - 1
-            statement = statement_at(draft.text, inside)
-            self._lose_names(draft.text[statement.start : statement.header])
+        inside = (bisect_right(draft.origins, at) - 1 for at in known)
+        found = {(one.start, one.header) for one in statements_at(draft.text, inside)}
+        for start, end in found:
+            self._lose_names(draft.text[start:end])
 
     def _lose_names(self, text: str) -> None:
         self._parsed.lost_names |= {*_IDENTIFIER.findall(text)}

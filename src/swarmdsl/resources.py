@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 from zlib import crc32
 
@@ -24,6 +25,7 @@ def grammar() -> Path:
     return (checkout_root() or _PACKAGE) / "grammar"
 
 
+@cache
 def grammar_checksum() -> int:
     """A number that is another one when a grammar file has changed."""
     checksum = 0

@@ -9,6 +9,7 @@ that the rest can be read. It also gathers the `///` comments with the place the
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from swarmdsl.brackets import CLOSER, Repair, find_faults, report_fault
@@ -23,13 +24,13 @@ _TOKEN = re.compile(
     r'(?P<text>"(?:[^"\\\n]|\\[^\n])*")'
     r'|(?P<open_text>"[^\n]*)'
     r"|(?P<line>//[^\n]*)"
-    r"|(?P<block>/\*(?:[^*]|\*(?!/))*\*/)"
-    r"|(?P<open_block>/\*[^\n]*(?:\n[ \t]*\*[^\n]*)*)"
+    r"|(?P<block>/\*)"
     r"|(?P<curly>[\u201c-\u201e\u00ab][^\u201c-\u201e\u00bb\"\n]*[\u201c-\u201e\u00bb\"])"
     r"|(?P<odd>(?P<one>[^\x00-\x7f])(?P=one)*)"
     r"|(?P<mark>^(?:<{7}|={7}|>{7}|[|]{7})(?![<=>|])[^\n]*)",
     re.MULTILINE,
 )
+_OPEN_BLOCK = re.compile(r"/\*[^\n]*(?:\n[ \t]*\*[^\n]*)*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,8 +67,11 @@ class _Scanner:
     def scan(self) -> Scan:
         text = self._source.text
         marks: list[re.Match[str]] = []
-        for token in _TOKEN.finditer(text):
+        last_end = text.rfind("*/")
+        at = 0
+        while token := _TOKEN.search(text, at):
             start, end = token.span()
+            at = end
             match token.lastgroup:
                 case "line":
                     self._comments.comment(start, end)
@@ -75,7 +79,11 @@ class _Scanner:
                     self._comments.quoted(start, end)
                 case "open_text":
                     end = self._open_text(start, end)
-                case "open_block":
+                case "block" if end <= last_end:
+                    at = end = text.index("*/", end) + 2
+                case "block":
+                    found = _OPEN_BLOCK.match(text, start)
+                    at = end = found.end() if found else end
                     self._fault("unterminated-comment", start, start + 2, Repair(end, end, "*/"))
                 case "curly":
                     self._curly(start, end)
@@ -87,9 +95,7 @@ class _Scanner:
                     continue
             self._blank(start, end)
         self._blank(len(text), len(text))
-        for ours, theirs in self._conflicts(marks):
-            self._code = [_without(_without("".join(self._code), *ours), *theirs)]
-        code = "".join(self._code)
+        code = _without("".join(self._code), self._conflicts(marks))
         hopeless = _too_deep(code)
         if hopeless is not None:
             place = Span(self._source, hopeless, hopeless + 1)
@@ -170,11 +176,9 @@ class _Scanner:
             help={"": "delete it", " ": "write a plain space"}.get(plain, f"write `{plain}`"),
         )
 
-    def _conflicts(
-        self, marks: list[re.Match[str]]
-    ) -> list[tuple[tuple[int, int], tuple[int, int]]]:
-        """Report unfinished merges; return the mark before, and all after, the first version."""
-        found = []
+    def _conflicts(self, marks: list[re.Match[str]]) -> list[tuple[int, int]]:
+        """Report unfinished merges; return the marks before, and all after, the first versions."""
+        found: list[tuple[int, int]] = []
         first: re.Match[str] | None = None
         middle: re.Match[str] | None = None
         for mark in marks:
@@ -196,13 +200,19 @@ class _Scanner:
                     help="keep what is right of the two, and delete the three marks",
                 )
                 self._found.append((middle.start(), ends))
-                found.append((first.span(), (middle.start(), mark.end())))
+                found += (first.span(), (middle.start(), mark.end()))
                 first = middle = None
         return found
 
 
-def _without(text: str, start: int, end: int) -> str:
-    return text[:start] + re.sub(r"[^\n]", " ", text[start:end]) + text[end:]
+def _without(text: str, pieces: Iterable[tuple[int, int]]) -> str:
+    """The text with blanks for pieces of it, which are in order."""
+    kept: list[str] = []
+    done = 0
+    for start, end in pieces:
+        kept += (text[done:start], re.sub(r"[^\n]", " ", text[start:end]))
+        done = end
+    return "".join([*kept, text[done:]])
 
 
 def _blank_lines(source: Source, first: re.Match[str], last: re.Match[str]) -> str:

@@ -8,10 +8,11 @@ a statement wherever they stand.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 _TOKEN = re.compile(
-    r'(?P<comment>//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/)|(?P<text>"(?:[^"\\\n]|\\[^\n])*")'
+    r'(?P<comment>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))|(?P<text>"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?)'
     r"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|&&|\|\||\.\.|\S"
 )
 
@@ -68,29 +69,44 @@ class _Open:
 
 
 def statement_at(text: str, at: int) -> Statement:
-    """The innermost statement whose header covers an offset, or ends before it."""
-    statements = _statements(text)
-    inside = [one for one in statements if one.start <= at < max(one.end, one.start + 1)]
-    if not inside:
-        inside = [one for one in statements if one.start <= at] or statements
-        return inside[-1] if inside else Statement(0, len(text), len(text), ())
-    return max(inside, key=lambda one: one.start)
+    """The innermost statement that covers an offset, or the last that ends before it."""
+    last: Statement | None = None
+    for one in _statements(text):
+        if one.start <= at < max(one.end, one.start + 1):
+            return one
+        if last is None or one.start <= at:
+            last = one
+        elif not one.around or one.around[0][0] > at:
+            break  # all that follow begin further on
+    return last or Statement(0, len(text), len(text), ())
 
 
-def _statements(text: str) -> list[Statement]:
+def statements_at(text: str, places: Iterable[int]) -> Iterator[Statement]:
+    """What `statement_at` finds for many offsets, for all of them at once."""
+    ordered = sorted(_statements(text), key=lambda one: one.start)
+    around: list[Statement] = []
+    begun = 0
+    for at in sorted(places) if ordered else ():
+        while begun < len(ordered) and ordered[begun].start <= at:
+            around.append(ordered[begun])
+            begun += 1
+        while around and max(around[-1].end, around[-1].start + 1) <= at:
+            around.pop()
+        yield around[-1] if around else ordered[max(begun - 1, 0)]
+
+
+def _statements(text: str) -> Iterator[Statement]:
     """All statements, outer ones after those inside them."""
-    found: list[Statement] = []
     opened: list[_Open] = []  # statements whose block is open
     current: _Open | None = None
     last = ""
     last_end = line_end = 0
     column = 0
 
-    def finish(end: int) -> None:
-        if current is not None:
-            header = current.brace if current.brace >= 0 else end
-            around = tuple((one.start, one.brace + 1) for one in opened)
-            found.append(Statement(current.start, header, end, around))
+    def finished(current: _Open, end: int) -> Statement:
+        header = current.brace if current.brace >= 0 else end
+        around = tuple((one.start, one.brace + 1) for one in opened)
+        return Statement(current.start, header, end, around)
 
     for token in _TOKEN.finditer(text):
         if token.lastgroup == "comment":
@@ -109,23 +125,23 @@ def _statements(text: str) -> list[Statement]:
             opened.append(current)
             current = None
         elif word == "}":
-            finish(last_end)
-            current = opened.pop() if opened else None
-            finish(at + 1)
+            if current is not None:
+                yield finished(current, last_end)
+            if opened:
+                yield finished(opened.pop(), at + 1)
             current = None
         else:
             if current is not None and _begins(text, token, word, last, first, column, current):
-                finish(last_end)
+                yield finished(current, last_end)
                 current = None
             if current is None:
                 current = _Open(at, column, word=word)
             current.brackets += {"(": 1, "[": 1, ")": -1, "]": -1}.get(word, 0)
         last, last_end = word, token.end()
-    finish(last_end)
+    if current is not None:
+        yield finished(current, last_end)
     while opened:
-        current = opened.pop()
-        finish(len(text.rstrip()))
-    return found
+        yield finished(opened.pop(), len(text.rstrip()))
 
 
 def _begins(

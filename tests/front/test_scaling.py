@@ -10,7 +10,11 @@ from types import FrameType
 import pytest
 
 from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.parse import parse
 from swarmdsl.render import FORMATS, render
+from swarmdsl.scan import scan
+from swarmdsl.source import Source
 
 HEAD = "package p\nevent Go : std_msgs/Empty\nevent Num : std_msgs/Int32\n"
 FEW = 60
@@ -46,7 +50,6 @@ def chain(pattern: str, last: str) -> Callable[[int], str]:
 
 ON_S = "initial S\nstate S {\n<>\non Go -> F }"
 MODELS = {
-    "declarations": each("struct S<i> { a : int32 b : string }"),
     "functions": each('function f_<i> : abstraction { service "f_<i>" : std_srvs/Empty }'),
     "states": machine("state S<i> { on Go -> S<j> }", "initial S0\n<> state S<n> { on Go -> F }"),
     "effects on exit": machine(
@@ -109,6 +112,17 @@ MODELS = {
     "one line": lambda count: each("struct s_<i> { a : int32 }")(count).replace("\n", " "),
 }
 
+BROKEN: dict[str, tuple[Callable[[Source, Diagnostics], object], Callable[[int], str]]] = {
+    "blocks that were not opened": (
+        scan,
+        lambda count: repeated("state A\n  do b\n}", count),
+    ),
+    "brackets closed by others": (
+        parse,
+        lambda count: "struct S {\n" + repeated("a<i> : int32[3)", count) + "}\n",
+    ),
+}
+
 
 def work(action: Callable[[], object]) -> int:
     """How many functions are called."""
@@ -141,6 +155,16 @@ def test_twice_the_model_is_twice_the_work(name: str, tmp_path: Path) -> None:
         path.write_text(MODELS[name](count), encoding="utf-8")
         works.append(work(lambda: compiler.check([path])))
     assert is_proportional(works[1:]), works
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_twice_the_wrong_brackets_are_twice_the_work(name: str) -> None:
+    works = []
+    read, text = BROKEN[name]
+    for count in (1, 2 * FEW, 4 * FEW):
+        source = Source("model.swarm", text(count))
+        works.append(work(lambda: read(source, Diagnostics())))  # noqa: B023
+    assert works[-1] < 2.4 * works[-2], works
 
 
 @pytest.mark.parametrize("kind", FORMATS)
