@@ -1,5 +1,5 @@
 // Puts the extension and the packages it imports into one file, dist/extension.js, and beside it
-// the licences of these packages.
+// the licences of these packages; and the script of the preview's page into dist/preview.js.
 
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -16,6 +16,15 @@ const { metafile } = await build({
   external: ["vscode"],
   minify: true,
   metafile: true,
+});
+
+await build({
+  entryPoints: ["../../src/swarmdsl/preview/page/preview.js"],
+  outfile: "dist/preview.js",
+  bundle: true,
+  target: "es2022",
+  format: "iife",
+  minify: true,
 });
 
 const packages = new Set(

@@ -19,11 +19,10 @@ NAMED = {
     "language-configuration.json",
     "syntaxes/swarm.tmLanguage.json",
     "syntaxes/markdown.tmLanguage.json",
-    "snippets/swarm.json",
     "icons/extension.png",
     "icons/file.svg",
 }
-BUILT = {"dist/extension.js", "dist/licences.txt"}
+BUILT = {"dist/extension.js", "dist/licences.txt", "dist/preview.js"}
 SHIPPED = {"package.json", "templates/model.swarm", *NAMED, *BUILT}
 
 

@@ -90,11 +90,13 @@ def news(shown: Pictures) -> News:
 
 
 def test_who_runs_which_machine_is_told_with_the_diagrams(shown: Pictures) -> None:
-    assert shown.listed()["runs"] == {
+    runs = shown.listed()["runs"]
+    assert runs == {
         "Guarding.statechart": [("Guarding", ""), ("dog", "")],
         "Round.statechart": [("Guarding", "Patrol."), ("Round", ""), ("dog", "Patrol.")],
         "Watching.statechart": [("Watching", ""), ("dog.eye", "")],
     }
+    assert list(runs) == [each for each in shown.listed()["titles"] if each in runs]
 
 
 def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> None:

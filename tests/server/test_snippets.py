@@ -1,19 +1,117 @@
 """Whole statements that are offered, as text that can be filled in and is right then."""
 
+import json
 import re
+from functools import cache
+from itertools import product
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.parse import parse
+from swarmdsl.server.completion import completions
 from swarmdsl.server.models import Models
-from swarmdsl.server.snippets import snippets
+from swarmdsl.server.snippets import snippets, table
 from swarmdsl.source import Source
 
-from .test_completion import HEAD, state, work
+from .test_completion import state, work
 
-KEYWORDS = {"statemachine", "member", "swarm", "event", "function"}
-INSIDE = {"state", "parallel", "choice", "final", "on", "after", "do"}
+SERVER = Path(snippets.__code__.co_filename).parent
+
+TABLE = json.loads((SERVER / "snippets.json").read_text(encoding="utf-8"))
+FILE = "package a\n"
+MACHINE = FILE + "statemachine M {\n  initial A\n"
+STATE = MACHINE + "  state S {\n"
+# Where statements stand, by what is before them.
+PLACES = {
+    "file": "",
+    "declaration": FILE,
+    "function": FILE + "function f : swarm {\n",
+    "component": FILE + "sensor S {\n",
+    "member": FILE + "member R {\n",
+    "machine": MACHINE,
+    "state": STATE,
+    "parallel state": MACHINE + "  parallel state S {\n",
+    "region": MACHINE + "  parallel state S {\n    region R {\n",
+    "optimization": FILE + "optimize W {\n",
+    "swarm": FILE + "swarm W {\n",
+    "fitness": FILE + "fitness F {\n",
+}
+STOP = re.compile(r"\$(?:(\d+)|\{(\d+)(?::([^}]*)|\|([^}]*)\|)\})")
+
+
+@cache
+def keywords_at(text):
+    """The keywords that completion offers behind a text."""
+    with TemporaryDirectory() as folder:
+        models = Models([Path(folder)])
+        models.edit(Path(folder) / "a.swarm", text)
+        found = completions(*models.file(Path(folder) / "a.swarm"), len(text))
+    return {each.word for each in found if each.detail == "keyword"}
+
+
+def insertions(text):
+    """What a snippet inserts, with each of its choices."""
+    choices = {n: options.split(",") for _, n, _, options in STOP.findall(text) if options}
+    return [
+        STOP.sub(lambda stop, taken=taken: taken.get(stop[2]) or stop[3] or "", text)
+        for taken in (
+            dict(zip(choices, options, strict=True)) for options in product(*choices.values())
+        )
+    ]
+
+
+def offered_at(place):
+    return [
+        snippet
+        for words, several in table().items()
+        if set(words) <= keywords_at(PLACES[place])
+        for snippet in several
+    ]
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_what_is_offered_can_stand_there(place):
+    before = PLACES[place]
+    after = "\n}" * before.count("{") + "\n"
+    for snippet in offered_at(place):
+        for text in insertions(snippet.text):
+            assert "$" not in text
+            report = Diagnostics()
+            parse(Source("a.swarm", before + text + after), report)
+            assert not report.has_errors, (text, [each.message for each in report])
+
+
+def test_every_snippet_is_offered_somewhere():
+    offered = {each.label for place in PLACES for each in offered_at(place)}
+    assert offered == {f"{name} ..." for name in TABLE}
+
+
+def test_every_construct_has_a_snippet():
+    known = {word for place in PLACES for word in keywords_at(PLACES[place])}
+    inserted = {
+        word
+        for each in TABLE.values()
+        for text in insertions("\n".join(each["text"]))
+        for word in re.findall("[a-z]+", text)
+    }
+    assert known - inserted == set()
+
+
+@pytest.mark.parametrize("name", TABLE)
+def test_stops_are_numbered_from_one(name):
+    stops = {
+        int(plain or braced) for plain, braced, _, _ in STOP.findall("".join(TABLE[name]["text"]))
+    }
+    assert stops - {0} == set(range(1, max(stops, default=0) + 1))
+
+
+def test_choices_are_all_inserted():
+    assert insertions("\n".join(TABLE["after"]["text"])) == [
+        f"after 30 {unit} -> Target" for unit in ("s", "ms", "us", "min", "h")
+    ]
 
 
 def filled(text):
@@ -32,19 +130,7 @@ def offered(tmp_path, text, keywords):
     }
 
 
-@pytest.mark.parametrize(
-    ("text", "keywords"), [(HEAD + "|", KEYWORDS), (state("|"), INSIDE), (work("|"), INSIDE)]
-)
-def test_snippets_follow_the_grammar(text, keywords, tmp_path):
-    found = offered(tmp_path, text, keywords)
-    assert found
-    for snippet in found.values():
-        report = Diagnostics()
-        parse(Source("a.swarm", text.replace("|", filled(snippet))), report)
-        assert not report.has_errors, snippet
-
-
 def test_outcomes_that_are_left(tmp_path):
-    found = offered(tmp_path, work("|"), INSIDE)
+    found = offered(tmp_path, work("|"), {"on"})
     assert filled(found["on the outcomes"]) == "on succeeded -> Target"
-    assert "on the outcomes" not in offered(tmp_path, state("|"), INSIDE)
+    assert "on the outcomes" not in offered(tmp_path, state("|"), {"on"})

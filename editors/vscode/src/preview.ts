@@ -28,17 +28,21 @@ export class Preview implements vscode.Disposable {
   private trace: Trace | undefined;
   private begins = false;
   private timer: NodeJS.Timeout | undefined;
-  private readonly page: vscode.Uri;
+  private readonly extension: vscode.Uri;
   private readonly server: Server;
   private readonly listening: vscode.Disposable;
 
   constructor(extension: vscode.Uri, server: Server) {
     this.server = server;
-    this.page = vscode.Uri.joinPath(extension, "server", "swarmdsl", "preview", "page");
+    this.extension = extension;
     this.listening = vscode.Disposable.from(
       vscode.workspace.onDidChangeTextDocument(({ document }) => this.follow(document)),
       vscode.window.onDidChangeActiveTextEditor((each) => each && this.follow(each.document)),
       vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.point(textEditor)),
+      // Also where a file was changed that is not shown.
+      vscode.languages.onDidChangeDiagnostics(
+        ({ uris }) => uris.some(({ path }) => path.endsWith(".swarm")) && this.later(),
+      ),
       server.onChange(({ kind }) => kind === "running" && this.later()),
     );
   }
@@ -57,7 +61,7 @@ export class Preview implements vscode.Disposable {
       "swarmdsl.preview",
       "Swarm Preview",
       { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true },
-      { enableScripts: true, localResourceRoots: [this.page], retainContextWhenHidden: true },
+      { enableScripts: true, localResourceRoots: [], retainContextWhenHidden: true },
     );
     this.panel = panel;
     this.begins = true;
@@ -67,7 +71,7 @@ export class Preview implements vscode.Disposable {
       this.trace = undefined;
     });
     panel.webview.onDidReceiveMessage((said: Said) => this.hear(said));
-    panel.webview.html = await this.html(panel.webview);
+    panel.webview.html = await this.html();
   }
 
   /** Light up the states that are active by a trace; `alone` is a machine that it has no name for. */
@@ -84,23 +88,30 @@ export class Preview implements vscode.Disposable {
     this.panel?.dispose();
   }
 
-  private async html(view: vscode.Webview): Promise<string> {
-    const file = (name: string): vscode.Uri => vscode.Uri.joinPath(this.page, name);
-    const text = new TextDecoder().decode(await vscode.workspace.fs.readFile(file("index.html")));
+  /** The page with all that it needs: nothing is fetched when it is shown. */
+  private async html(): Promise<string> {
+    const page = ["server", "swarmdsl", "preview", "page"];
+    const [text, style, script] = await Promise.all([
+      this.read(...page, "index.html"),
+      this.read(...page, "preview.css"),
+      this.read("dist", "preview.js"),
+    ]);
     const nonce = randomBytes(16).toString("hex");
     const policy = [
       "default-src 'none'",
-      `script-src 'nonce-${nonce}' ${view.cspSource}`,
-      `style-src ${view.cspSource} 'unsafe-inline'`,
+      `script-src 'nonce-${nonce}'`,
+      "style-src 'unsafe-inline'",
       "img-src blob: data:",
     ].join("; ");
     return text
       .replace("<head>", `<head><meta http-equiv="Content-Security-Policy" content="${policy}">`)
-      .replace('href="preview.css"', `href="${view.asWebviewUri(file("preview.css"))}"`)
-      .replace(
-        'src="preview.js"',
-        `nonce="${nonce}" src="${view.asWebviewUri(file("preview.js"))}"`,
-      );
+      .replace(/<link rel="stylesheet".*?>/, () => `<style>${style}</style>`)
+      .replace(/<script .*?>/, () => `<script nonce="${nonce}">${script}`);
+  }
+
+  private async read(...path: string[]): Promise<string> {
+    const file = vscode.Uri.joinPath(this.extension, ...path);
+    return new TextDecoder().decode(await vscode.workspace.fs.readFile(file));
   }
 
   private async hear({ want, reveal, save }: Said): Promise<void> {

@@ -18,6 +18,7 @@ export function showStatus(server: Server): vscode.Disposable {
   const say = (status: Status): void => {
     const { icon, text, detail, wrong } = described(status);
     item.text = `$(${icon}) ${text}`;
+    item.accessibilityInformation = { label: `Swarm: ${detail.replaceAll(/\s+/g, " ")}` };
     item.tooltip = new vscode.MarkdownString(`${detail}\n\n${LINKS}`);
     item.tooltip.isTrusted = { enabledCommands: LINKS.match(/(?<=command:)[\w.]+/g) ?? [] };
     item.backgroundColor = wrong

@@ -75,7 +75,8 @@ class Pictures:
         found: dict[str, list[tuple[str, str]]] = defaultdict(list)
         for who, name, prefix in self._uses():
             found[f"{name}.statechart"].append((who, prefix))
-        return found
+        # In the order of the diagrams, of which a page shows the first in which somebody is.
+        return {each.stem: found[each.stem] for each in self._diagrams if each.stem in found}
 
     def _uses(self) -> Iterator[tuple[str, str, str]]:
         """Who runs which machine, and what its states are called in that."""

@@ -17,13 +17,11 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from playwright.sync_api import FrameLocator, Locator, Page, expect, sync_playwright
-from playwright.sync_api import TimeoutError as LateError
 
 from . import environment
 
 # Of what a page does, in milliseconds: machines that do other things besides are slow.
 PATIENCE = 60_000
-_ATTEMPTS = 6
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
     "chat.disableAIFeatures": True,
@@ -35,6 +33,8 @@ _SETTINGS = {
     "update.mode": "none",
     "window.autoDetectColorScheme": True,
     "workbench.layoutControl.enabled": False,
+    # What comes into focus late does not close what asks for something.
+    "workbench.quickOpen.closeOnFocusLost": False,
     "workbench.preferredDarkColorTheme": "Default Dark Modern",
     "workbench.preferredLightColorTheme": "Default Light Modern",
     "workbench.secondarySideBar.defaultVisibility": "hidden",
@@ -58,36 +58,53 @@ class Window:
         self.press = page.keyboard.press
 
     def command(self, title: str) -> None:
-        """Run the command that the palette shows first for its title."""
-        self._ask("F1", f">{title}")
-        row = self.page.locator(".quick-input-list .monaco-list-row.focused")
-        expect(row).to_contain_text(title.split(": ")[-1])
-        self.press("Enter")
-
-    def _ask(self, key: str, text: str) -> None:
-        """Open the field that a key opens; what comes into focus late may close it again."""
-        entry = self.page.locator(".quick-input-widget input[type=text]")
-        for _ in range(_ATTEMPTS - 1):
-            self.press(key)
-            try:
-                entry.fill(text, timeout=PATIENCE / _ATTEMPTS)
-            except LateError:
-                continue
-            return
-        self.press(key)
-        entry.fill(text)
-
-    def choose(self, text: str) -> None:
-        """Choose what a list offers that has opened in the middle."""
-        self.page.locator(".quick-input-list .monaco-list-row", has_text=text).first.click()
+        """Run a command by its title, as the palette has it."""
+        self._ask("F1", f">{title}").locator(
+            ".monaco-list-row", has=self.page.get_by_text(title, exact=True)
+        ).first.click()
 
     def open(self, name: str, line: int = 1, column: int = 1) -> None:
         """Open a file of the folder, with the cursor at a place in it."""
-        self._ask("Control+p", f"{name}:{line}:{column}")
-        expect(self.page.locator(".quick-input-list .monaco-list-row").first).to_contain_text(name)
-        self.press("Enter")
+        self._ask("Control+p", f"{name}:{line}:{column}").locator(
+            ".monaco-list-row", has=self.page.get_by_text(name, exact=True)
+        ).first.click()
         expect(self.tab(name)).to_have_count(1)
         self.at(line, column)
+
+    def _ask(self, key: str, text: str) -> Locator:
+        """Open the field that a key opens, and write into it."""
+        self.press(key)
+        self._entry.fill(text)
+        return self._asked
+
+    @property
+    def _asked(self) -> Locator:
+        return self.page.locator(".quick-input-widget:not([style*='display: none'])")
+
+    @property
+    def _entry(self) -> Locator:
+        return self._asked.locator("input[type=text]")
+
+    def choose(self, text: str) -> None:
+        """Choose what a list offers that has opened in the middle."""
+        self._asked.locator(".monaco-list-row", has_text=text).first.click()
+
+    def choose_file(self, path: Path) -> None:
+        """Name a file in a dialog that asks for one."""
+        # At first it names a folder.
+        expect(self._entry).to_have_value(re.compile("^/"))
+        self._entry.fill(str(path))
+        self._entry.press("Enter")
+        expect(self._asked).to_have_count(0)
+
+    def leave(self) -> None:
+        """Close what asks for something, and all files; there are no changes to save."""
+        while self._asked.count():
+            # Without waiting for it: it may be closing.
+            self._entry.evaluate_all("all => all.forEach(each => each.focus())")
+            self.press("Escape")
+        self.command("View: Close All Editors")
+        expect(self.page.locator(".tab")).to_have_count(0)
 
     def tab(self, name: str) -> Locator:
         """The tab of a file, if it is in front."""
@@ -116,15 +133,8 @@ class Window:
 
     def found(self, origin: str) -> None:
         """Wait until the server is the one that was found somewhere, as its item says."""
-        hover = self.page.locator(".monaco-hover .hover-contents", has_text=origin)
-        deadline = time.monotonic() + PATIENCE / 1000
-        while not hover.count():
-            assert time.monotonic() < deadline, origin
-            self.page.mouse.move(0, 0)
-            self.page.wait_for_timeout(500)
-            self.status("swarmdsl.swarm.swarmdsl").hover()
-            self.page.wait_for_timeout(1500)
-        self.page.mouse.move(0, 0)
+        item = self.status("swarmdsl.swarm.swarmdsl")
+        expect(item.locator(f"[aria-label*='{origin}']")).to_have_count(1)
 
     def view(self) -> FrameLocator:
         """What an extension shows in a view of its own."""
