@@ -13,7 +13,7 @@ from types import ModuleType
 import pytest
 import yaml
 
-from swarmdsl.cli import COMMANDS
+from swarmdsl.cli import COMMANDS, run
 
 from .pages import ROOT
 
@@ -55,11 +55,11 @@ def test_the_site_builds_without_a_broken_link(tmp_path: Path) -> None:
     STAGE.stage(tmp_path / "build" / "handbook")
     shutil.copy(ROOT / "mkdocs.yml", tmp_path)
 
-    run = subprocess.run(
+    built = subprocess.run(
         [zensical, "build", "--strict"], cwd=tmp_path, capture_output=True, text=True, check=False
     )
 
-    assert run.returncode == 0, run.stdout + run.stderr
+    assert built.returncode == 0, built.stdout + built.stderr
     site = tmp_path / "build" / "site"
     language = (site / "docs" / "language.html").read_text(encoding="utf-8")
     assert re.search(r'<div class="language-swarm highlight">.*?<span class="kd?">', language, re.S)
@@ -68,6 +68,20 @@ def test_the_site_builds_without_a_broken_link(tmp_path: Path) -> None:
         text = page.read_text(encoding="utf-8")
         assert not re.findall(loaded, text), page
         assert not re.findall("^```|<p>```", text, re.MULTILINE), page
+
+
+def test_pictures_are_those_of_the_example(
+    tmp_path: Path, bless: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert run(["diagram", "examples/search_and_rescue", "-o", str(tmp_path)]) == 0
+    shown = list((ROOT / "docs" / "pictures").glob("*.svg"))
+
+    assert len(shown) == 3
+    for picture in shown:
+        if bless:
+            picture.write_bytes((tmp_path / picture.name).read_bytes())
+        assert picture.read_bytes() == (tmp_path / picture.name).read_bytes(), picture.name
 
 
 @pytest.mark.parametrize(("name", "write"), [("swarmc.1", "man_page"), ("commands.md", "markdown")])
@@ -84,14 +98,14 @@ def test_the_man_page_is_read_without_a_warning() -> None:
     if groff is None:
         pytest.skip("no groff")
 
-    run = subprocess.run(
+    read = subprocess.run(
         [groff, "-man", "-ww", "-Tutf8", "-P-c", ROOT / "docs" / "swarmc.1"],
         capture_output=True,
         text=True,
         check=True,
     )
 
-    assert run.stderr == ""
-    headings = {" ".join(line.split()) for line in re.sub(".\b", "", run.stdout).splitlines()}
+    assert read.stderr == ""
+    headings = {" ".join(line.split()) for line in re.sub(".\b", "", read.stdout).splitlines()}
     assert {f"swarmc {command}" for command in COMMANDS} <= headings
     assert {"NAME", "SYNOPSIS", "OPTIONS", "EXIT STATUS", "ENVIRONMENT", "FILES"} <= headings
