@@ -8,7 +8,14 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.diagram.readme import Picture, pictures
 from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
+from swarmdsl.interface_packages import (
+    InterfacePackage,
+    are_described,
+    check_described,
+    packages_of,
+    packages_of_others,
+    written,
+)
 from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
 from swarmdsl.ir.types import DURATION, Primitive
 from swarmdsl.python_source import (
@@ -96,6 +103,8 @@ class PackageView:
     manifest: str
     pictures: tuple[Picture, ...]
     modules: tuple[str, ...]
+    needs: tuple[str, ...]
+    described: tuple[str, ...]
     timeouts: dict[str, int]
     robots: tuple[Robot, ...]
     fleets: tuple[Fleet, ...]
@@ -167,6 +176,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
         *(("exec_depend", each) for each in bringup if options.components),
     ]
+    needs = packages_of_others((type_ for type_, _ in used), interfaces)
     return PackageView(
         name=name,
         doc=doc,
@@ -179,6 +189,8 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         manifest=manifest(name, doc, depends, options, format_=2),
         pictures=pictures(system, machines),
         modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
+        needs=tuple(needs),
+        described=tuple(each for each in needs if are_described(system, each)),
         timeouts=options.timeouts,
         robots=tuple(made),
         fleets=tuple(fleets(system, made)),

@@ -11,6 +11,7 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.graph import cycles
 from swarmdsl.interface_files import Generation, definition, depends, file_name, named, parts
 from swarmdsl.ir import Action, Interface, Named, System
+from swarmdsl.ros import standard
 from swarmdsl.source import Span
 
 _OF_ACTION = re.compile(r"(Action)?(Goal|Result|Feedback)$")
@@ -71,6 +72,19 @@ def _is_of_action(type_: Named, system: System) -> bool:
     """Whether ROS makes it of an action that the model describes, as `FlyActionFeedback`."""
     base = _OF_ACTION.sub("", type_.name)
     return isinstance(system.interface(Named(type_.package, base)), Action)
+
+
+def packages_of_others(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:
+    """The packages of interfaces that neither come with ROS nor are `made`: others have them."""
+    known = {*standard.packages(), *(package.name for package in made)}
+    return sorted({type_.package for type_ in used} - known)
+
+
+def are_described(system: System, package: str) -> bool:
+    """Whether all is known that is used of a package of others, so that it can be written."""
+    found = Diagnostics()
+    check_described(system, package, "", found)
+    return not found.has_errors
 
 
 def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:

@@ -167,6 +167,25 @@ def test_readme(generate: Generate) -> None:
     assert "| `param/search/*.yaml` |" in text
 
 
+def test_readme_names_packages_of_others(generate: Generate) -> None:
+    model = """
+package p
+message known_msgs/Note { stamp : time  at : geometry_msgs/Point }
+message part_msgs/Note { head : part_msgs/Head }
+event Known : known_msgs/Note
+event Part : part_msgs/Note
+event Unknown : unknown_msgs/Note
+statemachine M { initial A  state A { on Known, Part, Unknown -> B }  final B }
+"""
+    needs = "which its interfaces are: `known_msgs`, `part_msgs`, `unknown_msgs`."
+    text = generate(model)["README.md"].text
+    assert needs in text
+    assert "option `smach.interfaces=known_msgs` of swarmc" in text
+    text = generate(model, interfaces="known_msgs")["README.md"].text
+    assert needs.replace("`known_msgs`, ", "") in text
+    assert "smach.interfaces" not in text
+
+
 def test_machines_without_members_have_no_launch_files(generate: Generate) -> None:
     files = generate("package p\nstatemachine M { initial A  state A { after 1 s -> B }  final B }")
     assert not [path for path in files if path.startswith(("launch/", "param/", "test/"))]
