@@ -163,6 +163,12 @@ def test_the_preview_follows_the_text_and_leads_to_it(
     expect(picture).to_contain_text("Bid")
     expect(picture.locator(".marked")).to_contain_text("Bid")
 
+    fold = page.locator(".fold[data-of='Mission']")
+    fold.click()
+    expect(picture).not_to_contain_text("Bid")
+    fold.click()
+    expect(picture).to_contain_text("Bid")
+
     picture.get_by_text("Drive", exact=True).click()
     line = text(window, "behaviours.swarm").split("\n").index("      state Drive {") + 1
     window.at(line, len("      state ") + 1)
