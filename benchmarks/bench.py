@@ -23,6 +23,7 @@ import importing
 import large
 import parsing
 import peers
+import ros2
 from measure import Section
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "performance.md"
@@ -36,6 +37,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,
+    "ros2": ros2.section,
 }
 
 

@@ -27,7 +27,7 @@ def section(folder: Path) -> Section:
     commands: dict[str, list[str]] = {}
     for states in JAVA:
         model = folder / f"states{states}.swarm"
-        model.write_text(_model(states), encoding="utf-8")
+        model.write_text(machine(states), encoding="utf-8")
         commands[f"{states} states"] = [
             *(_SWARMC, "build", str(model), "--target", "smach", "--out", str(out))
         ]
@@ -55,7 +55,7 @@ def section(folder: Path) -> Section:
     return found
 
 
-def _model(states: int) -> str:
+def machine(states: int) -> str:
     """A machine that goes round in so many states."""
     lines = [
         "package bench",

@@ -1,0 +1,224 @@
+"""Measures generated nodes of ROS 2 beside one that is written by hand and does the same."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import generation
+import peers
+from measure import Section, interleaved, process, spread
+
+ROOT = Path(__file__).resolve().parents[1]
+TESTS = ROOT / "tests" / "ros2"
+FOLDER = Path(os.environ.get("SWARMDSL_ROS2", ROOT / ".ros2"))
+ROUNDS = 5
+PINGS = 300
+IDLE = 4.0
+"""For how many seconds a node does nothing."""
+MANY = 20
+STATES = 1000
+_SWARMC = str(Path(sys.executable).with_name("swarmc"))
+
+MODEL = """
+package bench
+event Ping : std_msgs/Empty on "ping"
+event Pong : std_msgs/Empty on "pong"
+endless statemachine Echo {
+  initial A
+  state A { on Ping / send Pong -> B }
+  state B { on Ping / send Pong -> A }
+}
+"""
+
+BY_HAND = "by hand"
+TELLING = "by hand, telling what it does"
+GENERATED = "generated"
+
+
+def section(folder: Path) -> Section:
+    """Start nodes, let them answer, leave them alone, and look at what they take."""
+    found = Section(
+        "A node that answers a message with another one, on rclpy; "
+        f"{ROUNDS} rounds (least / middle / greatest). Time from a message to the answer is of "
+        f"{PINGS} messages, one after the other, through the middleware and back. The node that "
+        "tells what it does publishes its state, each transition and, once a second, diagnostics, "
+        "and logs what it does, as generated nodes do.",
+        [
+            "node",
+            "start, ms of processor",
+            "message to answer, µs",
+            "of these of processor, µs",
+            f"processor in {IDLE:.0f} s idle, ms",
+            "memory, MB",
+        ],
+    )
+    python = FOLDER / "venv" / "bin" / "python"
+    if python.is_file():
+        _nodes(folder, found)
+    else:
+        found.notes.append(
+            "nodes were not measured: `make test-ros2` installs ROS 2, here it is not"
+        )
+    model = folder / "long.swarm"
+    model.write_text(generation.machine(STATES), encoding="utf-8")
+    out = folder / "out"
+
+    def build() -> float:
+        shutil.rmtree(out, ignore_errors=True)
+        return process([_SWARMC, "build", str(model), "--target", "ros2", "--out", str(out)]).cpu
+
+    times = interleaved({"build": build}, ROUNDS, warm_up=1)["build"]
+    found.goal(
+        f"`swarmc build --target ros2` of {STATES} states, in seconds of the processor, at least",
+        min(times),
+        0.5,
+        "{:.2f}",
+    )
+    return found
+
+
+def _nodes(folder: Path, found: Section) -> None:
+    sys.path.insert(0, str(TESTS))
+    import harness
+
+    model = folder / "echo.swarm"
+    model.write_text(MODEL, encoding="utf-8")
+    process([_SWARMC, "build", str(model), "--target", "ros2", "--out", str(folder / "src")])
+    package = folder / "src" / "ros2" / "bench_behavior"
+    ros = harness.Ros(FOLDER, [package], 19, folder)
+    by_hand = [str(peers.FOLDER / "ros2_node.py"), "--ros-args"]
+    commands = {
+        BY_HAND: by_hand,
+        TELLING: [*by_hand, "-p", "tells:=true"],
+        GENERATED: ["-m", "bench_behavior.echo", "--ros-args"],
+    }
+    try:
+        taken = interleaved(
+            {name: partial(_one, ros, command) for name, command in commands.items()}, ROUNDS, 1
+        )
+        for name, rounds in taken.items():
+            cells = [
+                spread([value[index] for value in rounds], form, scale)
+                for index, (_, form, scale, _) in enumerate(_COLUMNS)
+            ]
+            found.rows.append([name, *cells])
+        for index, (what, _, _, limit) in enumerate(_COLUMNS):
+            # What else the machine does only adds to the least.
+            least = {name: min(value[index] for value in rounds) for name, rounds in taken.items()}
+            value = least[GENERATED] / least[TELLING]
+            beside = "beside the node by hand that tells what it does"
+            found.goal(f"{what}, {beside}", value, limit, "{:.2f}")
+        _many(ros, commands, found)
+    finally:
+        ros.close()
+
+
+_COLUMNS = (
+    ("processor to start", "{:.0f}", 1e3, 1.2),
+    ("time from a message to the answer", "{:.0f}", 1e6, 1.2),
+    ("processor for an answer", "{:.0f}", 1e6, 1.2),
+    ("processor of an idle node", "{:.1f}", 1e3, 1.5),
+    ("memory", "{:.1f}", 1e-6, 1.2),
+)
+"""What is measured of a node, how it is written, and how much more a generated one may take."""
+
+
+def _one(ros: Any, command: list[str]) -> Any:
+    """What one node takes, in the order of _COLUMNS; seconds and bytes."""
+    with _driver(ros) as ask:
+        node = ros.start(*command, "-r", "__ns:=/one", **_QUIET)
+        ask(connect=["/one"])
+        start = _processor(node.pid)
+        ask(rounds=50)
+        before = _processor(node.pid)
+        answers = ask(rounds=PINGS)
+        work = (_processor(node.pid) - before) / PINGS
+        before = _processor(node.pid)
+        time.sleep(IDLE)
+        idle = _processor(node.pid) - before
+        memory = _memory(node.pid)
+        _end(node)
+    return start, median(answers), work, idle, memory
+
+
+def _many(ros: Any, commands: dict[str, list[str]], found: Section) -> None:
+    """Twenty of each kind at once."""
+    spaces = [f"/many_{number}" for number in range(MANY)]
+    for name in (TELLING, GENERATED):
+        with _driver(ros) as ask:
+            began = time.perf_counter()
+            nodes = [ros.start(*commands[name], "-r", f"__ns:={s}", **_QUIET) for s in spaces]
+            start = time.perf_counter() - began + ask(connect=spaces)[0]
+            answers = ask(rounds=50)
+            before = [_processor(node.pid) for node in nodes]
+            time.sleep(IDLE)
+            idle = sum(_processor(node.pid) for node in nodes) - sum(before)
+            memory = sum(_memory(node.pid) for node in nodes)
+            for node in nodes:
+                _end(node)
+        found.notes.append(
+            f"{MANY} nodes, {name}: all answer {start:.1f} s after their start, a message to all "
+            f"is answered by all after {median(answers) * 1e3:.1f} ms, idle they take "
+            f"{idle / IDLE * 100:.1f} % of one processor, {memory / 1e6:.0f} MB in all"
+        )
+
+
+_QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
+
+@contextmanager
+def _driver(ros: Any) -> Iterator[Any]:
+    """The process that sends messages; what is returned lets it do something."""
+    driver = ros.start(
+        peers.FOLDER / "ros2_driver.py", stdin=subprocess.PIPE, stdout=subprocess.PIPE
+    )
+
+    def ask(**what: Any) -> list[float]:
+        driver.stdin.write(json.dumps(what) + "\n")
+        driver.stdin.flush()
+        answer = json.loads(driver.stdout.readline())
+        assert isinstance(answer, list)
+        return answer
+
+    # It takes part before a node is started.
+    ask(connect=[])
+    try:
+        yield ask
+    finally:
+        driver.stdin.close()
+        driver.wait()
+
+
+def _end(node: subprocess.Popen[str]) -> None:
+    node.terminate()
+    try:
+        node.wait(10)
+    except subprocess.TimeoutExpired:
+        # rclpy.spin does not hear of every signal that comes while it goes to sleep.
+        node.kill()
+        node.wait()
+
+
+def _processor(process_id: int) -> float:
+    """Seconds of the processor that the threads of a process have taken (schedstat of Linux)."""
+    threads = Path("/proc", str(process_id), "task").glob("*/schedstat")
+    return sum(int(each.read_text(encoding="ascii").split()[0]) for each in threads) / 1e9
+
+
+def _memory(process_id: int) -> int:
+    """Bytes of a process, its part of those that it shares with others (proc(5), Pss)."""
+    for line in Path("/proc", str(process_id), "smaps_rollup").read_text().splitlines():
+        if line.startswith("Pss:"):
+            return int(line.split()[1]) * 1024
+    raise ValueError("no Pss")
