@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Container, Iterable, Iterator, Mapping
-from dataclasses import replace
 from typing import Any, cast
 
 from swarmdsl import ir
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.dataclass import dataclass, field, replace
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.enums import underlying
 from swarmdsl.inference import Typing

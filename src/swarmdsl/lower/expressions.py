@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from swarmdsl import ir
+from swarmdsl.dataclass import replace
 from swarmdsl.expressions import nanoseconds
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
 from swarmdsl.lower.context import Context

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from swarmdsl import ir
+from swarmdsl.dataclass import replace
 from swarmdsl.inheritance import all_items
 from swarmdsl.link_machines import regions, vertices
 from swarmdsl.lower.context import Context

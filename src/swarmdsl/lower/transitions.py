@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from swarmdsl import ir
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.lower.context import Context
 from swarmdsl.lower.expressions import lower_expression, lower_optional, lower_path
 from swarmdsl.syntax import (

@@ -6,9 +6,10 @@ Lowering puts a reused machine in place: this finds out again what was written.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import fields, is_dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.ir import (
     Assignment,
     Binary,
