@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import importlib.util
+import json
+import shutil
+import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -19,6 +22,7 @@ from swarmdsl.plugins import load
 
 HERE = Path(__file__).parent
 MODEL = HERE / "model.swarm"
+STAND_IN = HERE.parent / "smach" / "stand_in"
 
 
 def load_module(name: str, path: Path) -> ModuleType:
@@ -83,3 +87,47 @@ def graph() -> Iterator[Any]:
     made = graph_module.Graph()
     yield made
     made.stop()
+
+
+@pytest.fixture(scope="session")
+def messages(
+    graph: Any, write: Callable[..., Any], tmp_path_factory: pytest.TempPathFactory
+) -> Path:
+    """The Python of the interfaces of the model."""
+    folder = tmp_path_factory.mktemp("interfaces")
+    write(folder / "src")
+    (folder / "packages").mkdir()
+    shutil.copytree(folder / "src" / "demo", folder / "packages" / "demo")
+    script = HERE.parent / "ros1" / "messages.py"
+    command = [graph_module.PYTHON, script, folder / "packages", folder / "python"]
+    run = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert run.returncode == 0, run.stderr
+    return folder / "python"
+
+
+@pytest.fixture
+def start(graph: Any, messages: Path, request: pytest.FixtureRequest) -> Iterator[Any]:
+    """Start nodes by their names in a namespace of their own, and ask them from a client."""
+    running: list[Any] = []
+    namespace = f"/{request.node.name.replace('[', '_').replace(']', '').replace('-', '_')}"
+
+    def start(commands: dict[str, list[str]], folders: list[Path]) -> Callable[..., Any]:
+        graph.set_param(f"{namespace}/climb/frame", "map")
+        environment = graph.environment([*folders, messages], ROS_NAMESPACE=namespace)
+        for name, command in commands.items():
+            running.append(graph.start(command, output=f"{namespace[1:]}_{name}", env=environment))
+
+        def ask(*words: str) -> Any:
+            run = subprocess.run(
+                [graph.python, HERE / "client.py", *words],
+                env=environment, capture_output=True, text=True, timeout=100, check=False,
+            )  # fmt: skip
+            printed = "\n".join(graph.printed(f"{namespace[1:]}_{name}") for name in commands)
+            assert run.returncode == 0, f"{run.stderr}\n{printed}"
+            return json.loads(run.stdout.splitlines()[-1])
+
+        return ask
+
+    yield start
+    for process in running:
+        graph.end(process)

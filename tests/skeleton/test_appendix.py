@@ -1,6 +1,6 @@
 """The command of D5.4's appendix, on its files: what it makes is built by catkin, and runs.
 
-SWARMDSL_CATKIN=1 asks for it; `test_ros1_run.py` always runs a smaller one of its kind. What
+SWARMDSL_CATKIN=1 asks for it; `test_ros1_cpp.py` always runs a smaller one of its kind. What
 the packages need of others is made here: interfaces of CPSwarm and mavros, which Debian has not.
 """
 
@@ -15,8 +15,8 @@ import pytest
 
 from swarmdsl.cli import run as swarmc
 
-from .conftest import graph_module
-from .test_ros1_run import STAND_IN, make, missing_of_catkin
+from .catkin_workspace import make, missing_of_catkin
+from .conftest import STAND_IN, graph_module
 
 ROOT = Path(__file__).parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
