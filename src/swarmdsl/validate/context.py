@@ -83,6 +83,13 @@ class Context:
             self.outlines[machine] = Outline(machine)
         return self.outlines[machine]
 
+    def forget(self, declaration: Declaration) -> None:
+        """Give back what was kept for a declaration that all rules have looked at."""
+        if isinstance(declaration, StateMachine):
+            self.outlines.pop(declaration, None)
+            self.conditions.clear()
+            self.certain.clear()
+
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
         """Check the type of an expression that could be parsed."""
         if expression is not None:

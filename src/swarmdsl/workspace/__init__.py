@@ -253,6 +253,8 @@ class Workspace:
             for declaration in unit.parsed.model.declarations:
                 reused = declaration in self._reused
                 check_alone(unit.file, declaration, of_unit, reused=reused)
+                if not reused:
+                    context.forget(declaration)
             for optimization in unit.parsed.model.optimizations:
                 check_optimization(optimization, of_unit)
             shown = {label.span.source for found in unit.found() for label in found.related}

@@ -65,7 +65,8 @@ class Linking:
 
     def take_seen(self, unit: Unit) -> None:
         """Take what was seen since for what a unit has seen."""
-        self._seen_by.setdefault(unit, set()).update(self._seen)
+        if self._seen:
+            self._seen_by.setdefault(unit, set()).update(self._seen)
         unit.hushed |= self._seen.hushed
         self._seen.clear()
         self._seen.hushed = False
@@ -94,7 +95,7 @@ class Linking:
                 for node in _targets(owner, unit.file, self._scopes, interfaces):
                     self._seen.add(node.span.source)
             self.take_seen(unit)
-            used = (self._units.get(source) for source in self._seen_by[unit])
+            used = (self._units.get(source) for source in self._seen_by.pop(unit, ()))
             unit.use(each for each in used if each is not None)
 
 

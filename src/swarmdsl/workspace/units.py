@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Level
 from swarmdsl.load import File
@@ -15,6 +16,8 @@ from swarmdsl.syntax import Component, Declaration, Member, Optimization, StateM
 
 ReportingParser = Callable[[Source, Diagnostics], Parsed]
 Levels = Mapping[str, Level]
+# Most units use none, are used by none and run none: a set for each would take megabytes.
+_NONE: frozenset[Any] = frozenset()
 
 
 @dataclass(eq=False)
@@ -31,9 +34,9 @@ class Unit:
     file: File
     parser: ReportingParser
     levels: Levels
-    uses: set[Unit] = field(default_factory=set)
-    users: set[Unit] = field(default_factory=set)
-    runs: frozenset[StateMachine] = frozenset()
+    uses: frozenset[Unit] = _NONE
+    users: frozenset[Unit] | set[Unit] = _NONE
+    runs: frozenset[StateMachine] = _NONE
 
     def __post_init__(self) -> None:
         self.syntax = Diagnostics(self.levels)
@@ -52,17 +55,19 @@ class Unit:
         self.outside = Diagnostics(self.levels)
         self.inside = Diagnostics(self.levels)
         self.checked = Diagnostics(self.levels)
-        self.runs = frozenset()
+        self.runs = _NONE
         self.hushed = False
         self.use(())
 
     def use(self, units: Iterable[Unit]) -> None:
         """Remember which other units this one uses now."""
         for unit in self.uses:
-            unit.users.discard(self)
-        self.uses = {unit for unit in units if unit is not self}
+            unit.users -= {self}
+        self.uses = frozenset(unit for unit in units if unit is not self) or _NONE
         for unit in self.uses:
-            unit.users.add(self)
+            if not unit.users:
+                unit.users = set()
+            unit.users |= {self}
 
     def owners(self) -> Iterator[Declaration | Optimization]:
         """The declarations and optimizations in it."""
