@@ -9,6 +9,7 @@ from pathlib import Path
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.folders import files_below
 from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
@@ -249,7 +250,7 @@ def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
             yield path
             continue
-        found = sorted(inside for inside in path.rglob(f"*{SUFFIX}") if inside.is_file())
+        found = files_below(path, SUFFIX)
         if not found:
             report.report("nothing-to-compile", path=path)
         yield from found

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.folders import files_below
 from swarmdsl.load import Project, load
 
 
@@ -56,6 +58,35 @@ def test_a_folder_is_all_its_files(folder: Path) -> None:
         "robots.swarm",
         "common/types.swarm",
     ]
+
+
+def test_hidden_folders_are_passed_over(folder: Path) -> None:
+    (folder / ".venv/lib").mkdir(parents=True)
+    (folder / ".venv/lib/double.swarm").write_text("event OfMain : std_msgs/Empty\n")
+
+    assert len(names(loaded([folder]), folder)) == 5
+
+
+def test_folders_may_vanish_while_they_are_looked_through(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("build", "common/tmp"):
+        (folder / name).mkdir()
+    scandir = os.scandir
+
+    def scan(place: str) -> Iterator[os.DirEntry[str]]:
+        """A build removes its folder when it has been listed, but not looked into."""
+        if Path(place).name in ("build", "tmp"):
+            Path(place).rmdir()
+        return scandir(place)
+
+    monkeypatch.setattr(os, "scandir", scan)
+
+    found = files_below(folder, ".swarm")
+
+    assert not (folder / "build").exists()
+    assert not (folder / "common/tmp").exists()
+    assert len(found) == 5
 
 
 def test_the_order_does_not_depend_on_how_a_file_is_named(folder: Path) -> None:

@@ -11,6 +11,7 @@ from swarmdsl.changes.names import Named, all_named, find, similar
 from swarmdsl.changes.rewriting import Change, rewritten
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.folders import files_below
 from swarmdsl.format.files import Layout, write
 from swarmdsl.project import find_file, find_settings
 from swarmdsl.reading import read_source
@@ -94,7 +95,7 @@ def _check_tests(paths: Sequence[Path], old: str, report: Diagnostics) -> None:
     folders = [project.parent] if project is not None else [*paths] or [Path()]
     word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(old)}(?![A-Za-z0-9_])")
     for folder in folders:
-        for path in sorted(folder.rglob("*.toml")) if folder.is_dir() else ():
+        for path in files_below(folder, ".toml"):
             source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
             place = _first(source, word) if source is not None else None
             if place is not None:

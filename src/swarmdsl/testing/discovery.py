@@ -7,15 +7,13 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.folders import files_below
 
 SUFFIX = ".swarmtest.toml"
 
 
 def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
-    """The test files named and those in the folders named; where there is none, that is reported.
-
-    Folders whose names begin with a dot are passed over.
-    """
+    """The test files named and those in folders named; where there is none, that is reported."""
     found: dict[str, Path] = {}
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
@@ -30,17 +28,13 @@ def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
                     help="name its folder: the tests lie beside the model",
                 )
             continue
-        inside = [each for each in sorted(path.rglob(f"*{SUFFIX}")) if not _hidden(each, path)]
+        inside = files_below(path, SUFFIX)
         if not inside:
             help_ = f"tests are in files called `NAME{SUFFIX}`"
             report.report("no-tests", path=path, help=help_)
         for each in inside:
             found.setdefault(os.path.realpath(each), each)
     return list(found.values())
-
-
-def _hidden(path: Path, above: Path) -> bool:
-    return any(part.startswith(".") for part in path.relative_to(above).parts)
 
 
 def selected(name: str, pattern: str | None) -> bool:
