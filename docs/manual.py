@@ -20,8 +20,8 @@ HERE = Path(__file__).resolve().parent
 TEXTS = {
     "EXIT STATUS": (
         ("0", "No errors."),
-        ("1", "Errors in the model, in a file that was read, or in writing."),
-        ("2", "A wrong command line."),
+        ("1", "Errors, or what a check, a test or a comparison has found."),
+        ("2", "A wrong command line; of `diff` and `merge` also what cannot be read."),
         ("3", "A bug in swarmc."),
         ("130", "Ctrl-C, or the signal SIGINT."),
         ("143", "The signal SIGTERM."),
@@ -32,7 +32,7 @@ TEXTS = {
         ("XDG_CACHE_HOME", "Where compiled templates are kept, in swarmdsl/. Default: ~/.cache."),
         ("PYTHONDONTWRITEBYTECODE", "Compiled templates are not kept."),
         (
-            "AMENT_PREFIX_PATH, CMAKE_PREFIX_PATH, ROS_PACKAGE_PATH",
+            "AMENT_PREFIX_PATH, COLCON_PREFIX_PATH, ROS_PACKAGE_PATH",
             "Folders of ROS that `swarmc lsp` may read, as a sourced workspace sets them.",
         ),
         ("ROS_DISTRO", "Told by `swarmc --version --verbose` and `swarmc doctor`."),
@@ -157,7 +157,7 @@ def _options(entries: Iterable[tuple[str, str]]) -> Iterator[str]:
 
 def _roff(text: str) -> str:
     """Text in which nothing is a request or an escape; `code` is bold."""
-    text = text.replace("\\", "\\e").replace("-", "\\-")
+    text = text.replace("\\", "\\e").replace("-", "\\-").replace('"', "\\(dq")
     text = re.sub(r"`([^`]+)`", r"\\fB\1\\fR", text)
     return f"\\&{text}" if text.startswith((".", "'")) else text
 

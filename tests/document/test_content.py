@@ -307,6 +307,12 @@ def test_text_of_a_model_is_no_markup(tmp_path: Path) -> None:
     assert page.at("Work").findtext("h3/span[@class='place']") == "odd<b>.swarm:12"
 
 
+def test_a_brace_in_a_text_does_not_end_a_declaration(tmp_path: Path) -> None:
+    model = tmp_path / "braces.swarm"
+    model.write_text('package braces\nconst GREETING : string = "a{b"', encoding="utf-8")
+    assert 'const GREETING : string = "a{b"' in page_of(model).told("GREETING")
+
+
 def test_models_to_look_at() -> None:
     """None of the tests above would fail if nothing were found."""
     assert len(MODELS) > 8

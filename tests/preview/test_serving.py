@@ -106,8 +106,9 @@ def browser(model: Path) -> Iterator[Browser]:
 
 
 @contextmanager
-def served(model: Path, *options: str) -> Iterator[Browser]:
-    command = [sys.executable, "-m", "swarmdsl", "preview", model.name, *options]
+def served(model: Path, *options: str, named: bool = True) -> Iterator[Browser]:
+    paths = [model.name] if named else []
+    command = [sys.executable, "-m", "swarmdsl", "preview", *paths, *options]
     process = subprocess.Popen(
         command,
         cwd=model.parent,
@@ -310,6 +311,34 @@ def test_only_the_page_opens_places_and_only_those_of_the_model(model: Path) -> 
         others = {"Content-Type": "application/json", "Host": f"example.org:{browser.port}"}
         assert browser.post("/open", f'"{model}:4:9"', others).status == 403
         assert browser.post("/picture", '""', {"Content-Type": "application/json"}).status == 403
+
+
+def test_places_of_the_sources_of_a_project_are_whole(model: Path) -> None:
+    """An editor must not take the name of a file for an option."""
+    with served(model, "--editor", "cool-editor://{file}?{line}", named=False) as browser:
+        browser.told()
+        assert browser.opened(f"{model}:4:9") == {"address": f"cool-editor://{model}?4"}
+
+
+def test_a_port_of_a_component_in_another_file_is_a_place(tmp_path: Path) -> None:
+    (tmp_path / "parts.swarm").write_text(
+        "package parts\nmessage Image {}\nsensor Eye { out image : Image }", encoding="utf-8"
+    )
+    rover = tmp_path / "rover.swarm"
+    rover.write_text(
+        'package rovers\nimport "parts.swarm"\nmember Rover { eye : Eye }', encoding="utf-8"
+    )
+    with served(rover, "--editor", "cool-editor://{file}?{line}") as browser:
+        browser.told()
+        place = tmp_path / "parts.swarm"
+        assert browser.opened(f"{place}:3:14") == {"address": f"cool-editor://{place}?3"}
+
+
+def test_nonsense_that_is_sent_is_no_place(model: Path) -> None:
+    with served(model, "--editor", "cool-editor://{file}?{line}") as browser:
+        browser.told()
+        form = {"Content-Type": "application/json"}
+        assert b"failed" in browser.post("/open", "[" * 60_000, form).read()
 
 
 def test_a_port_that_is_taken(model: Path) -> None:

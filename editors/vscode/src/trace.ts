@@ -19,6 +19,7 @@ export class Trace {
   private at = 0;
   private rest = "";
   private reading: Promise<void> | undefined;
+  private disposed = false;
 
   /** `alone` is what a member without a name is called. The file may come later. */
   constructor(path: string, alone: string, moved: (active: Active) => void) {
@@ -38,19 +39,27 @@ export class Trace {
     clearInterval(this.timer);
     await this.reading;
     await this.look();
-    await this.file?.close();
-    this.file = undefined;
+    await this.close();
   }
 
   /** End it: nobody is anywhere any more. */
   dispose(): void {
     clearInterval(this.timer);
-    void this.file?.close();
-    this.file = undefined;
+    this.disposed = true;
+    void this.close();
     this.forget();
   }
 
+  private async close(): Promise<void> {
+    const file = this.file;
+    this.file = undefined;
+    await file?.close();
+  }
+
   private look(): Promise<void> {
+    if (this.disposed) {
+      return Promise.resolve();
+    }
     this.reading ??= this.read()
       .catch(() => undefined) // it is not there yet, or not any more
       .then(() => (this.reading = undefined));
@@ -60,7 +69,7 @@ export class Trace {
   private async read(): Promise<void> {
     const { size, ino } = await stat(this.path);
     if (!this.file || size < this.at || ino !== this.inode) {
-      await this.file?.close();
+      await this.close();
       this.file = await open(this.path);
       [this.inode, this.at, this.rest] = [ino, 0, ""];
       this.forget();

@@ -51,5 +51,7 @@ test("a trace is followed while it is written, and when it begins anew", async (
   assert.deepEqual(told, []);
   trace.dispose();
   assert.deepEqual(told, [{ "uav[0]": null }]);
+  await trace.end(); // as when the task that wrote it ends later
+  assert.deepEqual(told, [{ "uav[0]": null }]);
   await rm(folder, { recursive: true });
 });

@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -51,7 +52,8 @@ def _editor(_context: click.Context, _param: click.Parameter, text: str | None) 
     metavar="COMMAND",
     callback=_editor,
     help="Opens what is clicked, as `code --goto {file}:{line}:{column}`; or an address, as "
-    "`vscode://file{file}:{line}:{column}`.  [default: VS Code, if it is on the PATH]",
+    "`vscode://file{file}:{line}:{column}`.  [default: VS Code, VSCodium, Cursor or Windsurf, if "
+    "it is on the PATH]",
 )
 @options.debug
 def preview(
@@ -71,6 +73,7 @@ def preview(
     from swarmdsl.cli.outcome import briefly
     from swarmdsl.cli.watch import Concluded, watch_files
     from swarmdsl.compiler import Result
+    from swarmdsl.diagnostics import Diagnostics
     from swarmdsl.preview.following import follow
     from swarmdsl.preview.pictures import pictures
     from swarmdsl.preview.serving import News, serving
@@ -83,8 +86,12 @@ def preview(
         # A page may be gone when it is told something; others stay.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     news = News()
-    # With whole paths, by which places lead into an editor.
-    whole = tuple(Path(os.path.abspath(path)) for path in paths)  # noqa: PTH100 - keeps links
+
+    def settings(report: Diagnostics) -> Settings:
+        # With whole paths, by which places lead into an editor.
+        found = run_settings(paths, {}, report)
+        whole = (Path(os.path.abspath(path)) for path in found.sources)  # noqa: PTH100 - keeps links
+        return replace(found, sources=tuple(whole))
 
     def show(result: Result, _settings: Settings) -> Concluded:
         def say() -> str:
@@ -102,4 +109,4 @@ def preview(
         follow(traces, news, lambda report: render(report, "text", sys.stderr))
         if opens:
             click.launch(address)
-        return watch_files(whole, lambda report: run_settings(whole, {}, report), show)
+        return watch_files(paths, settings, show)

@@ -139,7 +139,7 @@ def fitness(element: Element, book: Book) -> Entry:
         inner = book.elements.of(item)
         if isinstance(item, Objective):
             doc: Cell = (" ", Prose(item.doc)) if item.doc else ()
-            facts.append((item.goal, (*book.value(item.value, element), *doc)))
+            facts.append((item.goal, (*book.code(item.value, element), *doc)))
         elif isinstance(item, FitnessInput) and inner is not None:
             inputs.append(book.row(inner, (book.type(item.type, inner),)))
     blocks = (
@@ -158,15 +158,15 @@ def optimization(element: Element, book: Book) -> Entry:
     for item in node.items:
         doc: Cell = (Prose(item.doc),) if item.doc else ()
         if isinstance(item, Setting):
-            facts.append((item.name, (*book.value(item.value, element), *doc)))
+            facts.append((item.name, (*book.code(item.value, element), *doc)))
             continue
-        first, step = book.value(item.lower, element), None
+        first, step = book.code(item.lower, element), None
         if isinstance(item, CountRange):
             what: Cell = ("number of ", *_target(book, item.role.target, item.role.name))
         elif isinstance(item, ParamRange):
             what = _target(book, item.param.target, f"{item.role.name}.{item.param.name}")
             step = item.step
-        cells = (what, first, book.value(item.upper, element), book.value(step, element), doc)
+        cells = (what, first, book.code(item.upper, element), book.code(step, element), doc)
         rows.append(Row(cells))
     columns = ("varied", "lowest", "highest", "step", "description")
     return book.entry(element, facts, (Table("Ranges", columns, tuple(rows)),))

@@ -45,7 +45,7 @@ def machine(element: Element, book: Book) -> Entry:
         if isinstance(item, Variable) and inner is not None:
             cells = (
                 book.type(item.type, inner),
-                book.value(item.initial, inner),
+                book.code(item.initial, inner),
                 book.used_by(inner),
             )
             variables.append(book.row(inner, cells))

@@ -10,7 +10,7 @@ from swarmdsl.document.elements import Element, Elements, Places
 from swarmdsl.document.names import Names, doc_of
 from swarmdsl.document.page import Cell, Code, Entry, Figure, Inline, Prose, Row, Table
 from swarmdsl.document.traffic import Traffic
-from swarmdsl.syntax import Expression, Node, Param, TypeRef
+from swarmdsl.syntax import Node, Param, TypeRef
 
 
 @dataclass(frozen=True)
@@ -78,10 +78,6 @@ class Book:
             return (written,)
         return (written, " = ", Code(((full, None),)))
 
-    def value(self, value: Expression | None, owner: Element) -> Cell:
-        """An expression as it is written, or nothing."""
-        return self.code(value, owner)
-
     def used_by(self, element: Element) -> Cell:
         """What names an element."""
         return listed(self.names.users(element))
@@ -94,7 +90,7 @@ class Book:
             if element is not None:
                 cells = (
                     self.type(param.type, element),
-                    self.value(param.default, element),
+                    self.code(param.default, element),
                     self.used_by(element),
                 )
                 rows.append(self.row(element, cells, owner))

@@ -141,7 +141,7 @@ def constant(element: Element, book: Book) -> Entry:
     assert isinstance(node, Constant)
     facts = [
         ("type", book.type(node.type, element)),
-        ("value", book.value(node.value, element)),
+        ("value", book.code(node.value, element)),
         ("used by", book.used_by(element)),
     ]
     return book.entry(element, facts)
@@ -189,7 +189,7 @@ def _constants(node: MessageType, book: Book, linked: bool) -> Table:
     for each in node.constants:
         inner = book.elements.of(each)
         if inner is not None and not linked:
-            cells = (book.type(each.type, inner), book.value(each.value, inner))
+            cells = (book.type(each.type, inner), book.code(each.value, inner))
             rows.append(book.row(inner, cells))
     return Table("Constants", ("name", "type", "value", "description"), tuple(rows))
 

@@ -59,8 +59,8 @@ class Names:
     def head(self, owner: Element) -> Code:
         """How a declaration begins: all of it but what is in its braces."""
         span = owner.node.span
-        text = _COMMENT.sub(lambda found: found[1] or " " * len(found[0]), span.text)
-        end = text.find("{")
+        # Braces in comments and texts begin nothing.
+        end = _COMMENT.sub(lambda found: " " * len(found[0]), span.text).find("{")
         return self.code(
             Span(span.source, span.start, span.start + end) if end > 0 else span, owner
         )

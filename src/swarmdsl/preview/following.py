@@ -21,7 +21,7 @@ _CHUNK = 1 << 20
 
 
 def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]) -> None:
-    """Tell pages of each trace what is written in it from now on, as long as the process lasts.
+    """Tell pages what is written in each trace, and what will be while the process lasts.
 
     The first line of each that is none of a trace is told.
     """

@@ -10,9 +10,11 @@ from typing import TypedDict
 from swarmdsl.compiler import Result
 from swarmdsl.diagnostics import Severity
 from swarmdsl.diagram.folding import folded
+from swarmdsl.diagram.graph import Diagram
 from swarmdsl.diagram.svg import svg
 from swarmdsl.diagram.views import diagrams
 from swarmdsl.ir import System
+from swarmdsl.source import Span
 
 _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state machine"}
 
@@ -59,10 +61,10 @@ class Pictures:
     def files(self) -> frozenset[str]:
         """The files in which what is drawn is written."""
         return frozenset(
-            node.origin.absolute.source.name
+            origin.absolute.source.name
             for each in self._diagrams
-            for node in each.frame.walk()
-            if node.origin is not None
+            for origin in _origins(each)
+            if origin is not None
         )
 
     @cached_property
@@ -104,3 +106,11 @@ def pictures(result: Result) -> Pictures | Message:
     if result.system is None:
         return {"broken": result.report.count(Severity.ERROR)}
     return Pictures(result.system)
+
+
+def _origins(diagram: Diagram) -> Iterator[Span | None]:
+    """Where what is drawn is written."""
+    yield from (edge.origin for edge in diagram.edges)
+    for node in diagram.frame.walk():
+        yield node.origin
+        yield from (port.origin for port in node.ports)

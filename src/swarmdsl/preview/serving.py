@@ -153,14 +153,14 @@ class _Handler(BaseHTTPRequestHandler):
             return
         try:
             long = int(self.headers.get("Content-Length") or 0)
-            place = json.loads(self.rfile.read(min(long, _LONGEST)))
-        except ValueError:
+            place = json.loads(self.rfile.read(max(0, min(long, _LONGEST))))
+        except (ValueError, RecursionError):
             place = None
         self._answer(self.server.opened(place if isinstance(place, str) else ""))
 
     def _is_asked_here(self) -> bool:
         """Not by a page of others that has a name of its own lead here."""
-        return (self.headers.get("Host") or "").rpartition(":")[0] in (_HOST, "localhost")
+        return (self.headers.get("Host") or "").partition(":")[0] in (_HOST, "localhost")
 
     def _answer(self, value: Mapping[str, object]) -> None:
         self._begin("application/json")
