@@ -79,30 +79,36 @@ def lines(out: Path) -> set[str]:
     }
 
 
-@pytest.fixture(scope="module")
-def kills(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+def killed(out: Path, into: Path, *wanted: OutputFile, **how: object) -> list[Path]:
     """The folder as it is before each file operation of a build: so a kill leaves it there.
 
     It is copied in a process of its own, which the hook for that ends with.
     """
-    folder = tmp_path_factory.mktemp("kills")
-    out, copying, number = edited(folder / "out"), False, 0
+    copying, number = False, 0
+    into.mkdir()
 
     def copy(event: str, arguments: tuple[object, ...]) -> None:
         nonlocal copying, number
         writes = event == "open" and isinstance(arguments[2], int) and arguments[2] & os.O_CREAT
         if not copying and (event in CHANGES or writes):
             copying = True
-            shutil.copytree(out, folder / f"{number:03}")
+            shutil.copytree(out, into / f"{number:03}")
             copying, number = False, number + 1
 
     child = os.fork()
     if child == 0:
         sys.addaudithook(copy)
-        build(out, AFTER, renames=RENAMES)
+        build(out, list(wanted), **how)
         os._exit(0)
     assert os.waitpid(child, 0)[1] == 0
-    states = sorted(folder.glob("[0-9]*"))
+    return sorted(into.iterdir())
+
+
+@pytest.fixture(scope="module")
+def kills(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
+    """Kills of a build that makes, changes, moves, parks and removes files."""
+    folder = tmp_path_factory.mktemp("kills")
+    states = killed(edited(folder / "out"), folder / "states", *AFTER, renames=RENAMES)
     assert len(states) > 40
     return states
 
@@ -147,6 +153,38 @@ def test_what_is_edited_after_a_kill_stays(kills: list[Path], tmp_path: Path) ->
         for _ in range(2):
             build(out, AFTER)
             assert lines(out) == there, state
+
+
+@pytest.mark.parametrize("lost", ["t/gone", ".swarmdsl.texts"])
+def test_a_list_that_stays_as_it_is_outlives_a_kill(tmp_path: Path, lost: str) -> None:
+    """As where a file was deleted that is generated again: the list names it already."""
+    out = edited(tmp_path / "out")
+    build(out, BEFORE)
+    mine, listed = lines(out), (out / ".swarmdsl.json").read_bytes()
+    (out / lost).unlink()
+    states = killed(out, tmp_path / "kills", *BEFORE)
+    assert len(states) > 4
+    for state in states:
+        build(state, BEFORE)
+        assert (state / ".swarmdsl.json").read_bytes() == listed, state
+        assert (state / lost).exists()
+        assert lines(state) == mine
+        assert list(state.rglob(".swarmc-*")) == []
+
+
+def test_a_second_kill_loses_nothing(kills: list[Path], tmp_path: Path) -> None:
+    """When the user has filled the places to which files were to be moved, after the first."""
+    first = next(state for state in kills if (state / "t/climb/climb.py").exists())
+    before = kills[kills.index(first) - 1]
+    out = shutil.copytree(before, tmp_path / "out")
+    filled = [f"t/climb/{name}" for name in ("climb.py", "base.py", "list.txt", "notes")]
+    for number, path in enumerate([*filled, ".parked/t/scan/scan.py"]):
+        (out / path).parent.mkdir(parents=True, exist_ok=True)
+        (out / path).write_text(f"{MINE}, late {number}\n", encoding="utf-8")
+    mine = lines(out)
+    for state in killed(out, tmp_path / "kills", *AFTER):
+        build(state, AFTER)
+        assert lines(state) == mine, state
 
 
 def test_what_is_half_written_is_not_put_in_place(kills: list[Path], tmp_path: Path) -> None:
@@ -194,6 +232,16 @@ def test_a_journal_that_is_none_goes(tmp_path: Path, content: str) -> None:
 
     assert build(tmp_path, BEFORE) == []
     assert tree(tmp_path) == before
+
+
+def test_a_journal_is_not_written_through_a_link(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / journal.NAME).symlink_to(tmp_path / "elsewhere")
+
+    assert build(out, BEFORE) == []
+    assert not (tmp_path / "elsewhere").exists()
+    assert not (out / journal.NAME).is_symlink()
 
 
 @pytest.mark.parametrize("path", ["../victim", "t/link/victim", "/victim", None])

@@ -6,6 +6,7 @@ away goes when all else is there.
 
 from __future__ import annotations
 
+import os
 from contextlib import ExitStack
 
 from swarmdsl import manifest
@@ -49,14 +50,16 @@ def resume(disk: Disk) -> Renames:
     Returns the renames that are done with it. Raises OSError as `carry_out` does.
     """
     found = journal.read(disk)
-    if found is not None and journal.is_to_be_completed(disk, found):
+    if found is None:
+        if os.path.lexists(disk.out / journal.NAME):  # a link that leads nowhere is one too
+            disk.remove(journal.NAME)
+        return ()
+    if journal.is_to_be_completed(disk, found):
         journal.complete(disk, found)
         return found.renames
-    if found is not None:
-        journal.discard(disk, found)
-    elif (disk.out / journal.NAME).exists():
-        disk.remove(journal.NAME)
-    return ()
+    renames = found.renames if journal.is_done(disk, found) else ()
+    journal.discard(disk, found)
+    return renames
 
 
 def _is_anything_to_do(plan: Plan) -> bool:

@@ -89,10 +89,17 @@ def _is_inside(disk: Disk, path: object) -> bool:
 
 
 def is_to_be_completed(disk: Disk, journal: Journal) -> bool:
-    """Whether all was staged when the build was interrupted, and not all done."""
-    listed = journal.listed
-    states = (fingerprint(disk.content(path)) for path in (listed.staged or "", listed.path))
-    return listed.after in states
+    """Whether all was staged when the build was interrupted, and not all done.
+
+    The list is staged after all else. It arrives as the last, or is removed as the first.
+    """
+    return fingerprint(disk.content(_staged(journal.listed))) == journal.listed.after
+
+
+def is_done(disk: Disk, journal: Journal) -> bool:
+    """Whether the list has arrived, which tells that only where it is another one than before."""
+    before, after = journal.listed.before, journal.listed.after
+    return before != after and fingerprint(disk.content(journal.listed.path)) == after
 
 
 def complete(disk: Disk, journal: Journal) -> None:
@@ -112,8 +119,12 @@ def complete(disk: Disk, journal: Journal) -> None:
 
 
 def discard(disk: Disk, journal: Journal) -> None:
-    """Remove what is staged yet, and the journal."""
-    for step in (*journal.steps, journal.listed):
+    """Remove what is staged yet, and the journal.
+
+    The list goes first: without it, no step whose new content is gone is taken for one that was
+    done.
+    """
+    for step in (journal.listed, *journal.steps):
         if step.staged is not None and disk.content(step.staged) is not None:
             disk.remove(step.staged)
     disk.remove(NAME)
@@ -148,10 +159,15 @@ def _clear(disk: Disk, step: Step) -> None:
         disk.remove(gone)
 
 
+def _staged(listed: Step) -> str:
+    assert listed.staged is not None
+    return listed.staged
+
+
 def _list_without(disk: Disk, listed: Step, left: list[Step]) -> None:
     """Write the list, in which some files are as they were."""
     before = manifest.read(disk.out)
-    after = manifest.read(disk.out, listed.staged or listed.path)
+    after = manifest.read(disk.out, _staged(listed))
     for path in {path for step in left for path in step.paths}:
         _as_before(path.removeprefix(f"{PARKED}/"), before, after)
     with Staging() as staging:
