@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -42,6 +43,27 @@ def test_pictures_are_those_that_it_makes(walked: Path, bless: bool) -> None:
     assert {path.name for path in PICTURES.iterdir()} == shown
     for name in shown:
         assert (PICTURES / name).read_bytes() == (walked / name).read_bytes(), name
+
+
+@pytest.mark.parametrize(
+    ("needs", "project", "folders"),
+    [
+        ("ros1", "rescue1", {"roslaunch": "launch", "rosrun": "scripts"}),
+        ("ros2cli", "rescue", {"ros2 launch": "launch"}),
+    ],
+)
+def test_what_is_started_is_there(
+    needs: str, project: str, folders: dict[str, str], walked: Path
+) -> None:
+    """The launch files and nodes of the commands that are not run here."""
+    text = "".join(block.text for block in _blocks(needs))
+    for command, folder in folders.items():
+        started = re.findall(rf"{command} (\S+) (\S+)", text)
+
+        assert started
+        for package, name in started:
+            places = walked.parent.glob(f"{project}/generated/*/{package}/{folder}/{name}")
+            assert len(list(places)) == 1, f"{command} {package} {name}"
 
 
 def test_on_ros_2(walked: Path) -> None:

@@ -19,7 +19,20 @@ import tomli
 from .pages import Block
 
 # What is run, and what only a person should run: it installs, or takes long.
-_RUN = ("swarmc", "textx", "pygmentize", "echo", "ls", "find", "cat", "sed", "cd", "pip", "pytest")
+_RUN = (
+    "swarmc",
+    "textx",
+    "pygmentize",
+    "echo",
+    "ls",
+    "find",
+    "cat",
+    "sed",
+    "rm",
+    "cd",
+    "pip",
+    "pytest",
+)
 _NOT_RUN = (
     "python3 -m venv",
     ". ~/swarm/",
