@@ -109,6 +109,19 @@ def test_what_is_as_the_model_says(replay: Replay) -> None:
     assert (code, err) == (0, "5 lines of 1 member as the model says\n")
 
 
+def test_several_traces(replay: Replay, tmp_path: Path) -> None:
+    other = tmp_path / "other.jsonl"
+    other.write_text(json.dumps(START) + "\n" + json.dumps({**GO, "started": []}) + "\n")
+
+    code, err = replay(START, GO, arguments=("--replay", str(other)))
+
+    first, second, wrong, *_ = err.splitlines()
+    assert code == 1
+    assert first == f"{tmp_path / 'trace.jsonl'}: 2 lines of 1 member as the model says"
+    assert second == f"{other}: 1 line of 1 member as the model says"
+    assert f"{other}:2:1: error[SW1011] `M` leaves the model on `Start` at 500 ms" in wrong
+
+
 def test_what_an_activity_sends(replay: Replay) -> None:
     code, err = replay(START, GO, SENT)
 

@@ -50,7 +50,9 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 @click.option(
     "--replay",
     type=click.Path(path_type=Path),
-    help="Hold a trace of robots, lines of JSON, against the model, and say where they left it.",
+    multiple=True,
+    help="Hold a trace of robots, lines of JSON, against the model, and say where they left it; "
+    "once for each trace.",
 )
 @click.option("--seed", type=int, help="Another course of chance.  [default: the scenario's, or 0]")
 @click.option(
@@ -72,7 +74,7 @@ def simulate(
     trace: str | None,
     trace_file: Path | None,
     timeline: Path | None,
-    replay: Path | None,
+    replay: tuple[Path, ...],
     seed: int | None,
     until: int | None,
     real_time: bool,
@@ -90,7 +92,7 @@ def simulate(
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` are not given together")
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
-        if replay is not None and value is not None:
+        if replay and value is not None:
             raise click.UsageError(f"`--replay` and `--{name}` are not given together")
     request = Request(
         paths,

@@ -21,6 +21,7 @@ from swarmdsl.ir import System
 from swarmdsl.project import find_settings
 from swarmdsl.project.toml import parse_toml
 from swarmdsl.reading import read_source
+from swarmdsl.render.printable import printable
 from swarmdsl.runtime import LoopError
 from swarmdsl.scxml import read as read_scxml
 from swarmdsl.simulate.actors import Actor, actors
@@ -64,7 +65,7 @@ class Request:
     seed: int | None = None
     until: int | None = None
     real_time: bool = False
-    replay: Path | None = None
+    replay: tuple[Path, ...] = ()
 
 
 def simulate(request: Request, tell: Tell) -> bool | None:
@@ -77,7 +78,7 @@ def simulate(request: Request, tell: Tell) -> bool | None:
     tell(report)
     if prepared is None:
         return False
-    return prepared.replay(tell) if request.replay is not None else prepared.play(tell)
+    return prepared.replay(tell) if request.replay else prepared.play(tell)
 
 
 def _prepare(request: Request, report: Diagnostics) -> _Play | None:
@@ -157,15 +158,18 @@ class _Play:
         self._world = World(subject.system, cast, scenario, seed, self._listeners)
 
     def replay(self, tell: Tell) -> bool:
-        """Hold a trace against the model; whether all of it is as the model says."""
-        assert self._request.replay is not None
+        """Hold each trace against the model; whether all of them are as the model says."""
         report = Diagnostics()
-        source = read_source(self._request.replay, None, report)
-        if source is not None:
+        several = len(self._request.replay) > 1
+        for path in self._request.replay:
+            source = read_source(path, None, report, "a trace")
+            if source is None:
+                continue
             found = replay(source, self._subject, self._cast, report)
+            which = f"{printable(str(path))}: " if several else ""
             lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
             members = f"{found.members} member{'s' if found.members != 1 else ''}"
-            click.echo(f"{lines} of {members} as the model says", err=True)
+            click.echo(f"{which}{lines} of {members} as the model says", err=True)
         tell(report)
         return not report.has_errors
 
