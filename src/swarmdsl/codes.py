@@ -272,7 +272,7 @@ CODES: dict[str, Code] = {
     "too-large": Code("SW1217", "error", "`{path}` has more than {most} MB"),
     # ---- diagrams
     "nothing-to-draw": Code("SW1301", "error", "the model has nothing for {what}"),
-    "unclear-diagram": Code("SW1302", "error", "{count} diagrams do not go to standard output"),
+    "unclear-diagram": Code("SW1302", "error", "{count} diagrams do not go to {where}"),
     # ---- comparison
     "no-revision": Code("SW1401", "error", "cannot compare with `{name}`: {reason}"),
     # ---- new projects, changes of models

@@ -15,7 +15,6 @@ from swarmdsl.ir import System
 from swarmdsl.options import options_of, parse_options
 from swarmdsl.output_path import clash_key, stays_inside
 from swarmdsl.source import Span
-from swarmdsl.suggest import suggest
 
 # What a target cannot do, whatever it is asked for.
 _UNABLE = frozenset({"unsupported-construct", "bad-identifier", "generator-failed"})
@@ -89,7 +88,7 @@ def _emit_target(
     """The files of one of the targets that are built."""
     generator = plugins.load(request.target)
     if generator is None:
-        hint = suggest(request.target, plugins.target_names(), "targets")
+        hint = plugins.similar_target(request.target)
         report.report("unknown-target", name=request.target, help=hint)
         return None
     if isinstance(generator, plugins.Broken):

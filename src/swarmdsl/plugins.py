@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, get_type_hints
 from swarmdsl.dataclass import dataclass
 from swarmdsl.foreign import failure
 from swarmdsl.generator import API_VERSION, Generator
+from swarmdsl.suggest import suggest
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -37,6 +38,9 @@ GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
 
+# Names that are tried for targets of ROS 1.
+ROS_1 = frozenset({"ros", "ros1", "ros-1", "ros_1"})
+
 # A target's name is also the name of its output folder.
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
@@ -51,6 +55,13 @@ class Broken:
 def target_names() -> list[str]:
     """The names of all targets there are, the built-in ones first."""
     return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
+
+
+def similar_target(name: str) -> str:
+    """Which targets may be meant by a name that none has."""
+    if name.lower() in ROS_1:
+        return "ROS 1 is target `smach`, and ROS 2 is `ros2`"
+    return suggest(name, target_names(), "targets")
 
 
 def default_names() -> list[str]:

@@ -10,7 +10,7 @@ from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.libraries import SUFFIX
 from swarmdsl.source import Source, Span
-from swarmdsl.suggest import did_you_mean, suggest
+from swarmdsl.suggest import closest, did_you_mean, suggest
 
 # No format can carry them: all but tab and line end (XML 1.0, 2.2).
 _CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
@@ -18,6 +18,8 @@ _CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
 _MODEL = "a .swarm file"
 # As many files may be named where one is not there.
 _FEW = 5
+# An ending as like that of models as this is one that is misspelt.
+_SAME_SUFFIX = 0.75
 
 
 def read_source(
@@ -116,7 +118,7 @@ def _unified(text: str) -> str:
 def _similar_file(path: Path) -> str | None:
     if path.with_name(f"{path.name}{SUFFIX}").is_file():
         return f"did you mean `{path.name}{SUFFIX}`?"
-    suffix = path.suffix or SUFFIX
+    suffix = closest(path.suffix, (SUFFIX,), _SAME_SUFFIX) or path.suffix or SUFFIX
     try:
         names = [entry.name for entry in path.parent.iterdir() if entry.suffix == suffix]
     except FileNotFoundError:

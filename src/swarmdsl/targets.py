@@ -10,7 +10,6 @@ from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import Feature, Generator
 from swarmdsl.options import options_of
-from swarmdsl.suggest import suggest
 
 
 def all_targets(report: Diagnostics) -> list[Generator]:
@@ -34,7 +33,7 @@ def one_target(name: str, report: Diagnostics) -> list[Generator]:
     if isinstance(generator, Generator):
         return [generator]
     if generator is None:
-        hint = suggest(name, plugins.target_names(), "targets")
+        hint = plugins.similar_target(name)
         report.report("unknown-target", name=name, help=hint)
     else:
         report.report("generator-failed", target=name, reason=generator.reason)

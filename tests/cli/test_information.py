@@ -42,7 +42,31 @@ def test_an_unknown_target(swarmc):
     assert "did you mean `smach`?" in ran.err
 
 
-@pytest.mark.parametrize("word", ["SW0908", "sw0908", "would-overwrite", "Would-Overwrite"])
+@pytest.mark.parametrize("command", [["targets"], ["build", "--target"], ["new", "x", "-t"]])
+def test_ros_1_is_no_misspelt_ros_2(swarmc, command, good, monkeypatch):
+    monkeypatch.chdir(good.parent)
+    ran = swarmc(*command, "ros1")
+    assert ran.code == 2
+    assert "ROS 1 is target `smach`" in ran.out + ran.err
+
+
+def test_an_unknown_command(swarmc):
+    ran = swarmc("biuld")
+    assert (ran.code, ran.out) == (2, "")
+    assert "there is no command `biuld`: did you mean `build`?" in ran.err
+    assert "`swarmc --help` lists all" in swarmc("fly").err
+
+
+def test_a_model_whose_ending_is_misspelt(swarmc, tmp_path):
+    (tmp_path / "patrol.swarm").touch()
+    ran = swarmc("check", str(tmp_path / "patrol.swarn"))
+    assert ran.code == 1
+    assert "did you mean `patrol.swarm`?" in ran.out
+
+
+@pytest.mark.parametrize(
+    "word", ["SW0908", "sw0908", "908", "0908", "would-overwrite", "Would-Overwrite"]
+)
 def test_a_page_is_found_by_code_and_by_name(swarmc, word):
     ran = swarmc("explain", word)
     assert (ran.code, ran.err) == (0, "")

@@ -191,7 +191,7 @@ CHANGES = {
     "an event that nothing handles": (
         "    on Reset -> Idle\n",
         "",
-        ["~ statemachine Watch", "    - transition `on Reset` of state `Search`"],
+        ["~ statemachine Watch", "    - transition `on Reset -> Idle` of state `Search`"],
     ),
     "fewer robots": (
         "Robot[2..6]",

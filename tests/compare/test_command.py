@@ -49,13 +49,27 @@ def test_exit_codes(models: tuple[str, str], capsys: pytest.CaptureFixture[str])
     before, after = models
 
     assert run(["diff", before, before]) == 0
-    assert capsys.readouterr().out == ""
+    assert capsys.readouterr() == ("", "no differences\n")
+    assert run(["diff", before, before, "--breaking"]) == 0
+    assert capsys.readouterr() == ("", "nothing breaks\n")
+    assert run(["diff", before, before, "--format", "json"]) == 0
+    assert capsys.readouterr() == ("", "")
     assert run(["diff", before, after]) == 1
     assert "type is `std_msgs/String`, was `std_msgs/Empty` [EVENT_TYPE]" in capsys.readouterr().out
     assert run(["diff", before, f"{after}x"]) == 2
     assert "SW0001" in capsys.readouterr().err
-    assert run(["diff", before]) == 2
+    assert run(["diff"]) == run(["diff", before]) == 2
     assert "give two models" in capsys.readouterr().err
+
+
+def test_a_new_transition_has_its_target(
+    models: tuple[str, str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    Path(models[1]).write_text(BEFORE.replace("on Go", "after 1 s -> B on Go"), encoding="utf-8")
+    for format_, line in (("text", "+ {} ("), ("markdown", "- {} added (")):
+        assert run(["diff", *models, "--format", format_]) == 1
+        line = line.format("transition `after 1 s -> B` of state `A`")
+        assert line in capsys.readouterr().out
 
 
 def test_what_breaks_can_be_allowed(
@@ -98,6 +112,7 @@ def test_formats(models: tuple[str, str], capsys: pytest.CaptureFixture[str]) ->
 @pytest.mark.parametrize(
     "words",
     [
+        ["--against", "HEAD"],
         ["--against", "HEAD", "models"],
         ["--against", "v1", "models/a model.swarm"],
         ["--against", ".git#branch=main", "models"],

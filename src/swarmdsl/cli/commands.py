@@ -31,6 +31,17 @@ class _Commands(click.Group):
         assert isinstance(command, click.Command)
         return command
 
+    def resolve_command(
+        self, context: click.Context, words: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        name = words[0]
+        if name not in COMMANDS and not (name.startswith("-") or context.resilient_parsing):
+            from swarmdsl.suggest import did_you_mean
+
+            hint = did_you_mean(name, COMMANDS) or "`swarmc --help` lists all"
+            context.fail(f"there is no command `{name}`: {hint}")
+        return super().resolve_command(context, words)
+
 
 def _of_click(module: ModuleType, name: str) -> click.Command:
     """A command that is a plain function, and whose options are plain data."""

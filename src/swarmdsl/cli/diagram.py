@@ -55,8 +55,12 @@ def diagram(
     names, or for the current folder. Nothing is drawn of a model with errors.
     """
     from swarmdsl.diagram.command import draw
+    from swarmdsl.diagram.formats import SUFFIXES
     from swarmdsl.render import render, summary
 
+    if out is not None:
+        others = {each: f"--format {name}" for name, each in SUFFIXES.items() if name != format_}
+        options.check_picture(out, "-o", SUFFIXES[format_], others)
     drawn = draw(paths, kind, names, format_, out)
     render(drawn.report, "text", sys.stderr)
     if drawn.text is not None:

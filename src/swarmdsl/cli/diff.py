@@ -43,7 +43,7 @@ def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -
 
 
 @click.command(epilog="Example: swarmc diff --against main --breaking examples/search_and_rescue")
-@click.argument("models", metavar="[BEFORE] AFTER", nargs=-1, required=True)
+@click.argument("models", metavar="[[BEFORE] AFTER]", nargs=-1)
 @click.option(
     "--against",
     metavar="REVISION",
@@ -83,7 +83,8 @@ def diff(
 ) -> int:
     """Show in words of the model what is different.
 
-    A model is a file, a folder or, as git writes it, REVISION:PATH. The exit code is 0 where
+    A model is a file, a folder or, as git writes it, REVISION:PATH; with --against alone it is
+    the current folder. The exit code is 0 where
     nothing is different (with --breaking: nothing breaks), 1 where something is, and 2 where a
     model cannot be read.
     """
@@ -92,6 +93,8 @@ def diff(
     from swarmdsl.compare.revisions import against as revision
     from swarmdsl.compare.revisions import named
 
+    if not models and against is not None:
+        models = (".",)
     if len(models) != (1 if against is not None else 2):
         raise click.UsageError("give two models, or one and `--against`")
     if allow and not breaking:
@@ -113,6 +116,8 @@ def diff(
         found = list(lines)
     for line in found:
         click.echo(line)
+    if not found and format_ == "text":
+        click.echo("nothing breaks" if breaking else "no differences", err=True)
     return DIFFERENT if found else OK
 
 

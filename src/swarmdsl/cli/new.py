@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -13,6 +13,19 @@ from swarmdsl.cli.outcome import exit_code
 
 if TYPE_CHECKING:
     from swarmdsl.scaffold.plan import Plan
+
+
+class _Target(click.Choice):  # type: ignore[type-arg]  # no generic class in Click 8.1
+    """One of the targets that projects are made for."""
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, context: click.Context | None
+    ) -> Any:
+        from swarmdsl.plugins import ROS_1, similar_target
+
+        if value in ROS_1:
+            self.fail(f"there is no target `{value}`: {similar_target(value)}", param, context)
+        return super().convert(value, param, context)
 
 
 @click.command(epilog="Example: swarmc new rescue --member Uav=3 --member Rover=1..5")
@@ -57,9 +70,10 @@ if TYPE_CHECKING:
     "-t",
     "--target",
     "targets",
-    type=click.Choice(("ros2", "smach")),
+    type=_Target(("ros2", "smach")),
     multiple=True,
-    help="What it is built for; may be repeated.  [default: ros2]",
+    help="What it is built for: `smach` for ROS 1, `ros2` for ROS 2; may be repeated.  "
+    "[default: ros2]",
 )
 @click.option("-i", "--interactive", is_flag=True, help="Ask for all of this.")
 @click.option("--dry-run", is_flag=True, help="List the files, write nothing.")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import reduce
 from pathlib import Path
 from typing import Any, TypeVar
@@ -46,6 +46,30 @@ def option(about: Option) -> Callable[[_Decorated], _Decorated]:
 
 files = click.argument("paths", metavar="[FILE|FOLDER]...", nargs=-1, type=PLACE)
 diagnostics_format = option(FORMAT)
+
+
+# What cannot be written, and is wanted where a picture is named so.
+_PICTURES = frozenset(
+    (".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".tif", ".tiff", ".webp")
+)
+
+
+def check_picture(path: Path, option: str, suffix: str, others: Mapping[str, str]) -> None:
+    """Complain about a file that is named as what it would not be.
+
+    `suffix` is that of what is written, `others` have what would write another one.
+    """
+    named = path.suffix.lower()
+    if path.is_dir() or named == suffix or named not in {*others, *_PICTURES}:
+        return
+    way = f"name a file that ends with `{suffix}`"
+    if named in others:
+        way += f", or add `{others[named]}`"
+    elif others:
+        also = (f"with `{other}` `{each}`" for each, other in others.items())
+        way += f" ({', '.join(also)})"
+    reason = f"`{path}` would not be what its name says: no `{named}` is written"
+    raise click.BadParameter(f"{reason}; {way}", param_hint=f"'{option}'")
 
 
 def levels(function: _Decorated) -> _Decorated:

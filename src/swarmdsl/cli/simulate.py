@@ -94,6 +94,8 @@ def simulate(
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
         if replay and value is not None:
             raise click.UsageError(f"`--replay` and `--{name}` are not given together")
+    if timeline is not None:
+        options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(
         paths,
         machine,

@@ -62,7 +62,11 @@ class Change:
         if self.element is self.top:
             return ""
         of = "" if self.owner is self.top else f" of {self.owner.kind} `{called(self.owner)}`"
-        return f"{self.kind} `{called(self.element)}`{of if self.kind != VERTEX else ''}"
+        target = ""
+        if self.kind == TRANSITION and self.action in (Action.ADDED, Action.REMOVED):
+            # One that stays is told from others by what it is for.
+            target = f" -> {text(dict(self.element.values)['target'])}"
+        return f"{self.kind} `{called(self.element)}{target}`{of if self.kind != VERTEX else ''}"
 
     @property
     def said(self) -> str:

@@ -56,12 +56,15 @@ def draw(
     write = FORMATS[format_]
     if report.has_errors:
         return Drawn(report, checked.files)
-    if out is None:
-        if len(chosen) > 1:
-            report.report("unclear-diagram", count=len(chosen), help=_choices(chosen))
-            return Drawn(report, checked.files)
-        return Drawn(report, checked.files, write(chosen[0]))
     suffix = SUFFIXES[format_]
+    to_file = out is not None and not out.is_dir() and (out.suffix == suffix or out.exists())
+    if len(chosen) > 1 and (out is None or to_file):
+        where = f"file `{out}`" if out is not None else "standard output"
+        help_ = _choices(chosen)
+        report.report("unclear-diagram", count=len(chosen), where=where, help=help_)
+        return Drawn(report, checked.files)
+    if out is None:
+        return Drawn(report, checked.files, write(chosen[0]))
     is_folder = out.is_dir() or len(chosen) > 1 or (not out.suffix and not out.exists())
     texts = {
         out / f"{each.stem}{suffix}" if is_folder else out: write(each).encode() for each in chosen

@@ -15,10 +15,11 @@ def page_path(code: str) -> Path:
 
 
 def find_code(word: str) -> str | None:
-    """The code meant by `SW0202`, `sw0202` or `unresolved-name`; None for none."""
+    """The code meant by `SW0202`, `202` or `unresolved-name`; None for none."""
     if word.lower() in CODES:
         return CODES[word.lower()].code
-    return next((entry.code for entry in CODES.values() if entry.code == word.upper()), None)
+    code = f"SW{word:0>4}" if word.isdecimal() else word.upper()
+    return next((entry.code for entry in CODES.values() if entry.code == code), None)
 
 
 def page(code: str) -> str:

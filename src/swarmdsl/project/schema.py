@@ -104,7 +104,7 @@ class _Reader:
             known = plugins.target_names()
             if target not in known:
                 place = self._document.places[keys].key
-                hint = suggest(target, known, "targets")
+                hint = plugins.similar_target(target)
                 self._report.report("unknown-target", place, name=target, help=hint)
                 continue
             generator = plugins.load(target) if self._get(keys) else None
