@@ -14,13 +14,17 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo test test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
+.PHONY: demo help test test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue -o out
 	find out -type f | LC_ALL=C sort
 	$(BIN)/swarmc simulate examples/search_and_rescue \
 		--scenario examples/search_and_rescue/mission.toml --trace none --timeline out/mission.svg
+	@echo "out/mission.svg shows the mission. Next: . $(BIN)/activate, and docs/tutorial.md; make help lists the rest."
+
+help: ## List what can be made.
+	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile
 
 test: $(READY) ## Run the tests.
 	$(BIN)/pytest

@@ -25,7 +25,7 @@ WAYS = {
         *("--actuator", "Legs", "--description", "Walks {{ about }} // and /* sees"),
     ],
     "swarm called like a member": ["robot"],
-    "both": ["both", "-t", "ros2", "-t", "smach"],
+    "ros 1": ["old", "-t", "smach"],
 }
 
 
@@ -134,6 +134,14 @@ def test_names_that_no_model_can_have(arguments, said, swarmc, folder) -> None:
     )
 
 
+def test_a_project_is_for_one_generation_of_ros(swarmc, folder) -> None:
+    ran = swarmc("new", "rescue", "-t", "ros2", "-t", "smach")
+
+    assert ran.code == 2
+    assert "a project is for ROS 2 (ros2) or ROS 1 (smach)" in ran.err
+    assert list(folder.iterdir()) == []
+
+
 def test_a_folder_that_cannot_be_written(swarmc, folder) -> None:
     (folder / "file").write_text("")
     ran = swarmc("new", "rescue", "--folder", "file/below")
@@ -178,14 +186,30 @@ def terminal(folder: Path) -> Callable[[list[str], str], tuple[int, str]]:
 
 
 def test_on_a_terminal_one_is_asked(terminal, folder, swarmc, monkeypatch) -> None:
+    (folder / "taken").mkdir()
+    (folder / "taken" / "file").write_text("")
     answers = [
-        *("Rescue", "rescue", "Finds people.", "uav", "Uav", "0", "2", "y", "Rover", "1..5", "n"),
-        *("Eye", "Uav", "Brain", "", "", "y", "n"),
+        *(
+            "Rescue",
+            "taken",
+            "rescue",
+            "Finds people.",
+            "uav",
+            "Uav",
+            "0",
+            "2",
+            "y",
+            "Rover",
+            "1..5",
+            "n",
+        ),
+        *("Eye", "Uav", "Brain", "", "", "smach"),
     ]
     code, shown = terminal(["new"], "".join(f"{each}\n" for each in answers))
 
     assert code == 0, shown
     assert "call it `rescue`" in shown
+    assert shown.index("`taken` is there already") < shown.index("What it is for")
     assert "call it `Uav`" in shown
     main = (folder / "rescue" / "models" / "rescue.swarm").read_text()
     assert "/// Finds people.\n" in main
@@ -194,8 +218,20 @@ def test_on_a_terminal_one_is_asked(terminal, folder, swarmc, monkeypatch) -> No
     assert "sensor Eye {" in members
     assert "controller Brain {" in members
     assert "actuator Wheels {" in members
+    settings = (folder / "rescue" / "swarm.toml").read_text()
+    assert "[targets.smach]" in settings
+    assert "ros        = 1" in settings
     monkeypatch.chdir(folder / "rescue")
     assert swarmc("check", "--deny", "warnings").code == 0
+
+
+def test_where_no_project_can_go_one_is_asked_no_more_than_its_name(terminal, folder) -> None:
+    (folder / "file").write_text("")
+    code, shown = terminal(["new", "-i", "--folder", "file"], "rescue\n")
+
+    assert code == 1
+    assert "What it is for" not in shown
+    assert "SW1502" in shown
 
 
 def test_who_leaves_the_questions_leaves_nothing(terminal, folder) -> None:

@@ -72,8 +72,7 @@ class _Target(click.Choice):  # type: ignore[type-arg]  # no generic class in Cl
     "targets",
     type=_Target(("ros2", "smach")),
     multiple=True,
-    help="What it is built for: `smach` for ROS 1, `ros2` for ROS 2; may be repeated.  "
-    "[default: ros2]",
+    help="What it is built for: `smach` for ROS 1 or `ros2` for ROS 2.  [default: ros2]",
 )
 @click.option("-i", "--interactive", is_flag=True, help="Ask for all of this.")
 @click.option("--dry-run", is_flag=True, help="List the files, write nothing.")
@@ -103,6 +102,9 @@ def new(
     from swarmdsl.scaffold.new import create
     from swarmdsl.scaffold.plan import Plan, Robots
 
+    if len(set(targets)) > 1:
+        way = "build for the other with `swarmc build --target`, to another folder"
+        raise click.UsageError(f"a project is for ROS 2 (ros2) or ROS 1 (smach): {way}")
     robots = [Robots(*each.split("=", 1)) for each in members]
     plan = Plan(
         name or "",
@@ -112,12 +114,12 @@ def new(
         sensor,
         controller,
         actuator,
-        tuple(dict.fromkeys(targets)) or ("ros2",),
+        *targets[:1],
     )
     if interactive or name is None:
         if not (sys.stdin.isatty() and sys.stderr.isatty()):
             raise click.UsageError("NAME is missing; on a terminal you would be asked for it")
-        plan = _asked(plan)
+        plan = _asked(plan, folder)
     created = create(plan, folder or Path(plan.name), dry_run=dry_run)
     render(created.report, format_, sys.stderr)
     for path in created.written:
@@ -127,12 +129,12 @@ def new(
     return exit_code(created.report)
 
 
-def _asked(plan: Plan) -> Plan:
+def _asked(plan: Plan, folder: Path | None) -> Plan:
     from rich.console import Console
 
     from swarmdsl.scaffold.wizard import ask
 
     try:
-        return ask(plan, Console(stderr=True))
+        return ask(plan, Console(stderr=True), folder)
     except EOFError:
         raise click.Abort from None

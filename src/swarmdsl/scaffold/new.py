@@ -25,7 +25,7 @@ def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Created:
     """Write a project to a folder that is new or empty; nothing where the plan has mistakes."""
     report = Diagnostics()
     check_plan(plan, report)
-    if os.path.lexists(folder) and not _is_empty_folder(folder):
+    if is_taken(folder):
         way = "choose another name, or another folder with `--folder`"
         report.report("already-there", path=folder.as_posix(), help=way)
     if report.has_errors:
@@ -43,6 +43,11 @@ def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Created:
             report.report("cannot-write", path=error.filename or str(folder), reason=reason)
             return Created(report, folder)
     return Created(report, folder, tuple(files))
+
+
+def is_taken(folder: Path) -> bool:
+    """Whether no project can go there: something is in the way that is no empty folder."""
+    return os.path.lexists(folder) and not _is_empty_folder(folder)
 
 
 def _is_empty_folder(path: Path) -> bool:

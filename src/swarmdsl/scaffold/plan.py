@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections import Counter
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.naming import camel_case, snake_case
 from swarmdsl.scaffold.names import check_project_name, check_type_name, given
 
+# One of them: packages of both generations of ROS have the same names.
 TARGETS = ("ros2", "smach")
 # What the template itself has: files, declarations, and a param of each robot.
 _FILES = ("behaviour", "members", "cpswarm")
@@ -47,7 +48,7 @@ class Plan:
     sensor: str = "Camera"
     controller: str = "Pilot"
     actuator: str = "Wheels"
-    targets: tuple[str, ...] = field(default=("ros2",))
+    target: str = "ros2"
 
     @property
     def package(self) -> str:
@@ -62,6 +63,11 @@ class Plan:
         name = camel_case(self.name)
         taken = {robots.member for robots in self.robots} | set(self.components)
         return f"{name}Swarm" if name in taken else name
+
+    @property
+    def launch(self) -> str:
+        """What the launch file of the swarm is called."""
+        return snake_case(self.swarm_name)
 
     @property
     def components(self) -> tuple[str, str, str]:

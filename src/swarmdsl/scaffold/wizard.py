@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console
@@ -10,24 +11,44 @@ from rich.prompt import Confirm, Prompt
 
 from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.scaffold.new import is_taken
 from swarmdsl.scaffold.plan import TARGETS, Plan, Robots, check_plan
 
 _Check = Callable[[str], Plan]
 
 
-def ask(start: Plan, console: Console) -> Plan:
-    """A plan made of answers, those of `start` offered; raises EOFError at the end of input."""
+def ask(start: Plan, console: Console, folder: Path | None) -> Plan:
+    """A plan made of answers, those of `start` offered; raises EOFError at the end of input.
+
+    The project goes to `folder`, or to one of its name, which has to be new or empty.
+    """
     plan = start
     console.print("A new project. Enter takes what stands in parentheses.\n")
-    plan = _asked(console, "Name of the project", plan, plan.name, lambda name: _named(plan, name))
+    plan = _name(console, plan, folder)
+    if is_taken(folder or Path(plan.name)):
+        return plan  # told by who makes the project: another name would not help
     plan = replace(plan, description=_text(console, "What it is for", plan.description))
     plan = _robots(console, plan)
     for kind in ("sensor", "controller", "actuator"):
         question = f"Name of a {kind}" if kind != "actuator" else "Name of an actuator"
         plan = _asked(console, question, plan, getattr(plan, kind), _with(plan, kind))
     plan = _asked(console, "Name of the swarm", plan, plan.swarm_name, _with(plan, "swarm"))
-    targets = [each for each in TARGETS if _wants(console, each, plan)]
-    return replace(plan, targets=tuple(targets) or plan.targets)
+    question = "Packages for ROS 2 (ros2) or ROS 1 (smach)"
+    target = Prompt.ask(
+        question, console=console, choices=list(TARGETS), show_choices=False, default=plan.target
+    )
+    return replace(plan, target=target)
+
+
+def _name(console: Console, plan: Plan, folder: Path | None) -> Plan:
+    question = "Name of the project"
+    while True:
+        plan = _asked(console, question, plan, plan.name, _with(plan, "name"))
+        if folder is not None or not is_taken(Path(plan.name)):
+            return plan
+        wrong = f"`{plan.name}` is there already: choose another name"
+        console.print(wrong, style="red", highlight=False, markup=False)
+        plan = replace(plan, name="")
 
 
 def _robots(console: Console, plan: Plan) -> Plan:
@@ -41,10 +62,6 @@ def _robots(console: Console, plan: Plan) -> Plan:
         robots = plan.robots
         if not Confirm.ask("Another type of robot?", console=console, default=False):
             return plan
-
-
-def _named(plan: Plan, name: str) -> Plan:
-    return replace(plan, name=name)
 
 
 def _with(plan: Plan, field: str) -> _Check:
@@ -86,8 +103,3 @@ def _text(console: Console, question: str, offered: str) -> str:
     if not offered:
         return Prompt.ask(question, console=console, default="", show_default=False).strip()
     return Prompt.ask(question, console=console, default=offered).strip()
-
-
-def _wants(console: Console, target: str, plan: Plan) -> bool:
-    question = {"ros2": "Packages for ROS 2?", "smach": "Packages for ROS 1 (SMACH)?"}[target]
-    return Confirm.ask(question, console=console, default=target in plan.targets)
