@@ -28,6 +28,18 @@ from swarmdsl.syntax import (
     Optimization,
 )
 
+_IMPORTED = "`swarmc import` makes a model of SCXML, ADF and AMF"
+_WAYS = {
+    ".toml": "`swarmc simulate --scenario FILE` plays a scenario, `swarmc test FILE` runs tests; "
+    "swarm.toml is found without being named",
+    ".jsonl": "`swarmc simulate` takes events by `--events FILE`, and traces by `--replay FILE`, "
+    "which is written before each",
+    ".json": "`swarmc simulate` takes events by `--events FILE`",
+    ".xml": _IMPORTED,
+    ".scxml": _IMPORTED,
+}
+"""What files are for that are often given in place of models, by their suffix."""
+
 
 @dataclass(eq=False)
 class File:
@@ -245,10 +257,19 @@ def _in_import_order(files: list[File]) -> list[File]:
 
 
 def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
-    """Replace each folder by the .swarm files below it, in a stable order."""
+    """Replace each folder by the .swarm files below it, in a stable order.
+
+    A file that by its name is of another kind is reported and left out.
+    """
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
-            yield path
+            help_ = _WAYS.get(path.suffix)
+            if help_ is None or not os.path.isfile(path):  # noqa: PTH113
+                yield path
+            else:
+                actual = f"a {path.suffix} file"
+                expected = f"a model, *{SUFFIX}"
+                report.report("not-a-file", path=path, actual=actual, expected=expected, help=help_)
             continue
         found = files_below(path, SUFFIX)
         if not found:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import compiler
+from swarmdsl.cli import run
 from swarmdsl.diagnostics import Diagnostic
 
 START = "event Start : std_msgs/Empty\n"
@@ -217,6 +218,31 @@ def test_a_file_that_the_system_cannot_open(tmp_path: Path) -> None:
 
     assert names([loop]) == [("unreadable-file", 0, 0)]
     assert names([main]) == [("unreadable-file", 1, 8), ("unreadable-file", 2, 8)]
+
+
+@pytest.mark.parametrize(
+    ("command", "name", "way"),
+    [
+        ("check", "swarm.toml", "found without being named"),
+        ("simulate", "mission.toml", "`swarmc simulate --scenario FILE`"),
+        ("simulate", "uav_1.jsonl", "`--replay FILE`"),
+        ("check", "events.json", "`--events FILE`"),
+        ("build", "robot.xml", "`swarmc import`"),
+        ("fmt", "robot.scxml", "`swarmc import`"),
+    ],
+)
+def test_a_file_that_is_no_model_by_its_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], command: str, name: str, way: str
+) -> None:
+    path = tmp_path / name
+    path.write_text("[functions]\ngo = 1\n" if name == "mission.toml" else "", encoding="utf-8")
+
+    assert run([command, str(path)]) == 1
+
+    said = "".join(capsys.readouterr())
+    assert said.count("error[") == 1
+    assert f"error[SW0002]: `{path}` is a {path.suffix} file, not a model, *.swarm" in said
+    assert way in " ".join(said.split())
 
 
 def test_an_import_of_a_folder(check: Check) -> None:

@@ -123,7 +123,7 @@ def served(model: Path, *options: str, named: bool = True) -> Iterator[Browser]:
     while address is None:
         line = process.stdout.readline()
         assert line, "it ended"
-        address = re.search(r"http://127\.0\.0\.1:(\d+)/", line)
+        address = re.search(r"http://127\.0\.0\.1:(\d+)/(?=\s|$)", line)
     yield Browser(int(address[1]))
     process.send_signal(signal.SIGINT)
     said, _ = process.communicate(timeout=PATIENCE)

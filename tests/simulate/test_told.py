@@ -84,7 +84,7 @@ def test_the_summary(simulate: Simulate) -> None:
     }
     assert shares == {state: f"{100 * time / 19:.1f}" for state, time in seconds.items()}
     assert rows["Work: Wait"] == "2"
-    assert "go             2          1        -          -          -" in lines
+    assert "go             2          1        -          -          -           1" in lines
     assert "Found     1      1     -" in lines
 
 

@@ -128,7 +128,8 @@ class _Screen:
         about = f"{strftime('%H:%M:%S')}, {(perf_counter() - start) * 1000:.0f} ms"
         if names:
             about = f"{names}, {about}"
-        ending = "" if names else "; end with Ctrl-C"
+        # In parentheses: an address that comes before is clicked on in terminals.
+        ending = "" if names else " (end with Ctrl-C)"
         click.echo(f"waiting for changes ({about}): {said}{ending}", err=True)
 
 

@@ -69,7 +69,7 @@ class Summary:
         yield ""
         yield from _table(("member", "in the end", "since"), self._members(), left=2)
         yield from _table(("state", "time", "entered"), self._states())
-        yield from _table(("function", "called", *_OUTCOMES), self._functions(world))
+        yield from _table(("function", "called", *_OUTCOMES, "unfinished"), self._functions(world))
         yield from _table(("event", "sent", "heard", "lost"), self._events(world))
         yield from self._unseen()
 
@@ -93,8 +93,9 @@ class Summary:
 
     def _functions(self, world: World) -> Iterator[Row]:
         for function, called in self._called.items():
-            ends = (world.outcomes[function, outcome] for outcome in _OUTCOMES)
-            yield function, str(called), *(str(count or "-") for count in ends)
+            ends = [world.outcomes[function, outcome] for outcome in _OUTCOMES]
+            counts = (*ends, called - sum(ends))
+            yield function, str(called), *(str(count or "-") for count in counts)
 
     def _events(self, world: World) -> Iterator[Row]:
         for event, sent in self._sent.items():
