@@ -61,6 +61,23 @@ lost = "uav[1]"
 """
 
 
+def test_what_all_wait_for(simulate: Simulate) -> None:
+    alone = simulate(SWARM, "--trace", "none")
+    Path("swarm.toml").write_text('[project]\nname = "s"\n', encoding="utf-8")
+    Path("other.toml").write_text("[tool]\n", encoding="utf-8")
+    Path("plays").mkdir()
+    Path("plays/mission.toml").write_text(SCENARIO, encoding="utf-8")
+
+    in_project = simulate(SWARM, "--trace", "none")
+    played = simulate(SWARM, "--trace", "none", "--scenario", "plays/mission.toml")
+
+    assert alone.err.splitlines()[-1] == (
+        "all wait for `Start` or `Stop`: --events FILE or --scenario FILE"
+    )
+    assert in_project.err.endswith(": --events FILE or --scenario plays/mission.toml\n")
+    assert "all wait" not in played.err
+
+
 def test_the_summary(simulate: Simulate) -> None:
     ran = simulate(SWARM, "--trace", "none", scenario=SCENARIO)
 

@@ -35,6 +35,7 @@ from swarmdsl.simulate.subject import Document, Subject, choose
 from swarmdsl.simulate.summary import Summary
 from swarmdsl.simulate.timeline import Timeline
 from swarmdsl.simulate.trace import Line, as_json, as_text
+from swarmdsl.simulate.waiting import advice
 from swarmdsl.simulate.world import World
 
 Tell = Callable[[Diagnostics], None]
@@ -206,6 +207,11 @@ class _Play:
         tell(report)
         for line in summary.text(self._world, ending):
             click.echo(line, err=True)
+        request = self._request
+        unplayed = request.events is None and request.scenario is None
+        if unplayed and ending == _ENDINGS["quiet"] and (awaited := summary.awaited):
+            start = request.paths[0] if request.paths else Path()
+            click.echo(f"\n{advice(awaited, self._subject, start)}", err=True)
         return None if interrupted else not (report.has_errors or self._wrong)
 
     def _run(self, tell: Tell) -> Ending:

@@ -73,6 +73,21 @@ class Summary:
         yield from _table(("event", "sent", "heard", "lost"), self._events(world))
         yield from self._unseen()
 
+    @property
+    def awaited(self) -> list[str]:
+        """The events of the model that states wait for in which the machines are now."""
+        found: dict[str, None] = {}
+        for line in self._last.values():
+            machine = line.actor.machine
+            numbers = [] if _is_over(line) else [machine.numbers[s] for s in line.configuration]
+            while numbers:
+                number = numbers.pop()
+                found.update((name, None) for e in machine.edges[number] for name in e.events)
+                if number:
+                    numbers.append(machine.parents[number])
+        # Those with a dot are of activities, delays and final states.
+        return [name for name in found if not {".", "*"} & set(name)]
+
     def _members(self) -> Iterator[Row]:
         lines = list(self._last.values())
         for line in lines[:_MOST]:
