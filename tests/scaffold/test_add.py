@@ -253,6 +253,7 @@ def test_a_file_without_declarations(swarmc, folder) -> None:
         (["function", "f", "--action", "f:std_srvs/Empty"], "SW0604", "service"),
         (["swarm", "S", "--member", "Cart=0"], "SW0301", "write `[3]`"),
         (["state", "Goin.X"], "SW1503", "did you mean `Going`?"),
+        (["state", "Yrd.X"], "SW1503", "name a state machine `Going`, for instance"),
         (["state", "Cart.X"], "SW1507", "goes into a member"),
         (["state", "Slow.X"], "SW1504", "say which, such as"),
         (["state", "Going.Idle"], "SW1507", "already"),

@@ -111,6 +111,7 @@ def test_it_is_called_otherwise_wherever_it_is_named(old, new, parts, model, swa
         ("Idle", "Still", "SW1504", "say which, such as `Going.Idle`"),
         ("Camera", "on", "SW1505", "a word of the language"),
         ("Camera", "My-Eye", "SW1505", "is no name"),
+        ("Going.Busy.Drive", "Going.Busy.Roll", "SW1505", "give the new name alone: `Roll`"),
         ("Camera", "Cart", "SW1505", "keeps its name"),
         ("Going.Done", "Idle", "SW1505", "keeps its name"),
         ("Cart.speed", "velocity", "SW1505", "there would be a mistake"),
@@ -136,10 +137,30 @@ def test_a_file_that_is_not_there(swarmc, yard) -> None:
 
 
 def test_tests_and_scenarios_that_have_the_old_name_are_told(swarmc, yard) -> None:
-    (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n')
+    (yard / "yard.swarmtest.toml").write_text(
+        '[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n# Drive\n'
+    )
     (yard / "other.toml").write_text('text = "Driver"\n')
     ran = swarmc("rename", "Going.Busy.Drive", "Roll", "--format", "concise")
 
     assert ran.code == 0
     assert "yard.swarmtest.toml:3:18: warning[SW1506] `Drive` stands here still" in ran.err
+    assert "yard.swarmtest.toml:4:3: warning[SW1506]" in ran.err
     assert "other.toml" not in ran.err
+    assert "keeps this name" not in ran.err
+
+
+def test_a_test_may_mean_what_has_the_same_name(swarmc, yard) -> None:
+    (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Idle" }]\n')
+    ran = swarmc("rename", "Going.Idle", "Still")
+
+    assert ran.code == 0
+    assert "now: a state `Other.Idle` keeps this name" in ran.err
+
+
+def test_the_style_of_a_name_is_looked_at(swarmc, yard) -> None:
+    ran = swarmc("rename", "Cart.camera", "Front", "--format", "concise")
+
+    assert ran.code == 0
+    assert "warning[SW0206] part `Front` is not in snake_case" in ran.err
+    assert "SW0206" not in swarmc("rename", "Cart.Front", "front").err

@@ -230,7 +230,7 @@ def _container(
         way = f"name {_alternatives(workspace, kinds)}"
         report.report("cannot-add", every[0].place, what=f"`{name}`", reason=reason, help=way)
     else:
-        close = similar(workspace, owner)
+        close = similar(workspace, owner, kinds)
         way = f"did you mean `{close}`?" if close else f"name {_alternatives(workspace, kinds)}"
         report.report("no-such-thing", given(owner), name=owner, help=way)
     return None

@@ -53,10 +53,14 @@ def find(workspace: Workspace, name: str) -> list[Named]:
     return [each for each in every if (*each.file.package.split("."), *each.path) == words]
 
 
-def similar(workspace: Workspace, name: str) -> str | None:
-    """The path of something that may be meant."""
-    every = {".".join(each.path) for each in all_named(workspace)}
-    return closest(name, every) or closest(name.rpartition(".")[2], every)
+def similar(workspace: Workspace, name: str, kinds: type | tuple[type, ...] = Node) -> str | None:
+    """The path of something that may be meant, and is of one of some kinds."""
+    named = [each for each in all_named(workspace) if isinstance(each.node, kinds)]
+    path = closest(name, [".".join(each.path) for each in named])
+    if path is not None:
+        return path
+    last = closest(name.rpartition(".")[2], [each.path[-1] for each in named])
+    return next((".".join(each.path) for each in named if each.path[-1] == last), None)
 
 
 def _inside(file: File, node: Node, around: Sequence[str]) -> Iterator[Named]:

@@ -16,9 +16,9 @@ from swarmdsl.format.files import Layout, write
 from swarmdsl.project import find_file, find_settings
 from swarmdsl.reading import read_source
 from swarmdsl.scaffold.names import given
-from swarmdsl.source import Source, Span
+from swarmdsl.source import Span
 from swarmdsl.workspace import Workspace
-from swarmdsl.workspace.renaming import RefusedError
+from swarmdsl.workspace.renaming import RefusedError, replaced
 from swarmdsl.workspace.renaming import rename as places_of
 
 _MOST_SHOWN = 8
@@ -47,14 +47,17 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
     found = _found(workspace, old, report)
     if found is None:
         return Renamed(report, workspace.files)
+    namesakes = _namesakes(workspace, found)
     try:
         spans = places_of(workspace, found.file, found.place.start, new)
     except RefusedError as error:
-        way = "choose another name"
+        last = new.rpartition(".")[2]
+        way = f"give the new name alone: `{last}`" if last != new else "choose another name"
         report.report("cannot-rename", found.place, what=str(found), reason=error, help=way)
         return Renamed(report, workspace.files)
     layouts = list(_layouts(spans, new))
-    _check_tests(paths, found.path[-1], report)
+    _check_tests(paths, found, namesakes, report)
+    _check_style(workspace, spans, new, report)
     if not dry_run and not write(layouts, report):
         return Renamed(report, workspace.files)
     return Renamed(report, workspace.files, layouts, len(spans))
@@ -89,20 +92,35 @@ def _layouts(spans: Sequence[Span], new: str) -> Iterator[Layout]:
         yield rewritten(str(path), path.read_bytes(), made)
 
 
-def _check_tests(paths: Sequence[Path], old: str, report: Diagnostics) -> None:
+def _namesakes(workspace: Workspace, found: Named) -> list[Named]:
+    """What else has the same name, and keeps it."""
+    every = all_named(workspace)
+    return [each for each in every if each.path[-1] == found.path[-1] and each.place != found.place]
+
+
+def _check_style(workspace: Workspace, spans: list[Span], new: str, report: Diagnostics) -> None:
+    """Report a new name that is not written as others of its kind."""
+    known = {each.message for each in workspace.report}
+    with workspace.supposing(replaced(spans, new)):
+        found = [each for each in workspace.report if each.name == "naming-style"]
+    report.include(each for each in found if each.message not in known)
+
+
+def _check_tests(
+    paths: Sequence[Path], found: Named, namesakes: Sequence[Named], report: Diagnostics
+) -> None:
     """Point to where tests and scenarios of the project still have the old name."""
+    old = found.path[-1]
+    way = "change it there too, if it means what is called otherwise now"
+    if namesakes:
+        way += f": {namesakes[0]} keeps this name"
     project = find_file(paths[0] if paths else Path())
     folders = [project.parent] if project is not None else [*paths] or [Path()]
     word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(old)}(?![A-Za-z0-9_])")
     for folder in folders:
         for path in files_below(folder, ".toml"):
             source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
-            place = _first(source, word) if source is not None else None
-            if place is not None:
-                way = "change it there too, if it means what is called otherwise now"
-                report.report("still-named", place, name=old, help=way)
-
-
-def _first(source: Source, word: re.Pattern[str]) -> Span | None:
-    found = word.search(source.text)
-    return Span(source, found.start(), found.end()) if found is not None else None
+            if source is None:
+                continue
+            for each in word.finditer(source.text):
+                report.report("still-named", Span(source, *each.span()), name=old, help=way)

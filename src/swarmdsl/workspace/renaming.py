@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Mapping
 from pathlib import Path
 
 from swarmdsl.diagnostics import Severity
@@ -66,9 +65,7 @@ def _objection(workspace: Workspace, found: Occurrence, spans: list[Span], name:
     """The mistake that a name would make; None where it means the same everywhere."""
     other = f"`{name}` would be taken for something else, or something for it"
     before = _errors(workspace)
-    texts = _texts(spans)
-    tried = {path: _replaced(text, spans, path, name) for path, text in texts.items()}
-    with workspace.supposing(tried):
+    with workspace.supposing(replaced(spans, name)):
         new = _errors(workspace) - before
         if new:
             known = {each.code: each.message for each in reversed(list(workspace.report))}
@@ -89,8 +86,10 @@ def _errors(workspace: Workspace) -> Counter[str]:
     return Counter(each.code for each in report if each.severity is Severity.ERROR)
 
 
-def _texts(spans: list[Span]) -> Mapping[Path, str]:
-    return {span.source.path: span.source.text for span in spans if span.source.path is not None}
+def replaced(spans: list[Span], name: str) -> dict[Path, str]:
+    """The texts of files with a name at some places of them."""
+    texts = {span.source.path: span.source.text for span in spans if span.source.path is not None}
+    return {path: _replaced(text, spans, path, name) for path, text in texts.items()}
 
 
 def _replaced(text: str, spans: list[Span], path: Path, name: str) -> str:
