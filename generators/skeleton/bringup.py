@@ -68,7 +68,10 @@ class Bringup:
 
 
 def bringup(system: System, made: Packages, report: Diagnostics) -> Bringup | None:
-    """The package for nodes that are written; None where no member has one of them as a part."""
+    """The package for nodes that are written; None where no member has a part with a node.
+
+    It is there even for none of them, as launch files of behaviours start it with theirs.
+    """
     written = {node.model: node for node, _ in made.nodes if node.kind == "component"}
     components = {component.name: component for component in system.components}
     robots = []
@@ -85,7 +88,7 @@ def bringup(system: System, made: Packages, report: Diagnostics) -> Bringup | No
         )
         doc = tuple(comment_lines(member.doc)) or (f"The components of one {member.name}.",)
         robots.append(Robot(snake_case(member.name), member.name, started, doc, member.origin))
-    if not any(robot.nodes for robot in robots):
+    if not robots:
         return None
     name = bringup_package(system)
     packages = {package.name: package.interfaces[0].origin for package in made.interfaces}

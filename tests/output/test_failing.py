@@ -7,9 +7,11 @@ from threading import Thread
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import NAME
-from swarmdsl.output import texts, write
+from swarmdsl.output import How, texts, write
 from swarmdsl.output.lock import locked
+from swarmdsl.output.opening import opened
 
 from .builds import everything, files, write_ok
 
@@ -80,3 +82,24 @@ def test_one_build_waits_for_another(tmp_path):
         assert done == []
     other.join()
     assert [each.written for each in done] == [("t/a",)]
+
+
+def test_the_first_build_is_waited_for_too(tmp_path):
+    out, done = tmp_path / "new/out", []
+    with opened(out, How(), Diagnostics()) as plan:
+        assert plan is not None
+        other = Thread(target=lambda: done.append(write_ok(files(a="2"), out)))
+        other.start()
+        other.join(0.2)
+        assert done == []
+        (out / "mine").touch()
+    other.join()
+    assert [each.written for each in done] == [("t/a",)]
+
+
+def test_a_folder_to_which_nothing_is_written_is_not_made(tmp_path):
+    report = Diagnostics()
+    too_long = {"t": [OutputFile("a" * 300, "1")]}
+    assert write(too_long, tmp_path / "new/out", report) is None
+    assert all(found.help for found in report)
+    assert everything(tmp_path) == {}

@@ -10,12 +10,15 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl import output
 from swarmdsl.diagnostics import Diagnostic, Diagnostics
 from swarmdsl.fitting_code import fits
 from swarmdsl.generator import OutputFile
 from swarmdsl.output import How, journal, write
+from swarmdsl.output.carry_out import carry_out
 from swarmdsl.output.clean import clean
 from swarmdsl.output.disk import Disk
+from swarmdsl.output.plan import Plan
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="copies in a process of its own")
 
@@ -242,6 +245,86 @@ def test_a_journal_is_not_written_through_a_link(tmp_path: Path) -> None:
     assert build(out, BEFORE) == []
     assert not (tmp_path / "elsewhere").exists()
     assert not (out / journal.NAME).is_symlink()
+
+
+@pytest.fixture
+def half_way(kills: list[Path], tmp_path: Path) -> Path:
+    """A build that is killed when the first files were moved."""
+    first = next(state for state in kills if (state / "t/climb/climb.py").exists())
+    return shutil.copytree(first, tmp_path / "half_way")
+
+
+def test_a_moved_file_that_is_deleted_after_a_kill_is_no_obstacle(tmp_path: Path) -> None:
+    """It took the place of one that was generated under the new name before."""
+    out = edited(tmp_path / "out")
+    build(out, AFTER)
+    states = killed(out, tmp_path / "kills", *AFTER, renames=RENAMES)
+    parked = ".parked/t/rise/rise.py"
+    moved = [state for state in states if MINE in (state / "t/climb/climb.py").read_text()]
+    state = next(state for state in moved if (state / parked).exists())
+    (state / "t/climb/climb.py").unlink()
+    assert "cannot-write" not in {each.name for each in build(state, AFTER)}
+    assert not (state / journal.NAME).exists()
+    assert MINE in (state / parked).read_text()
+
+
+def test_what_stands_in_the_way_of_the_rest_is_told(half_way: Path) -> None:
+    obstacle = half_way / "t/deep/er/one"
+    obstacle.unlink(missing_ok=True)
+    obstacle.mkdir(parents=True)
+    for _ in range(2):
+        (found,) = build(half_way, AFTER)
+        assert found.name == "cannot-write"
+        assert str(obstacle) in found.message
+    obstacle.rmdir()
+    build(half_way, AFTER)
+    assert obstacle.read_text() == "1"
+
+
+def test_a_folder_in_place_of_the_journal_is_told(tmp_path: Path) -> None:
+    (tmp_path / journal.NAME).mkdir()
+    (found,) = build(tmp_path, BEFORE)
+    assert (found.name, bool(found.help)) == ("cannot-write", True)
+
+
+def test_the_rest_waits_for_a_list_that_can_be_read(half_way: Path) -> None:
+    place = half_way / ".swarmdsl.json"
+    listed = place.read_bytes()
+    place.write_bytes(b"<<<<<<< mine\n" + listed)
+    before = tree(half_way)
+    (found,) = build(half_way, AFTER)
+    assert found.name == "unreadable-list"
+    assert tree(half_way) == before
+    place.write_bytes(listed)
+    assert "unreadable-list" not in {each.name for each in build(half_way, AFTER)}
+    assert not (half_way / journal.NAME).exists()
+
+
+@pytest.mark.parametrize("path", ["t/land/base.py", "t/rise/notes", "t/climb/list.txt"])
+def test_what_is_saved_while_a_build_decides_stays(
+    tmp_path: Path, path: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Be it a file that changes, one that moves or one in the place for another."""
+    out = edited(tmp_path)
+
+    def save_first(plan: Plan) -> None:
+        place = out / path
+        place.parent.mkdir(parents=True, exist_ok=True)
+        with place.open("a", encoding="utf-8") as file:
+            file.write(f"{MINE}, saved\n")
+        carry_out(plan)
+
+    monkeypatch.setattr(output, "carry_out", save_first)
+    found = [
+        each.message for each in build(out, AFTER, renames=RENAMES) if each.name == "cannot-write"
+    ]
+    assert f"{MINE}, saved" in lines(out)
+    assert len(lines(out)) == 8
+    told = path != "t/rise/notes"  # which is there under both names
+    assert len(found) == told
+    monkeypatch.undo()
+    build(out, AFTER)
+    assert len(lines(out)) == 8
 
 
 @pytest.mark.parametrize("path", ["../victim", "t/link/victim", "/victim", None])

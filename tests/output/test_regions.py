@@ -136,6 +136,13 @@ def test_a_region_that_is_gone_is_not_lost(out: Path) -> None:
     assert build(without, out)[1] == []
 
 
+def test_force_does_not_take_what_is_in_a_region_that_is_gone(out: Path) -> None:
+    without = FIRST.replace("# swarmc:begin m.a\n# swarmc:end m.a\n", "")
+
+    assert "in `OUT/t/f`, no region `m.a` is generated" in build(without, out, force=True)[1]
+    assert "\nmine\n" in (out / "t/f").read_text()
+
+
 def test_regions_in_a_file_with_other_line_ends(out: Path) -> None:
     of_user = (out / "t/f").read_bytes().replace(b"\n", b"\r\n")
     (out / "t/f").write_bytes(of_user)

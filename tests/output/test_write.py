@@ -148,6 +148,13 @@ def test_two_models_in_one_folder_are_told_when_they_take_turns(tmp_path):
     assert len(report) == 0
 
 
+def test_a_clean_leaves_nothing_where_files_were_deleted_before(tmp_path):
+    write_ok(files(a="1", b="1"), tmp_path)
+    (tmp_path / "t/a").unlink()
+    clean(tmp_path, (), Diagnostics(), dry=False)
+    assert everything(tmp_path).keys() <= {"t"}
+
+
 def test_a_target_that_makes_nothing_any_more_leaves_nothing(tmp_path):
     write_ok(files(a="1"), tmp_path)
     assert write_ok({"t": []}, tmp_path).removed == ("t/a",)

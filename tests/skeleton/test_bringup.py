@@ -72,9 +72,18 @@ def test_only_what_is_written_is_started(emit: Emit) -> None:
     root = etree.fromstring(files["lab_bringup/launch/uav.launch"].text.encode())
     assert [node.get("name") for node in root.iter("node")] == ["left", "right"]
 
-    files, complaints = emit('function beep : swarm { service "beep" : std_srvs/Empty }')
+    function = 'function beep : swarm { service "beep" : std_srvs/Empty }'
+    files, complaints = emit(function)
     assert complaints == []
     assert not any("bringup" in path for path in files)
+
+    # Launch files of behaviours start the package, whatever is in it.
+    for ros in ("1", "2"):
+        model = f"{MODEL.read_text(encoding='utf-8')}\n{function}\n"
+        files, complaints = emit(model, only="beep", ros=ros)
+        assert complaints == []
+        assert "camera/package.xml" not in files
+    assert "PARTS = [\n]" in files["lab_bringup/launch/uav.launch.py"].text
 
 
 TIED = """
@@ -184,6 +193,10 @@ def test_launch_files_for_ros2(
         if name == "right":
             assert read[0] == {"/**": {"ros__parameters": {"rate": 1.0}}}
             assert read[1]["/**/right"] == {"ros__parameters": {"rate": 4.0}}
+    # A file that is asked for and is not there is for ROS to tell of.
+    path = packages["lab_bringup"] / "launch" / "uav.launch.py"
+    for node in launching.launch(path, packages, monkeypatch.setitem, params_file="/no.yaml"):
+        assert node["parameters"][-1] == "/no.yaml"
     # The behaviour of a part hears what the part hears.
     assert nodes["/search/uav_0", "memory_behavior"]["remappings"] == REMAPS["memory"]
     assert nodes["/search/uav_0", "fly"]["remappings"] is None

@@ -6,8 +6,8 @@ away goes when all else is there.
 
 from __future__ import annotations
 
-import os
 from contextlib import ExitStack
+from pathlib import Path
 
 from swarmdsl import manifest
 from swarmdsl.output import journal, texts
@@ -15,11 +15,14 @@ from swarmdsl.output.changes import Action, Change, Renames
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.journal import Journal, Step, fingerprint
 from swarmdsl.output.plan import Plan
+from swarmdsl.output.remarks import report_changed_meanwhile
 from swarmdsl.staging import Staging
 
 
 def carry_out(plan: Plan) -> None:
     """Change the files; OSError when that fails, its `filename` is the file.
+
+    A file that somebody has changed since it was decided about stays so, and is reported.
 
     One that fails when files are changed already is as good as one that is interrupted.
     """
@@ -27,11 +30,11 @@ def carry_out(plan: Plan) -> None:
         return
     disk = plan.disk
     packed, listed = _texts(plan), manifest.to_bytes(plan.manifest)
-    arriving = [Change(Action.CHANGE, texts.NAME, None, packed)] if packed is not None else []
-    arriving += [*plan.changes, Change(Action.CHANGE, manifest.NAME, None, listed)]
+    arriving = [_own(disk, texts.NAME, packed)] if packed is not None else []
+    arriving += [*plan.changes, _own(disk, manifest.NAME, listed)]
     with ExitStack() as until_all_is_staged:
         staging = until_all_is_staged.enter_context(Staging())
-        steps = [_step(disk, change, staging) for change in arriving]
+        steps = [_step(disk.out, change, staging) for change in arriving]
         to_do = Journal(tuple(steps[:-1]), steps[-1], plan.how.renames)
         staging.make_folder(disk.out)
         until_all_is_staged.callback(disk.remove, journal.NAME)
@@ -41,7 +44,10 @@ def carry_out(plan: Plan) -> None:
                 place = disk.out / change.path
                 staging.add(place, change.after, change.executable, change.mode)
         until_all_is_staged.pop_all()
-    journal.complete(disk, to_do)
+    left = journal.complete(disk, to_do)
+    plan.changes = [change for change in plan.changes if change.path not in left]
+    for path in left:
+        report_changed_meanwhile(disk.out / path, plan.report)
 
 
 def resume(disk: Disk) -> Renames:
@@ -51,8 +57,7 @@ def resume(disk: Disk) -> Renames:
     """
     found = journal.read(disk)
     if found is None:
-        if os.path.lexists(disk.out / journal.NAME):  # a link that leads nowhere is one too
-            disk.remove(journal.NAME)
+        disk.remove(journal.NAME)
         return ()
     if journal.is_to_be_completed(disk, found):
         journal.complete(disk, found)
@@ -68,15 +73,21 @@ def _is_anything_to_do(plan: Plan) -> bool:
     return bool(plan.changes or plan.manifest != plan.before or (listed and not stored))
 
 
-def _step(disk: Disk, change: Change, staging: Staging) -> Step:
-    """What is done to make a change, with the files as they are now."""
-    before = fingerprint(disk.content(change.path))
+def _own(disk: Disk, path: str, content: bytes) -> Change:
+    """A file of swarmc's own that gets another content."""
+    return Change(Action.CHANGE, path, disk.content(path), content)
+
+
+def _step(out: Path, change: Change, staging: Staging) -> Step:
+    """What is done to make a change, with the files as they were when it was decided."""
+    before = fingerprint(change.before)
     if change.after is None:
         return Step(change.path, before)
-    staged = staging.beside(disk.out / change.path).relative_to(disk.out).as_posix()
-    source = disk.content(change.source) if change.source is not None else None
+    staged = staging.beside(out / change.path).relative_to(out).as_posix()
     after = fingerprint(change.after)
-    return Step(change.path, before, after, staged, change.source, fingerprint(source))
+    if change.source is None:
+        return Step(change.path, before, after, staged)
+    return Step(change.path, fingerprint(change.replaced), after, staged, change.source, before)
 
 
 def _texts(plan: Plan) -> bytes | None:

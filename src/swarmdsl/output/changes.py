@@ -36,7 +36,8 @@ class Change:
     """A file that changes: its content before and after, None where there is none.
 
     Paths are below the output folder. `source` is where the file was, if that is another place;
-    it is gone then. `mode` are the permissions of such a file.
+    it is gone then. `mode` are the permissions of such a file, and `replaced` is what is in its
+    new place until then.
     """
 
     action: Action
@@ -46,6 +47,7 @@ class Change:
     source: str | None = None
     executable: bool = False
     mode: int | None = None
+    replaced: bytes | None = None
 
     @property
     def target(self) -> str:

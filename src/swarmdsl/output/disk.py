@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from collections.abc import Iterator
@@ -10,6 +11,17 @@ from pathlib import Path
 from swarmdsl.diagnostics import Diagnostics
 
 _CACHES = ("__pycache__",)
+
+_RIGHTS = "give yourself the right to, or build into another folder with `-o`"
+_WAYS_OUT = {
+    errno.EACCES: _RIGHTS,
+    errno.EPERM: _RIGHTS,
+    errno.EROFS: _RIGHTS,
+    errno.ENOSPC: "make room on the disk, and build again",
+    errno.EDQUOT: "make room on the disk, and build again",
+    errno.EIO: "see to the disk, and build again",
+    errno.ENAMETOOLONG: "give the element of the model a shorter name",
+}
 
 
 class UnreadableError(OSError):
@@ -113,7 +125,11 @@ def report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:
     """Report what the system says about a file."""
     reason = error.strerror or str(error) or type(error).__name__
     name = "unreadable-file" if isinstance(error, UnreadableError) else "cannot-write"
-    report.report(name, path=error.filename or str(path), reason=reason[0].lower() + reason[1:])
+    help_ = _WAYS_OUT.get(error.errno or 0)
+    if help_ is None:
+        help_ = "move away what stands there, or build into another folder with `-o`"
+    place = error.filename or str(path)
+    report.report(name, path=place, reason=reason[0].lower() + reason[1:], help=help_)
 
 
 def _unreadable(error: OSError) -> UnreadableError:

@@ -1,4 +1,4 @@
-"""Changes of many files that are made all or not at all, whatever interrupts a build.
+"""Changes of many files that are made all or not at all, whatever ends the process of a build.
 
 It is a redo log, as databases have them. What is to be done is written down first; then the new
 contents are staged beside the places that they are for, that of the list of files as the last.
@@ -102,10 +102,11 @@ def is_done(disk: Disk, journal: Journal) -> bool:
     return before != after and fingerprint(disk.content(journal.listed.path)) == after
 
 
-def complete(disk: Disk, journal: Journal) -> None:
+def complete(disk: Disk, journal: Journal) -> list[str]:
     """Make the changes that are not made yet.
 
-    A file that somebody has changed since then stays, and counts as what it was before.
+    A file that somebody has changed since then stays, and counts as what it was before: these are
+    returned.
     """
     left = [step for step in journal.steps if not _arrive(disk, step)]
     for step in journal.steps:
@@ -116,6 +117,7 @@ def complete(disk: Disk, journal: Journal) -> None:
     else:
         _arrive(disk, journal.listed)
     discard(disk, journal)
+    return [step.path for step in left]
 
 
 def discard(disk: Disk, journal: Journal) -> None:
@@ -155,7 +157,8 @@ def _clear(disk: Disk, step: Step) -> None:
     gone, was = (step.path, step.before) if step.staged is None else (step.source, step.of_source)
     if gone is None or fingerprint(disk.content(gone)) != was:
         return
-    if gone == step.path or not disk.same(gone, step.path):
+    arrived = gone != step.path and disk.content(step.path) is not None
+    if gone == step.path or (arrived and not disk.same(gone, step.path)):
         disk.remove(gone)
 
 

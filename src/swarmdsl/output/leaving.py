@@ -39,6 +39,7 @@ def remove_generated(plan: Plan, targets: Collection[str]) -> None:
 def _remove(plan: Plan, path: str, hash_: str) -> None:
     content = plan.disk.content(path)
     if content is None:
+        del plan.hashes[path]
         return
     if plan.disk.is_link(path) or not plan.is_pristine(path, content, hash_):
         plan.edited.append(path)
@@ -90,7 +91,8 @@ def _park(plan: Plan, path: str, content: bytes, old: str) -> None:
     if not plan.is_inside(aside):
         return
     plan.parked[aside.removeprefix(f"{PARKED}/")] = old
-    mode = plan.disk.mode(path)
-    plan.changes.append(Change(Action.PARK, aside, content, content, path, mode=mode))
+    mode, replaced = plan.disk.mode(path), plan.disk.content(aside)
+    change = Change(Action.PARK, aside, content, content, path, mode=mode, replaced=replaced)
+    plan.changes.append(change)
     out = plan.disk.out
     remarks.report_parked(out / path, out / aside, plan.remarks)

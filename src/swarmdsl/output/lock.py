@@ -13,8 +13,8 @@ from pathlib import Path
 def locked(folder: Path) -> Iterator[None]:
     """Wait until no other build writes to a folder, and let none begin meanwhile.
 
-    The system ends the lock with the process, however that ends. Where it has no such locks, or
-    the folder is not there yet, nothing is locked.
+    The system ends the lock with the process, however that ends. Where it has no such locks, as
+    Windows, or there is no folder, nothing is locked.
     """
     handle = _locked(folder)
     try:

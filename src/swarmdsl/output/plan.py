@@ -86,15 +86,21 @@ class Plan:
         source: str | None = None,
     ) -> None:
         """Write a text of the generator, with what is the user's in it."""
-        self.changes.append(Change(action, path, before, after, source, file.executable))
+        replaced = None
+        if source is not None:
+            before, replaced = self.disk.content(source), self.disk.content(path)
+        change = Change(action, path, before, after, source, file.executable, replaced=replaced)
+        self.changes.append(change)
 
     def bring(self, path: str, found: Found, content: bytes) -> None:
         """Put a file in its place that is in another one."""
         assert found.source is not None
         action = Action.RESTORE if found.names is None else Action.MOVE
         mode = self.disk.mode(found.source)
-        before = self.disk.content(found.source)
-        self.changes.append(Change(action, path, before, content, found.source, mode=mode))
+        before, replaced = self.disk.content(found.source), self.disk.content(path)
+        self.changes.append(
+            Change(action, path, before, content, found.source, False, mode, replaced)
+        )
 
     def add_neighbour(self, path: str, content: bytes) -> None:
         """Write a file beside another one, if the user has not written in it."""

@@ -178,6 +178,12 @@ def changed_below(
     return text.encode()
 
 
+def report_changed_meanwhile(place: Path, report: Diagnostics) -> None:
+    """A file that the user has changed while the build decided what to do with it."""
+    reason, help_ = "it was changed while swarmc was at work", "build again: it is as you left it"
+    report.report("cannot-write", path=str(place), reason=reason, help=help_)
+
+
 def _write_mark(content: bytes, marks: tuple[str, str]) -> str:
     """What says that a file is adapted; its mark may have been deleted."""
     if mark_in(content) is None:

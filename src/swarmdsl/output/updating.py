@@ -31,11 +31,13 @@ def update(plan: Plan, path: str, file: OutputFile) -> None:
         found = _found(plan, path)
     except UnicodeEncodeError:
         reason = "it has characters that are not Unicode"
-        plan.report.report("cannot-write", path=str(plan.disk.out / path), reason=reason)
+        place, help_ = str(plan.disk.out / path), "it is the generator's to write what is Unicode"
+        plan.report.report("cannot-write", path=place, reason=reason, help=help_)
     except NotADirectoryError:
         reason = "it is a file where a folder is needed"
         obstacle = str(plan.disk.obstacle(path))
-        plan.report.report("cannot-write", path=obstacle, reason=reason)
+        help_ = "move it away, or build into another folder with `-o`"
+        plan.report.report("cannot-write", path=obstacle, reason=reason, help=help_)
     else:
         plan.hashes[path] = plan.texts.add(file.text)
         plan.maps[path] = plan.positions.file_map(file)
@@ -87,7 +89,7 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
         _settle(plan, path, file, found, filled)
         return
     is_foreign = found.base is None and found.source is None
-    is_damaged = not is_foreign and regions.fault(found.content) is not None
+    is_damaged = not is_foreign and (bool(lost) or regions.fault(found.content) is not None)
     if plan.how.force and not is_damaged:
         plan.change(Action.OVERWRITE, path, found.content, filled, file, found.source)
     elif is_foreign:
