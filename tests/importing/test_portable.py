@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
@@ -211,9 +212,12 @@ def _plain(machine: StateMachine) -> StateMachine:
 
 
 def _in_text(node: Any, words: Dialect) -> Any:
-    """The same with expressions as a document has them: a duration is a number there."""
+    """The same with expressions as a document has them: a duration is a number there.
+
+    ECMAScript has one type of numbers: `1.0` is `1`.
+    """
     if isinstance(node, Expression):
-        return translate(node, words)
+        return re.sub(r"(?<![\w.])(\d+)\.0(?![\w.])", r"\1", translate(node, words))
     if isinstance(node, tuple):
         return tuple(_in_text(each, words) for each in node)
     if not is_dataclass(node) or isinstance(node, type):
