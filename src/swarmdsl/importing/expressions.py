@@ -202,18 +202,22 @@ class _Reading:
 
     def _arithmetic(self, operator: str, left: Any, right: Any, wanted: Type | None) -> Expression:
         open_ = wanted in (None, BOOL)
+        is_number = not open_ and wanted != DURATION
         plain = INT if open_ else wanted
         first, second = self.types.of(left), self.types.of(right)
         if operator in ("+", "-"):
             hint = self.types.common(left, right) if open_ else wanted
             values = [self.expression(each, hint or plain) for each in (left, right)]
-        elif DURATION in (first, second) or wanted == DURATION:
+        elif wanted == DURATION or (
+            # A number is no product of a duration, but a duration divided by one may be a factor.
+            DURATION in (first, second) and not (operator == "*" and is_number)
+        ):
             # A duration times a number, or divided by one; of two numbers, the first is meant.
             is_second = first != DURATION and (
                 second == DURATION
                 or (left.data != "number" and operator == "*" and not _is_too_long(right))
             )
-            both = operator == "/" and (second == DURATION or wanted not in (None, BOOL, DURATION))
+            both = operator == "/" and (second == DURATION or is_number)
             values = [
                 self.expression(left, DURATION if both or not is_second else INT),
                 self.expression(right, DURATION if is_second or both else INT),
