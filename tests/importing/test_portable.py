@@ -301,7 +301,14 @@ def test_whatever_a_system_is_made_of(tmp_path: Path, system: System) -> None:
 
 @pytest.mark.parametrize(
     ("text", "length"),
-    [("n * 5", 5), ("5 * n", 5), ("n * 5 * -1.1e285", 5), ("n * 0x10", 16), ("5 * 1e300", 5)],
+    [
+        ("n * 5", 5),
+        ("5 * n", 5),
+        ("n * 5 * -1.1e285", 5),
+        ("n * 0x10", 16),
+        ("5 * 1e300", 5),
+        ("10 / 2 * Math.sqrt(n)", 10),
+    ],
 )
 def test_which_number_is_a_length_of_time(text: str, length: int) -> None:
     """One that no duration has is a number."""

@@ -215,7 +215,11 @@ class _Reading:
             # A duration times a number, or divided by one; of two numbers, the first is meant.
             is_second = first != DURATION and (
                 second == DURATION
-                or (left.data != "number" and operator == "*" and not _is_too_long(right))
+                or (
+                    left.data != "number"
+                    and operator == "*"
+                    and not (_is_too_long(right) or _is_root(right))
+                )
             )
             both = operator == "/" and (second == DURATION or is_number)
             values = [
@@ -252,6 +256,16 @@ class _Reading:
         if inner is not None:
             return self.expression(inner, wanted)
         raise UnsayableError("only some functions of `Math` can be called")
+
+
+def _is_root(tree: Any) -> bool:
+    """Whether it is a square root, which is no length of time."""
+    if tree.data != "call":
+        return False
+    callee, *arguments = tree.children
+    if callee.data == "member" and is_name(callee.children[0], "Math"):
+        return str(callee.children[1]) == "sqrt"
+    return operator_of(callee, arguments) == "sqrt"
 
 
 def _is_too_long(tree: Any) -> bool:
