@@ -54,6 +54,12 @@ def _topics(ports: str, connectors: str) -> dict[str, str]:
         # Also from one that is not connected, and that keeps its topic.
         ("a.out b.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
         ("out a.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
+        # What this makes is no topic of others, neither.
+        (
+            "a.out b.out=a/out c.in d.out",
+            "a.out->c.in",
+            {"a.out": "a/out_2", "c.in": "a/out_2"},
+        ),
         # Topics that are given are not changed.
         (
             "a.out=x b.out=x c.in c.other",

@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.dataclass import dataclass
+from swarmdsl.naming import fresh
 
 Pin = tuple[str | None, str]
 """A part (None: the member itself) and the name of a port of it."""
@@ -40,7 +41,8 @@ def nets(ports: Mapping[Pin, PortTopic], connectors: Iterable[tuple[Pin, Pin]]) 
 
     The topic is that of the member's port in the net; else one that is given, that of a sender
     first; else that of the sender. Where the sender's is only its name, and other ports of the
-    member are on a topic of that name, it is `<part>/<name>`, so that data do not mix.
+    member are on a topic of that name, it is `<part>/<name>`, with a number behind it where that
+    is a topic, too, so that data do not mix.
     """
     joined = list(_joined(ports, connectors))
     found = [(pins, *_topic(pins, ports)) for pins in joined]
@@ -50,8 +52,10 @@ def nets(ports: Mapping[Pin, PortTopic], connectors: Iterable[tuple[Pin, Pin]]) 
     made = []
     for pins, chosen, given in found:
         topic = ports[chosen].topic
-        apart = not given and taken[topic] > 1
-        made.append(Net(pins, f"{chosen[0]}/{topic}" if apart else topic))
+        if not given and taken[topic] > 1:
+            topic = fresh(f"{chosen[0]}/{topic}", taken.keys())
+            taken[topic] += 1
+        made.append(Net(pins, topic))
     return made
 
 
