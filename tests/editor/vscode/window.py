@@ -12,7 +12,7 @@ import signal
 import socket
 import subprocess
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -91,11 +91,18 @@ class Window:
 
     def choose_file(self, path: Path) -> None:
         """Name a file in a dialog that asks for one."""
-        # At first it names a folder.
-        expect(self._entry).to_have_value(re.compile("^/"))
+        # What is written before it has listed the folder that it begins in is replaced by that one;
+        # an Enter before it has listed that of the file counts for whatever it lists.
+        self._lists([".."])
         self._entry.fill(str(path))
+        self._lists([each.name for each in path.parent.iterdir()])
         self._entry.press("Enter")
         expect(self._asked).to_have_count(0)
+
+    def _lists(self, names: Sequence[str]) -> None:
+        """Wait until a dialog that asks for a file lists one of these names."""
+        name = re.compile(f"^({'|'.join(map(re.escape, names))})/?$")
+        expect(self._asked.locator(".monaco-list-row").get_by_text(name).first).to_be_visible()
 
     def leave(self) -> None:
         """Close what asks for something, and all files; there are no changes to save."""
