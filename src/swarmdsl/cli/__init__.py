@@ -47,6 +47,8 @@ COMMANDS = (
 )
 # Those whose options are plain data: a command line in the plainest form is read without Click.
 PLAIN = ("build", "check")
+# As editors start the server.
+_SERVER = (["lsp"], ["lsp", "--stdio"])
 
 
 def main() -> None:
@@ -105,6 +107,10 @@ def run(arguments: Sequence[str]) -> int:
 
 def _run_plainly(arguments: Sequence[str]) -> int | None:
     """Run a command that needs no Click; None where it is needed, for help or for complaints."""
+    if list(arguments) in _SERVER:
+        from swarmdsl.server.start import serve_on_standard_streams
+
+        return serve_on_standard_streams()
     if not arguments or arguments[0] not in PLAIN:
         return None
     from swarmdsl.cli.parameters import read

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import signal
 import socket
-from typing import BinaryIO, cast
 
 import click
 
@@ -28,24 +26,12 @@ def lsp(stdio: bool, port: int | None) -> int:
     """Serve editors: the Language Server Protocol."""
     if stdio and port is not None:
         raise click.UsageError("`--stdio` and `--tcp` exclude each other")
-    from swarmdsl.server.service import serve
+    from swarmdsl.server.start import serve, serve_on_standard_streams
 
-    if hasattr(signal, "SIGPIPE"):
-        # An editor that is gone is noticed where something is written.
-        signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     if port is None:
-        return serve(_taken(0, "rb"), _taken(1, "wb"))
+        return serve_on_standard_streams()
     with _connected(port) as connection:
         return serve(connection.makefile("rb"), connection.makefile("wb"))
-
-
-def _taken(descriptor: int, mode: str) -> BinaryIO:
-    """A standard stream; what is printed by mistake does not get into it."""
-    stream = os.fdopen(os.dup(descriptor), mode)
-    null = os.open(os.devnull, os.O_RDWR)
-    os.dup2(null, descriptor)
-    os.close(null)
-    return cast(BinaryIO, stream)
 
 
 def _connected(port: int) -> socket.socket:
