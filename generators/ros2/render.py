@@ -7,8 +7,6 @@ from functools import cache
 from pathlib import Path
 from textwrap import wrap
 
-from jinja2 import Environment
-
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
@@ -16,7 +14,7 @@ from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.ros_package import manifest
 from swarmdsl.source_map import MappedText
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from .engine import engine_source
 from .imports import WIDTH
@@ -147,11 +145,9 @@ _MOST_FILES = 100
 
 
 def _fill(template: str, **values: object) -> MappedText:
-    return fill(_environment().get_template(f"{template}.j2"), **values)
+    return _templates().fill(f"{template}.j2", **values)
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parent / "templates")
-    made.filters["repr"] = repr
-    return made
+def _templates() -> Templates:
+    return Templates(Path(__file__).parent / "templates")

@@ -8,8 +8,6 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from jinja2 import Environment
-
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.xml import legal
@@ -19,7 +17,7 @@ from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from .bringup import bringup
 from .bringup_files import bringup_files
@@ -249,13 +247,14 @@ def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:
 
 
 def _fill(template: str, **values: object) -> str:
-    return fill(_environment().get_template(f"{template}.j2"), **values)
+    return _templates().fill(f"{template}.j2", **values)
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parent / "templates")
-    made.filters["repr"] = repr
-    made.filters["docstring"] = docstring
-    made.filters["xml_comment"] = lambda text: re.sub("-(?=-)", "- ", legal(text))
-    return made
+def _templates() -> Templates:
+    folder = Path(__file__).parent / "templates"
+    return Templates(folder, docstring=docstring, xml_comment=_xml_comment)
+
+
+def _xml_comment(text: str) -> str:
+    return re.sub("-(?=-)", "- ", legal(text))

@@ -6,8 +6,6 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from jinja2 import Environment
-
 import swarmdsl
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile, fits
@@ -16,7 +14,7 @@ from swarmdsl.interface_packages import InterfacePackage, definitions
 from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from .launch_files import launch_files
 from .module import TARGET
@@ -98,11 +96,9 @@ def _engine(folder: str, header: str) -> Iterator[OutputFile]:
 
 
 def _fill(template: str, **values: object) -> str:
-    return fill(_environment().get_template(f"{template}.j2"), **values)
+    return _templates().fill(f"{template}.j2", **values)
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parent / "templates")
-    made.filters["repr"] = repr
-    return made
+def _templates() -> Templates:
+    return Templates(Path(__file__).parent / "templates")

@@ -7,14 +7,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment
-
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 from swarmdsl.source import Span
 from swarmdsl.source_map import MappedText
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from ..ros2 import render as ros2
 from ..ros2.imports import Imports
@@ -107,11 +105,9 @@ def _module(fsm: FsmView, machine: MachineView, package: PackageView, legal: str
 
 
 def _fill(template: str, **values: object) -> MappedText:
-    return fill(_environment().get_template(f"{template}.j2"), **values)
+    return _templates().fill(f"{template}.j2", **values)
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parent / "templates")
-    made.filters["repr"] = repr
-    return made
+def _templates() -> Templates:
+    return Templates(Path(__file__).parent / "templates")

@@ -13,7 +13,7 @@ from swarmdsl.map_file import FileMap, Model, Position, Positions
 from swarmdsl.python_source import comments
 from swarmdsl.source import Piece, Source, Span
 from swarmdsl.source_map import Entry, MappedText, Placed
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 MODEL = Source("lab.swarm", "package lab\n\n  param a : bool\n  param b : bool\n")
 A, B = (Span(MODEL, start, start + 7) for start in (15, 32))
@@ -21,7 +21,7 @@ A, B = (Span(MODEL, start, start + 7) for start in (15, 32))
 
 def printed(folder: Path, template: str, **values: object) -> MappedText:
     (folder / "template.j2").write_text(template, encoding="utf-8")
-    return fill(environment(folder).get_template("template.j2"), **values)
+    return Templates(folder).fill("template.j2", **values)
 
 
 def test_a_comment_holds_for_what_is_as_deep_and_deeper(tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from swarmdsl.exchange.constants import constant, params_by_name
 from swarmdsl.generator import Generator, NoOptions, OutputFile
 from swarmdsl.ir import Array, Field, Fitness, Primitive, System
 from swarmdsl.naming import snake_case
-from swarmdsl.templates import environment
+from swarmdsl.templates import Templates
 from swarmdsl.translate import Dialect, python_literal, translate
 
 _DIALECT = Dialect(
@@ -74,24 +74,21 @@ def _script(fitness: Fitness) -> str:
     known = params_by_name(fitness.params)
     value = translate(fitness.value, _DIALECT)
     small = fitness.goal == "minimize"
-    return (
-        environment(Path(__file__).parent)
-        .get_template("fitness.py.j2")
-        .render(
-            name=fitness.name,
-            comment=fitness.doc.splitlines(),
-            sense=": what is to be small has its sign changed" if small else "",
-            inputs={
-                each.name: isinstance(each.type, Primitive) and each.type.name in _TIMES
-                for each in fitness.inputs
-            },
-            params={
-                param.name: constant(param.default, known)
-                for param in fitness.params
-                if param.default is not None
-            },
-            value=f"-({value})" if small else value,
-        )
+    return Templates(Path(__file__).parent).fill(
+        "fitness.py.j2",
+        name=fitness.name,
+        comment=fitness.doc.splitlines(),
+        sense=": what is to be small has its sign changed" if small else "",
+        inputs={
+            each.name: isinstance(each.type, Primitive) and each.type.name in _TIMES
+            for each in fitness.inputs
+        },
+        params={
+            param.name: constant(param.default, known)
+            for param in fitness.params
+            if param.default is not None
+        },
+        value=f"-({value})" if small else value,
     )
 
 

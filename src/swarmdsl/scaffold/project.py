@@ -9,7 +9,7 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.format import formatted
 from swarmdsl.scaffold.plan import Plan
 from swarmdsl.source import Source
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 _FOLDER = Path(__file__).resolve().parent / "template"
 # Where each file of the template goes.
@@ -27,9 +27,9 @@ _FILES: Mapping[str, str] = {
 
 def project_files(plan: Plan) -> Iterator[tuple[str, str]]:
     """The paths of the files, from the folder of the project, and their texts."""
-    templates = environment(_FOLDER)
+    templates = Templates(_FOLDER)
     for name, place in _FILES.items():
-        text = str(fill(templates.get_template(f"{name}.jinja"), plan=plan))
+        text = str(templates.fill(f"{name}.jinja", plan=plan))
         path = place.format(package=plan.package)
         yield path, _laid_out(path, text) if path.endswith(".swarm") else text
 
