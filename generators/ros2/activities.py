@@ -57,6 +57,8 @@ def activity_of(state: State, activity: Activity, module: Module) -> Call:
         keywords.append(
             ("finalize", module.function("result", state.id, BOTH, lines, activity.origin))
         )
+    if call.paradigm == "service" and activity.judges_response:
+        keywords.append(("refused", "succeeded"))
     arguments = (activity.function, call.name, Call("outcomes", (state.id,)))
     return Call("Activity", arguments, tuple(keywords))
 

@@ -62,7 +62,10 @@ def _sent(
 
 
 def _got(state: State, activity: Activity, word: str, module: Module) -> Keywords:
-    """What becomes of the result or response; it is stored only when the call succeeded."""
+    """What becomes of the result or response; it is stored only when the call succeeded.
+
+    A model that stores field `success` of a response itself says what follows from it.
+    """
     if activity.result_callback is not None:
         status = "status, " if word == "result" else ""
         parameters = f"userdata, {status}{word}"
@@ -77,7 +80,8 @@ def _got(state: State, activity: Activity, word: str, module: Module) -> Keyword
         lines += assign(result.variable, result.path, value, 1, module)
     said = comments(activity.origin)
     name = module.add_function((state.id, word), f"userdata, {word}", lines, said)
-    return (("store", Source(name)),)
+    refused = word == "response" and activity.judges_response
+    return (("store", Source(name)), *((("refused", "succeeded"),) if refused else ()))
 
 
 def _callback(activity: Activity, name: str, parameters: str, module: Module) -> str:

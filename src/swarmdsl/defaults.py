@@ -9,6 +9,7 @@ from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir import (
     Action,
     Array,
+    Communication,
     Field,
     Interface,
     Message,
@@ -18,6 +19,7 @@ from swarmdsl.ir import (
     System,
     Type,
 )
+from swarmdsl.syntax import ActionType, ServiceType
 
 
 def default_value(type_: Type, system: System) -> Any:
@@ -64,6 +66,26 @@ def sent_types(interface: Interface | None) -> dict[str, Type]:
         case Action(goal=fields) | Service(request=fields):
             return {field.name: field.type for field in fields}
     return {}
+
+
+def result_fields(call: Communication, system: System) -> tuple[Field, ...] | None:
+    """The fields of what a function gives, its result or response; None where they are unknown."""
+    described = system.interface(call.type) or Interfaces(()).standard(call.type, ServiceType)
+    match described:
+        case Action(result=fields) | Service(response=fields):
+            return fields
+        case ActionType(result=nodes) | ServiceType(response=nodes):
+            types = [(str(node.name), node.type.type) for node in nodes]
+            return tuple(Field(name, type_) for name, type_ in types if type_ is not None)
+    return None
+
+
+def default_result(call: Communication, system: System) -> dict[str, Any]:
+    """What a function gives that has succeeded: a service may have a field that says so."""
+    found = default_fields(result_fields(call, system) or (), system)
+    if call.paradigm == "service" and found.get("success") is False:
+        found["success"] = True
+    return found
 
 
 def default_fields(fields: Iterable[Field], system: System) -> dict[str, Any]:

@@ -14,6 +14,7 @@ AUCTION = ("/sar/uav_0/cmd/task_allocation_auction", "cpswarm_msgs/action/TaskAl
 LAND = ("/sar/uav_0/cmd/land", "std_srvs/srv/Empty")
 WORK = ("/lab/work", "lab_msgs/action/Work")
 OTHER = ("/lab/other_work", "lab_msgs/action/Work")
+RING = ("/lab/ring", "std_srvs/srv/Trigger")
 ASK = ("/lab/ask", "lab_msgs/srv/Ask")
 TAKEN_OFF = "do.Mission.TakeOff.succeeded"
 
@@ -312,6 +313,30 @@ def test_a_machine_that_ends_ends_its_node(ros: Any) -> None:
 
     assert lab.node.exit_code() == 0
     assert lab.node.trace[-1]["configuration"] == ["Ended"]
+
+
+YES = {"outcome": "succeeded", "result": {"success": True}}
+NO = {"outcome": "succeeded", "result": {"success": False, "message": "no"}}
+
+
+def test_a_service_that_says_that_it_has_failed(ros: Any) -> None:
+    ros.fakes().service(*RING, NO)
+    node = ros.node("lab_behavior.bell", "/lab")
+
+    assert node.exit_code() == 0, node.log
+    assert node.trace[-1]["event"] == "do.First.aborted"
+    assert node.trace[-1]["entered"] == ["Silent"]
+    assert "ring on ring was refused: no" in node.log
+
+
+def test_a_model_that_looks_itself_whether_a_service_has_succeeded(ros: Any) -> None:
+    ros.fakes().service(*RING, YES, YES, YES, NO)
+    node = ros.node("lab_behavior.bell", "/lab")
+
+    assert node.exit_code() == 0
+    events = [line["event"] for line in node.trace[1:]]
+    assert events == [f"do.{state}.succeeded" for state in ("First", "Second") * 2]
+    assert node.trace[-1]["entered"] == ["Refused"]
 
 
 def test_time_may_be_simulated(ros: Any) -> None:

@@ -90,6 +90,58 @@ def test_outcomes_and_results(simulate: Simulate) -> None:
     assert shares == pytest.approx({"Much": 0.3, "Pause": 0.3, "Bad": 0.3, "Ugly": 0.1}, abs=0.02)
 
 
+ALARM = """
+function ring : abstraction { service "ring" : std_srvs/Trigger }
+statemachine Alarm {
+  var why  : string
+  var rung : bool
+  initial First
+  state First {
+    do ring gives (message => why)
+    on succeeded [why == ""] -> Second
+    on succeeded, aborted    -> Silent
+  }
+  state Second {
+    do ring gives (success => rung)
+    on succeeded [rung] -> Heard
+    on succeeded        -> Refused
+    on aborted          -> Silent
+  }
+  final Heard
+  final Refused
+  final Silent
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("results", "ways"),
+    [
+        ([], ["do.First.succeeded", "do.Second.succeeded", "Heard"]),
+        (["success = false"], ["do.First.aborted", "Silent"]),
+        (['message = "late"'], ["do.First.succeeded", "Silent"]),
+    ],
+)
+def test_services_say_whether_they_have_succeeded(
+    results: list[str], ways: list[str], simulate: Simulate
+) -> None:
+    tables = ", ".join(f"{{ {each} }}" for each in results)
+    ran = simulate(ALARM, scenario=f"[functions.ring]\nresults = [{tables}]")
+
+    assert [line["event"] for line in ran.trace[1:]] == ways[:-1]
+    assert ran.trace[-1]["configuration"] == ways[-1:]
+
+
+def test_a_model_may_look_itself_whether_a_service_has_succeeded(simulate: Simulate) -> None:
+    events = [
+        {"event": "do.First.succeeded"},
+        {"event": "do.Second.succeeded", "data": {"success": False}},
+    ]
+    ran = simulate(ALARM, events=events)
+
+    assert ran.trace[-1]["configuration"] == ["Refused"]
+
+
 def test_a_server_that_never_answers(simulate: Simulate) -> None:
     ran = simulate(WORK, scenario="[functions.go]\nof.rover.never = 1\n")
 

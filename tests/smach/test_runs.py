@@ -69,6 +69,53 @@ def test_initial_state_that_is_not_the_first(robot: Run) -> None:
     assert work.world.called() == ["land", "work"]
 
 
+@pytest.mark.parametrize(("success", "end"), [(True, "Good"), (False, "Bad")])
+def test_a_service_that_says_whether_it_has_succeeded(success: bool, end: str, robot: Run) -> None:
+    work = robot(
+        HEADER
+        + """
+        service m/Ring { response { success : bool  message : string } }
+        function ring : abstraction { service "ring" : m/Ring }
+        statemachine Work {
+          initial A
+          state A { do ring  on succeeded -> Good  on aborted -> Bad }
+          final Good
+          final Bad
+        }"""
+    )
+    work.start()
+    work.world.finish("ring", success=success)
+    assert work.ended() == end
+
+
+@pytest.mark.parametrize(("success", "end"), [(True, "Good"), (False, "Bad")])
+def test_a_model_that_looks_itself_whether_a_service_has_succeeded(
+    success: bool, end: str, robot: Run
+) -> None:
+    work = robot(
+        HEADER
+        + """
+        service m/Ring { response { success : bool } }
+        function ring : abstraction { service "ring" : m/Ring }
+        statemachine Work {
+          var rung : bool = true
+          initial A
+          state A {
+            do ring gives (success => rung)
+            on succeeded [rung] -> Good
+            on succeeded        -> Bad
+            on aborted          -> Gone
+          }
+          final Good
+          final Bad
+          final Gone
+        }"""
+    )
+    work.start()
+    work.world.finish("ring", success=success)
+    assert work.ended() == end
+
+
 def test_guard_and_effect_on_an_outcome(robot: Run) -> None:
     work = robot(
         HEADER

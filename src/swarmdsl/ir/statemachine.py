@@ -145,6 +145,14 @@ class Activity:
     doc: str = ""
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
 
+    @property
+    def judges_response(self) -> bool:
+        """Whether the model itself looks at field `success` of a response.
+
+        Otherwise a service that says there that it has not succeeded is aborted.
+        """
+        return any(result.field == "success" for result in self.results)
+
 
 @dataclass(frozen=True, slots=True)
 class State:

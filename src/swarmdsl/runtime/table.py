@@ -69,7 +69,8 @@ class Activity:
 
     `goal` makes the arguments when it starts. `finalize` sees the event of its success before
     any transition does: it stores the result. `events` are its outcomes and the names of the
-    events that they are.
+    events that they are. `refused` is its outcome where a service responds, in a field `success`,
+    that it has not done what was asked for.
     """
 
     name: str
@@ -77,6 +78,7 @@ class Activity:
     events: Mapping[str, str]
     goal: Callable[[Instance], Any] | None = None
     finalize: Effect | None = None
+    refused: str = "aborted"
 
 
 class State(NamedTuple):

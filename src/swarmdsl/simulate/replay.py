@@ -7,9 +7,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from swarmdsl.defaults import default_value
+from swarmdsl.defaults import default_value, result_fields
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.ir import Action, Field, Message, Service, System, Type
+from swarmdsl.ir import Field, Message, System, Type
 from swarmdsl.runtime import Event, Instance, LoopError, Run, Servers
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.clock import Clock
@@ -219,10 +219,9 @@ class _Replay:
         system = self._subject.system
         if system is None:
             return data
-        called = system.function(run.activity.name).communication.type
-        match system.interface(called):
-            case Action(result=fields) | Service(response=fields):
-                return _with_fields(fields, data, system)
+        fields = result_fields(system.function(run.activity.name).communication, system)
+        if fields is not None:
+            return _with_fields(fields, data, system)
         return data if isinstance(data, dict) else {}
 
     def _depart(self, record: _Record, wrong: str) -> None:

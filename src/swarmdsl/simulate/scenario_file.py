@@ -6,14 +6,14 @@ from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import Action, Field, Service, Type
+from swarmdsl.ir import Communication, Type
 from swarmdsl.project.toml import Document
 from swarmdsl.simulate.actors import params, words
 from swarmdsl.simulate.durations import MILLISECOND
 from swarmdsl.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Subject
-from swarmdsl.simulate.values import Way, fitted, fitted_fields
+from swarmdsl.simulate.values import Way, fitted, fitted_result
 
 _TABLES = ("seed", "until", "count", "params", "network", "functions", "messages", "faults")
 _SHARES = ("aborted", "preempted", "never")
@@ -128,7 +128,7 @@ class _Reader:
         return found
 
     def conduct(
-        self, table: Table, fields: tuple[Field, ...] | None, keys: tuple[str, ...]
+        self, table: Table, call: Communication | None, keys: tuple[str, ...]
     ) -> dict[str, Any]:
         """What is said of a function, as far as it can be understood."""
         table.check_keys(keys, "a function")
@@ -139,17 +139,17 @@ class _Reader:
             elif key in _SHARES:
                 found[key] = table.share(key)
             elif key == "results":
-                found[key] = self.results(table, fields)
+                found[key] = self.results(table, call)
         return {key: value for key, value in found.items() if value is not None}
 
-    def results(self, table: Table, fields: tuple[Field, ...] | None) -> tuple[Any, ...]:
+    def results(self, table: Table, call: Communication | None) -> tuple[Any, ...]:
         """The results that a function may have."""
         system = self.subject.system
 
         def fit(value: Any, way: Way) -> Any:
-            if fields is None or system is None:
+            if call is None or system is None:
                 return value
-            return fitted_fields(fields, value, system, "the result", way)
+            return fitted_result(call, value, system, "the result", way)
 
         numbers = [item.keys[-1] for item in table.items("results")]
         found = [table.fitted(fit, "results", number) for number in numbers]
@@ -163,21 +163,16 @@ class _Reader:
             expected = "what the other outcomes leave of 1"
             table.wrong((given[-1],), expected, table.values[given[-1]])
 
-    def known_functions(self) -> dict[str, tuple[Field, ...] | None]:
-        """The functions there are, with the fields of their results where these are known."""
-        found: dict[str, tuple[Field, ...] | None] = {EVERY_FUNCTION: None}
+    def known_functions(self) -> dict[str, Communication | None]:
+        """The functions there are, with how they are called where that is known."""
+        found: dict[str, Communication | None] = {EVERY_FUNCTION: None}
         document = self.subject.document
         if document is not None:
             activities = (state.activity for state in document.machine.states)
             found.update({each.name: None for each in activities if each is not None})
         system = self.subject.system
-        for function in system.functions if system is not None else ():
-            assert system is not None
-            match system.interface(function.communication.type):
-                case Action(result=fields) | Service(response=fields):
-                    found[function.name] = fields
-                case _:
-                    found[function.name] = None
+        if system is not None:
+            found.update({each.name: each.communication for each in system.functions})
         return found
 
     def message(self, table: Table) -> Message | None:

@@ -169,6 +169,7 @@ class _Maker:
             {outcome: self.events.outcome(state, outcome) for outcome in OUTCOMES},
             make_goal,
             self.results(activity.results) if activity.results else None,
+            "succeeded" if activity.judges_response else "aborted",
         )
 
     def results(self, results: Iterable[ir.ResultMapping]) -> Effect:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from swarmdsl.defaults import default_value
-from swarmdsl.ir import Array, Field, Message, Primitive, System, Type
+from swarmdsl.defaults import default_fields, default_result, result_fields
+from swarmdsl.ir import Array, Communication, Field, Message, Primitive, System, Type
 from swarmdsl.ir.types import FLOATS, INTEGERS
 from swarmdsl.simulate.durations import duration
 from swarmdsl.suggest import suggest
@@ -49,24 +49,32 @@ def fitted(type_: Type, value: Any, system: System, way: Way = ()) -> Any:
     described = system.interface(type_)
     if not isinstance(described, Message):
         return value
-    return fitted_fields(described.fields, value, system, f"`{type_}`", way)
+    given = _given(described.fields, value, system, f"`{type_}`", way)
+    return {**default_fields(described.fields, system), **given}
 
 
-def fitted_fields(
-    fields: Iterable[Field], values: Mapping[str, Any], system: System, owner: str, way: Way = ()
+def fitted_result(
+    call: Communication, values: Mapping[str, Any], system: System, owner: str, way: Way
 ) -> dict[str, Any]:
-    """The same for some fields, of a result for instance."""
+    """The same for what a function gives that has succeeded; any values where it is unknown."""
+    fields = result_fields(call, system)
+    if fields is None:
+        return dict(values)
+    if not isinstance(values, dict):
+        raise _misfit(way, "a table of fields", values)
+    return {**default_result(call, system), **_given(fields, values, system, owner, way)}
+
+
+def _given(
+    fields: Iterable[Field], values: Mapping[str, Any], system: System, owner: str, way: Way
+) -> dict[str, Any]:
+    """Those fields that have a value."""
     known = {field.name: field.type for field in fields}
     for name in values:
         if name not in known:
             help_ = suggest(name, known, "fields")
             raise MisfitError((*way, name), "unknown-field", help_, owner=owner, name=name)
-    return {
-        name: fitted(type_, values[name], system, (*way, name))
-        if name in values
-        else default_value(type_, system)
-        for name, type_ in known.items()
-    }
+    return {name: fitted(known[name], values[name], system, (*way, name)) for name in values}
 
 
 def _primitive(name: str, value: Any, way: Way) -> Any:

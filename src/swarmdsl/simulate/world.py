@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from swarmdsl.defaults import default_fields
-from swarmdsl.ir import Action, Service, System
+from swarmdsl.defaults import default_result
+from swarmdsl.ir import System
 from swarmdsl.runtime import Event, Instance, Run, Servers
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.chance import Chance
@@ -234,24 +234,30 @@ class World:
             self.clock.schedule(delay, lambda: self.deliver(event, data, to))
 
     def _end(self, run: Run, event: str, data: Any) -> None:
-        outcome = next(each for each, name in run.activity.events.items() if name == event)
+        if data is None and event == run.activity.events["succeeded"]:
+            data = self._blank(run.activity.name)
+        outcome = self._outcome(run, event, data)
         self.outcomes[run.activity.name, outcome] += 1
         alarm = self._ends.pop(run)
         if alarm is not None:
             self.clock.unschedule(alarm)
-        if outcome == "succeeded" and data is None:
-            data = self._blank(run.activity.name)
         run.end(outcome, data)
 
     def _blank(self, function: str) -> Mapping[str, Any]:
         """The result of a function in which nothing is said."""
         if self._system is None:
             return {}
-        called = self._system.function(function).communication.type
-        match self._system.interface(called):
-            case Action(result=fields) | Service(response=fields):
-                return default_fields(fields, self._system)
-        return {}
+        return default_result(self._system.function(function).communication, self._system)
+
+    def _outcome(self, run: Run, event: str, data: Any) -> str:
+        """How an activity ends with an event: a response may say that nothing came of it."""
+        outcome = next(each for each, name in run.activity.events.items() if name == event)
+        if outcome != "succeeded" or self._system is None or not isinstance(data, Mapping):
+            return outcome
+        if data.get("success") is not False:
+            return outcome
+        call = self._system.function(run.activity.name).communication
+        return run.activity.refused if call.paradigm == "service" else outcome
 
     def _message(self, message: Message, robot: Robot) -> Callable[[], None]:
         def arrive() -> None:

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.ir import Action, Service, StateKind, StateMachine, Type
 from swarmdsl.ir import Send as SendEffect
 from swarmdsl.ir import State as ModelState
+from swarmdsl.ir import StateKind, StateMachine, Type
 from swarmdsl.runtime import Kind, Machine
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.subject import Subject
@@ -114,14 +114,6 @@ class Names:
         help_ = suggest(name, known, f"{kind}s")
         self._report.report("unresolved-name", place, kind=kind, name=name, help=help_)
         return False
-
-    def result_fields(self, function: str) -> Action | Service | None:
-        """The interface that a function is called by, where the model describes it."""
-        system = self.subject.system
-        if system is None:
-            return None
-        found = system.interface(system.function(function).communication.type)
-        return found if isinstance(found, (Action, Service)) else None
 
     @cached_property
     def _events(self) -> list[str] | None:

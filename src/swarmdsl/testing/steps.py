@@ -8,11 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.ir import Action, Service
 from swarmdsl.simulate.durations import shown
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.table import OUTCOMES
-from swarmdsl.simulate.values import fitted, fitted_fields, kind
+from swarmdsl.simulate.values import fitted, fitted_result, kind
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 from swarmdsl.testing.case import (
@@ -136,17 +135,13 @@ class StepReader:
 
     def _result(self, table: Table, function: str) -> Any:
         system = self._names.subject.system
-        match self._names.result_fields(function):
-            case Action(result=fields) | Service(response=fields):
-                assert system is not None
-                if not isinstance(table.values["result"], dict):
-                    table.wrong(("result",), "a table of fields", table.values["result"])
-                    return None
-                owner = f"the result of `{function}`"
-                return table.fitted(
-                    lambda value, way: fitted_fields(fields, value, system, owner, way), "result"
-                )
-        return table.values["result"]
+        if system is None:
+            return table.values["result"]
+        call = system.function(function).communication
+        owner = f"the result of `{function}`"
+        return table.fitted(
+            lambda value, way: fitted_result(call, value, system, owner, way), "result"
+        )
 
     def _pass(self, table: Table) -> Pass | None:
         length = table.duration("pass")

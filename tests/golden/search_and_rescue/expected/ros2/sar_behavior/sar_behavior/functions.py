@@ -219,8 +219,14 @@ class _ServiceCall(_Call):
         if self._over:
             return
         response = self._answer(future)
-        if response is not None:
-            self._end('succeeded', response)
+        if response is None:
+            return
+        outcome = 'succeeded'
+        if getattr(response, 'success', True) is False:
+            outcome = self._run.activity.refused
+        if outcome == 'aborted':
+            self._warn(f'was refused: {getattr(response, "message", "")}'.rstrip(': '))
+        self._end(outcome, response)
 
     def _stop(self):
         """Do nothing: there is no way to."""

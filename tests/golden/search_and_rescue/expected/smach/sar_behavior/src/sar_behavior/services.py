@@ -18,12 +18,22 @@ class ServiceState(Activity):
     `request_cb(userdata, request)` fills the request or returns another one;
     `response_cb(userdata, response)` takes what is needed from the answer. The state is aborted
     when there is no service within `~timeouts/missing_server` seconds, when the call fails, as it
-    does where the server dies, and when a callback fails. Left, it ends at once: an answer
-    that comes later is dropped.
+    does where the server dies, and when a callback fails. It ends with `refused` when a field
+    `success` of the answer is false. Left, it ends at once: an answer that comes later is dropped.
     """
 
-    def __init__(self, name, spec, request=None, request_cb=None, response_cb=None, **keywords):
+    def __init__(
+        self,
+        name,
+        spec,
+        request=None,
+        request_cb=None,
+        response_cb=None,
+        refused='aborted',
+        **keywords,
+    ):
         super().__init__(name, **keywords)
+        self._refused = refused
         self._spec = spec
         self._request = request
         self._request_cb = request_cb
@@ -47,8 +57,14 @@ class ServiceState(Activity):
         except (rospy.ROSException, rospy.ServiceException) as error:
             rospy.logerr('service %s: %s', self.name, error)
             return 'aborted', None
-        self.ask(self._response_cb, response)
-        return 'succeeded', response
+        outcome = 'succeeded'
+        if getattr(response, 'success', True) is False:
+            outcome = self._refused
+        if outcome == 'aborted':
+            rospy.logwarn('service %s was refused: %s', self.name, getattr(response, 'message', ''))
+        else:
+            self.ask(self._response_cb, response)
+        return outcome, response
 
 
 class _Call(threading.Thread):
