@@ -48,6 +48,12 @@ def test_a_project_works_as_it_is(way: str, swarmc, folder, monkeypatch) -> None
     assert "TargetFound" in ran.out + ran.err
     assert swarmc("build").code == 0
     assert (project / "generated" / "skeleton" / "explore" / "package.xml").is_file()
+    # Names of packages that are told apart at a glance.
+    own = {path.parent.name for path in project.glob("generated/*/*_*/package.xml")}
+    package = project.name.replace("-", "_")
+    assert {each for each in own if each.startswith(f"{package}_")} == {
+        f"{package}_{what}" for what in ("behavior", "interfaces", "bringup")
+    }
     for target in ("ros2", "smach"):
         assert (project / "generated" / target).is_dir() == (target in _targets(WAYS[way]))
 
@@ -107,6 +113,7 @@ def test_a_dry_run_writes_nothing(swarmc, folder) -> None:
         (["2fast"], ["`2fast` cannot be the name of a project: write it `like_this`"]),
         (["../up"], ["`../up` cannot be the name of a project: call it `up`"]),
         (["members"], ["`members` cannot be the name of a project: what is made has"]),
+        (["example"], ["`example` cannot be the name of a project: ROS has a package `example_"]),
         (
             ["x", "--member", "uav=0", "--sensor", "State", "--actuator", "Pilot"],
             [

@@ -13,7 +13,9 @@ from swarmdsl.scaffold.names import check_project_name, check_type_name, given
 # One of them: packages of both generations of ROS have the same names.
 TARGETS = ("ros2", "smach")
 # What the template itself has: files, declarations, and a param of each robot.
-_FILES = ("behaviour", "members", "cpswarm")
+_FILES = ("behaviour", "members", "interfaces", "cpswarm")
+# Projects whose package of interfaces would hide one that ROS comes with.
+_OF_ROS = ("builtin", "composition", "example", "rcl", "test")
 _DECLARED = ("Explore", "Field", "Finds", "Speed")
 _COUNT = re.compile(r"\*|([0-9]+)(?:\.\.(\*|[0-9]+))?")
 
@@ -85,6 +87,9 @@ def check_plan(plan: Plan, report: Diagnostics) -> None:
     check_project_name(plan.name, report)
     if plan.package in _FILES:
         _report_taken(plan.name, "a project", report)
+    if plan.package in _OF_ROS:
+        package = f"`{plan.package}_interfaces`"
+        _report_taken(plan.name, "a project", report, f"ROS has a package {package} already")
     kinds = ("a sensor", "a controller", "an actuator")
     names = [(robots.member, "a member") for robots in plan.robots]
     names += zip(plan.components, kinds, strict=True)
@@ -106,8 +111,13 @@ def check_plan(plan: Plan, report: Diagnostics) -> None:
             report.report("bad-name", given(robots.count), name=robots.count, what=what, help=way)
 
 
-def _report_taken(name: str, kind: str, report: Diagnostics) -> None:
-    way = "what is made has something of this name already: choose another one"
+def _report_taken(
+    name: str,
+    kind: str,
+    report: Diagnostics,
+    why: str = "what is made has something of this name already",
+) -> None:
+    way = f"{why}: choose another one"
     report.report("bad-name", given(name), name=name, what=f"the name of {kind}", help=way)
 
 

@@ -20,6 +20,7 @@ _FILES: Mapping[str, str] = {
     "models/main.swarm": "models/{package}.swarm",
     "models/members.swarm": "models/members.swarm",
     "models/behaviour.swarm": "models/behaviour.swarm",
+    "models/interfaces.swarm": "models/interfaces.swarm",
     "models/mission.swarmtest.toml": "models/mission.swarmtest.toml",
     "scenarios/mission.toml": "scenarios/mission.toml",
 }
