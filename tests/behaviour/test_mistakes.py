@@ -1,4 +1,4 @@
-"""Mistakes in test files are reported at their places, each once, before anything runs."""
+"""Mistakes in test files are reported at their places, each once; what has none runs."""
 
 from __future__ import annotations
 
@@ -177,6 +177,32 @@ def test_several_mistakes_are_told_together(ran: Callable[..., Ran]) -> None:
     assert [code for code, _, _ in findings(ran(text, "--format", "json"))] == [
         *("SW0202", "SW0202", "SW0013")
     ]
+
+
+def test_tests_beside_one_with_a_mistake_are_run(
+    ran: Callable[..., Ran], swarmc: Callable[..., Ran], folder
+) -> None:
+    wrong = ONE.replace('"it"', '"wrong"').replace("STEP", '{ send = "Sart" }')
+    after = ONE.replace('"it"', '"after"').replace("STEP", '{ in = "On" }')
+    found = ran(ONE.replace("STEP", FINE) + wrong + after, "--junit", "out.xml")
+
+    assert found.code == 1
+    lines = found.out.splitlines()
+    assert lines[0] == "it.swarmtest.toml"
+    assert lines[1] == "error[SW0202]: no event called `Sart`"
+    at = lines.index("  ok      it")
+    assert lines[at + 1 : at + 3] == ["  unread  wrong", "  FAILED  after"]
+    assert found.err.startswith("1 passed, 1 failed, 1 test not read in ")
+    junit = (folder / "out.xml").read_text()
+    assert 'tests="3" failures="1" errors="1"' in junit
+    assert '<error message="no event called `Sart`"' in junit
+    # Those that are left out do not matter.
+    chosen = swarmc("test", "it.swarmtest.toml", "-k", "::it")
+    assert (chosen.code, "Sart" in chosen.out) == (0, False)
+    # What is wrong with the file is wrong with all of them.
+    assert ran('swarm = "Lmps"\n' + ONE.replace("STEP", FINE) + wrong).err.startswith(
+        "0 passed, 1 file not read in "
+    )
 
 
 def test_mistakes_in_the_model_are_told_once(swarmc: Callable[..., Ran], folder) -> None:

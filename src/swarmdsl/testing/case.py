@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.source import Source, Span
@@ -126,10 +127,18 @@ class Case:
 
 
 @dataclass(frozen=True)
+class Unread:
+    """A test that is not run, for what is wrong with it."""
+
+    name: str
+    problems: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True)
 class TestFile:
-    """The tests of a file."""
+    """The tests of a file, in their order."""
 
     __test__ = False  # for pytest, which takes the class for a test
 
     source: Source
-    cases: tuple[Case, ...]
+    cases: tuple[Case | Unread, ...]

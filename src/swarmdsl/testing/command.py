@@ -11,6 +11,7 @@ from typing import TextIO
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.simulate.coverage import Coverage
 from swarmdsl.simulate.trace import Line
+from swarmdsl.testing.case import Unread
 from swarmdsl.testing.console import Console
 from swarmdsl.testing.discovery import selected, test_files
 from swarmdsl.testing.junit import junit
@@ -62,7 +63,7 @@ class _Session:
             raise
         self._finish(report)
         self._tell(report, began)
-        return not report.has_errors and all(map(_is_well, self._outcomes))
+        return not report.has_errors and all(outcome.is_well for outcome in self._outcomes)
 
     def _tell(self, report: Diagnostics, began: float) -> None:
         for outcome in self._outcomes:
@@ -76,15 +77,20 @@ class _Session:
     def _file(self, path: Path) -> None:
         report = Diagnostics()
         tests = read_tests(path, self._models, report)
-        outcome = FileOutcome(path, tests is not None, tuple(report))
         cases = tests.cases if tests is not None else ()
         chosen = [c for c in cases if selected(f"{path.as_posix()}::{c.name}", self._pattern)]
         self._left_out += len(cases) - len(chosen)
+        unread = tuple(case for case in chosen if isinstance(case, Unread))
+        report.include(problem for case in unread for problem in case.problems)
+        outcome = FileOutcome(path, tests is not None, tuple(report), unread)
         if cases and not chosen:
             return
         self._outcomes.append(outcome)
         self._console.file(outcome)
         for case in chosen:
+            if isinstance(case, Unread):
+                self._console.unread(case)
+                continue
             self._coverage.expect(case.subject)
             seeds = case.seeds if self._request.seed is None else (self._request.seed,)
             verdict = judge(case, seeds, self._listen)
@@ -119,7 +125,3 @@ class _Session:
             except OSError as error:
                 reason = str(error.strerror or error).lower()
                 report.report("cannot-write", path=request.junit, reason=reason)
-
-
-def _is_well(outcome: FileOutcome) -> bool:
-    return outcome.read and all(verdict.passed for verdict, _ in outcome.verdicts)

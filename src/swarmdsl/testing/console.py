@@ -13,10 +13,11 @@ from swarmdsl.render import counted, render
 from swarmdsl.render.printable import printable
 from swarmdsl.simulate.coverage import Coverage, MachineCoverage
 from swarmdsl.simulate.trace import Line, as_text
+from swarmdsl.testing.case import Unread
 from swarmdsl.testing.outcome import FileOutcome
 from swarmdsl.testing.verdict import Verdict
 
-_COLOURS = {"ok": "green", "FAILED": "red"}
+_COLOURS = {"ok": "green", "FAILED": "red", "unread": "red"}
 
 
 class Console:
@@ -41,12 +42,15 @@ class Console:
 
     def verdict(self, verdict: Verdict) -> None:
         """Say how a test ended."""
-        word = "ok" if verdict.passed else "FAILED"
-        name = f"  {self._coloured(f'{word:<6}', _COLOURS[word])}  {printable(verdict.case.name)}"
+        name = verdict.case.name
         runs = len(verdict.seeds)
         if runs > 1:
             name += f" ({runs - len(verdict.failures)} of {runs} seeds)"
-        self._say(name)
+        self._test("ok" if verdict.passed else "FAILED", name)
+
+    def unread(self, case: Unread) -> None:
+        """Say which test was not run; what is wrong with it has been said of the file."""
+        self._test("unread", case.name)
 
     def trace(self, seed: int, line: Line) -> None:
         """Show what happens, with its seed."""
@@ -84,17 +88,22 @@ class Console:
         self._say(f"{int(coverage.percentage)} % of all states and transitions")
         self._flush()
 
-    def summary(self, outcomes: Iterable[FileOutcome], left_out: int, seconds: float) -> None:
+    def summary(self, outcomes: Sequence[FileOutcome], left_out: int, seconds: float) -> None:
         """All in all, for a person: "11 passed, 1 failed in 0.41 s"."""
         verdicts = [verdict for outcome in outcomes for verdict, _ in outcome.verdicts]
         failed = sum(not verdict.passed for verdict in verdicts)
-        unread = sum(not outcome.read for outcome in outcomes)
+        unread = sum(len(outcome.unread) for outcome in outcomes)
+        files = sum(not outcome.read for outcome in outcomes)
         parts = [f"{len(verdicts) - failed} passed"]
         parts += [f"{failed} failed"] if failed else []
         parts += [f"{left_out} left out"] if left_out else []
-        parts += [f"{counted(unread, 'file')} not read"] if unread else []
+        parts += [f"{counted(unread, 'test')} not read"] if unread else []
+        parts += [f"{counted(files, 'file')} not read"] if files else []
         self._flush()
         self._summary.write(f"{', '.join(parts)} in {seconds:.2f} s\n")
+
+    def _test(self, word: str, name: str) -> None:
+        self._say(f"  {self._coloured(f'{word:<6}', _COLOURS[word])}  {printable(name)}")
 
     def _say(self, text: str) -> None:
         self._results.write(f"{text}\n")

@@ -39,21 +39,25 @@ def junit(outcomes: Iterable[FileOutcome]) -> bytes:
 
 def _suite(outcome: FileOutcome) -> etree._Element:
     name = _text(outcome.path.as_posix())
-    errors = 0 if outcome.read else 1
+    unread = [(each.name, each.problems) for each in outcome.unread]
+    if not outcome.read:
+        unread = [(outcome.path.as_posix(), outcome.problems)]
     suite = etree.Element(
         "testsuite",
         name=name,
-        tests=str(len(outcome.verdicts) + errors),
+        tests=str(len(outcome.verdicts) + len(unread)),
         failures=str(sum(not verdict.passed for verdict, _ in outcome.verdicts)),
-        errors=str(errors),
+        errors=str(len(unread)),
         skipped="0",
         time=f"{outcome.seconds:.3f}",
     )
     class_name = _class_name(outcome.path)
-    if errors:
-        case = etree.SubElement(suite, "testcase", name=name, classname=class_name, time="0.000")
-        error = etree.SubElement(case, "error", message=_message(outcome.problems), type="error")
-        error.text = _text(_rendered(outcome.problems))
+    for title, problems in unread:
+        case = etree.SubElement(
+            suite, "testcase", name=_text(title), classname=class_name, time="0.000"
+        )
+        error = etree.SubElement(case, "error", message=_message(problems), type="error")
+        error.text = _text(_rendered(problems))
     for verdict, found in outcome.verdicts:
         case = etree.SubElement(
             suite,

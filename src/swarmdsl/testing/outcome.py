@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from swarmdsl.diagnostics import Diagnostic
+from swarmdsl.testing.case import Unread
 from swarmdsl.testing.verdict import Verdict
 
 
@@ -15,12 +16,20 @@ class FileOutcome:
 
     `problems` are mistakes in the file or its model; where it could not be `read` for them,
     there are no verdicts. Those of a model are told with the first file that is about it.
+    Mistakes in a test alone leave that one `unread`, and are among them too.
     """
 
     path: Path
     read: bool = True
     problems: tuple[Diagnostic, ...] = ()
+    unread: tuple[Unread, ...] = ()
     verdicts: list[tuple[Verdict, tuple[Diagnostic, ...]]] = field(default_factory=list)
+
+    @property
+    def is_well(self) -> bool:
+        """Whether all of it was run, and has passed."""
+        passed = all(verdict.passed for verdict, _ in self.verdicts)
+        return self.read and not self.unread and passed
 
     @property
     def seconds(self) -> float:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.project.toml import Document, Place, parse_toml
+from swarmdsl.project.toml import Document, Keys, Place, parse_toml
 from swarmdsl.reading import read_source
 from swarmdsl.simulate.actors import Actor, actors
 from swarmdsl.simulate.scenario import Scenario
@@ -17,7 +17,7 @@ from swarmdsl.simulate.scenario_file import read_scenario
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.source import Span
-from swarmdsl.testing.case import Case, End, Step, TestFile
+from swarmdsl.testing.case import Case, End, Step, TestFile, Unread
 from swarmdsl.testing.models import Model, Models
 from swarmdsl.testing.names import Names
 from swarmdsl.testing.steps import StepReader
@@ -31,13 +31,20 @@ _MOST_SEEDS = 10_000
 
 
 def read_tests(path: Path, models: Models, report: Diagnostics) -> TestFile | None:
-    """The tests of a file; None where it has errors, which are reported."""
+    """The tests of a file; None where it has errors, which are reported.
+
+    What is wrong with one test alone is kept with that, so that the others can run.
+    """
     source = read_source(path, None, report)
     document = parse_toml(source, report) if source is not None else None
     if document is None:
         return None
     cases = _Reader(document, path, models, report).read()
-    return TestFile(document.source, tuple(cases)) if cases and not report.has_errors else None
+    if not cases or report.has_errors:
+        for case in cases:
+            report.include(case.problems if isinstance(case, Unread) else ())
+        return None
+    return TestFile(document.source, tuple(cases))
 
 
 class _Reader:
@@ -47,8 +54,8 @@ class _Reader:
         self._report = report
         self._top = Table(document, (), report)
 
-    def read(self) -> list[Case]:
-        """The tests without mistakes; none where the model has some."""
+    def read(self) -> list[Case | Unread]:
+        """The tests; none where the model has mistakes."""
         self._top.check_keys(_FILE, "a test file")
         if self._top.values.get("test", []) == []:
             help_ = "a test begins with `[[test]]`"
@@ -62,19 +69,24 @@ class _Reader:
         model = self._models.of(named, self._path, self._report)
         if model is None:
             return []
-        found = []
         names: dict[str, Span] = {}
-        for table in self._top.items("test"):
-            table.check_keys(_TEST, "a test")
-            name = self._name(table, names)
-            case = self._case(table, name or "", model)
-            if name is not None and case is not None:
-                found.append(case)
-        return found
+        tables = enumerate(self._top.items("test"))
+        return [self._read(number, table.keys, names, model) for number, table in tables]
+
+    def _read(self, number: int, keys: Keys, names: dict[str, Span], model: Model) -> Case | Unread:
+        report = Diagnostics()
+        table = Table(self._top.document, keys, report)
+        table.check_keys(_TEST, "a test")
+        name = self._name(table, names)
+        case = self._case(table, name or "", model)
+        if case is None or report.has_errors:
+            return Unread(name or f"test {number + 1}", tuple(report))
+        self._report.include(report)
+        return case
 
     def _name(self, table: Table, names: dict[str, Span]) -> str | None:
         if "name" not in table:
-            self._report.report("missing-key", table.value_place(()), name="name")
+            table.report.report("missing-key", table.value_place(()), name="name")
             return None
         name, place = table.values["name"], table.value_place(("name",))
         if not isinstance(name, str) or not name.strip() or not name.isprintable():
@@ -82,7 +94,7 @@ class _Reader:
             return None
         if name in names:
             related = (Label(names[name], "the first one"),)
-            self._report.report("duplicate-name", place, kind="test", name=name, related=related)
+            table.report.report("duplicate-name", place, kind="test", name=name, related=related)
         names.setdefault(name, place)
         return name
 
@@ -94,10 +106,10 @@ class _Reader:
         share = passing.share("passing") if "passing" in passing else 1.0
         if subject is None or scenario is None:
             return None
-        cast = actors(subject, subject.crew(scenario.counts), scenario, self._report)
+        cast = actors(subject, subject.crew(scenario.counts), scenario, table.report)
         if not cast:
             return None
-        reader = StepReader(Names(subject, cast, self._report), self._report)
+        reader = StepReader(Names(subject, cast, table.report), table.report)
         steps = self._steps(table, reader)
         always = [reader.claim(each) for each in table.items("always")]
         if share is None:
@@ -115,7 +127,7 @@ class _Reader:
 
     def _steps(self, table: Table, reader: StepReader) -> list[Step]:
         if not table.values.get("steps", True) or "steps" not in table:
-            self._report.report(
+            table.report.report(
                 "missing-key",
                 table.value_place(("steps",) if "steps" in table else ()),
                 name="steps",
@@ -130,11 +142,11 @@ class _Reader:
             given = [key for key in ("swarm", "machine") if key in holder]
             if len(given) > 1:
                 reason = "`swarm` and `machine` are not given together"
-                self._report.report("impossible-step", holder.key_place("machine"), reason=reason)
+                holder.report.report("impossible-step", holder.key_place("machine"), reason=reason)
                 return None
             if given:
-                return model.subject(holder, given[0], self._report)
-        return model.subject(table, None, self._report)
+                return model.subject(holder, given[0], holder.report)
+        return model.subject(table, None, table.report)
 
     def _scenario(self, table: Table, subject: Subject) -> Scenario | None:
         """What is around the test: a file, or a table in this one."""
@@ -143,15 +155,15 @@ class _Reader:
         if "scenario" not in holder:
             return Scenario()
         if isinstance(value, dict):
-            return read_scenario(_part(holder, "scenario"), subject, self._report)
+            return read_scenario(_part(holder, "scenario"), subject, holder.report)
         if not isinstance(value, str):
             holder.wrong(("scenario",), "a file, or a table", value)
             return None
         for path, place in self._paths(holder, "scenario"):
-            source = read_source(path, place, self._report, "a scenario")
-            document = parse_toml(source, self._report) if source is not None else None
+            source = read_source(path, place, holder.report, "a scenario")
+            document = parse_toml(source, holder.report) if source is not None else None
             if document is not None:
-                return read_scenario(document, subject, self._report)
+                return read_scenario(document, subject, holder.report)
         return None
 
     def _whole(self, table: Table, key: str) -> int:
