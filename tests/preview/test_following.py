@@ -44,24 +44,28 @@ endless statemachine Guarding {
 """
 
 
-def step(member: str | None, *states: str) -> str:
+def step(member: str | None, *states: str, **more: Any) -> str:
     names = ("entered", "exited", "started", "cancelled", "sent")
     line = {"t": 0, "member": member, "event": None, "configuration": states}
-    return json.dumps({**line, **{name: [] for name in names}}) + "\n"
+    return json.dumps({**line, **{name: [] for name in names}, **more}) + "\n"
 
 
 class Page:
     """What a page is told of members."""
 
-    def __init__(self, news: News) -> None:
+    def __init__(self, news: News, key: str = "active") -> None:
+        self._key = key
         self._told: SimpleQueue[Any] = SimpleQueue()
+        self._hears = threading.Event()
         threading.Thread(target=self._hear, args=(news.follow(),), daemon=True).start()
+        assert self._hears.wait(PATIENCE)
 
     def _hear(self, messages: Iterator[Any]) -> None:
         for several in messages:
+            self._hears.set()
             for each in several:
-                if "active" in each:
-                    self._told.put(each["active"])
+                if self._key in each:
+                    self._told.put(each[self._key])
 
     def told(self) -> Any:
         return self._told.get(timeout=PATIENCE)
@@ -120,6 +124,25 @@ def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> 
     other.replace(trace)
     page.until({"dog[1]": None, "dog[2]": ["Patrol.Walk"]})
     assert wrong == []
+
+
+def test_transitions_are_told_that_were_taken_just_now(news: News, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    page = Page(news, "taken")
+    follow([str(trace)], news, pytest.fail)
+    steps = [
+        step("dog[0]", "Patrol.Walk", t=100, taken=["Lie->0"]),
+        step("dog[1]", "Patrol.Walk", t=9100, taken=["Lie->0"]),
+        step("dog[0]", "Patrol.Rest", t=9500, taken=["Patrol.Walk->0"]),
+        step("dog[0]", "Lie", t=10_000, taken=["Patrol->0", "Lie->1"]),
+    ]
+    trace.write_text("".join(steps), encoding="utf-8")
+    told = page.told()
+    assert told == {"dog[1]": ["Lie->0"], "dog[0]": ["Patrol.Walk->0", "Patrol->0", "Lie->1"]}
+    late = Page(news, "taken")
+    with trace.open("a", encoding="utf-8") as file:
+        file.write(step("dog[1]", "Patrol.Rest", t=20_000, taken=["Patrol.Walk->0"]))
+    assert page.told() == late.told() == {"dog[1]": ["Patrol.Walk->0"]}
 
 
 def test_a_machine_alone_is_known_by_its_states(news: News, tmp_path: Path) -> None:

@@ -46,9 +46,19 @@ swarm Team { digger : Digger[2] }
 PATIENCE = 60
 
 
-def step(member: str, *states: str) -> str:
+# Notes which transitions light up: they do not for long.
+WATCH = """
+  window.flashed = [];
+  const note = (all) => all.forEach(({ target }) =>
+    target.classList.contains("taken") && flashed.push(target.dataset.id));
+  new MutationObserver(note).observe(document.getElementById("picture"),
+    { attributeFilter: ["class"], subtree: true });
+"""
+
+
+def step(member: str, *states: str, taken: tuple[str, ...] = ()) -> str:
     names = ("entered", "exited", "started", "cancelled", "sent")
-    line = {"t": 0, "member": member, "event": None, "configuration": states}
+    line = {"t": 0, "member": member, "event": None, "configuration": states, "taken": taken}
     return json.dumps({**line, **{name: [] for name in names}}) + "\n"
 
 
@@ -281,9 +291,14 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         who = page.locator("#who")
         who.select_option("digger[1]")
         expect(active).to_have_attribute("data-id", "Out.Rest")
+        page.evaluate(WATCH)
         with trace.open("a", encoding="utf-8") as file:
-            file.write(step("digger[1]", "House"))
+            file.write(step("digger[0]", "Out.Rest", taken=("Out.Dig->0",)))
+            file.write(step("digger[1]", "House", taken=("Out.Rest->0",)))
         expect(active).to_have_attribute("data-id", "House")
+        page.wait_for_function("flashed.length")
+        assert page.evaluate("flashed") == ["Out.Rest->0"], "that of whom is chosen"
+        expect(picture.locator(".edge.taken")).to_have_count(0)
         who.select_option("no lights")
         expect(active).to_have_count(0)
         who.select_option("all 2")

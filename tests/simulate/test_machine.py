@@ -90,16 +90,49 @@ def test_a_line_has_all_that_happened(simulate: Simulate) -> None:
 
     assert (ran.code, "error" in ran.err) == (0, False)
     assert list(ran.trace[0]) == [
-        *("t", "member", "event", "configuration", "entered", "exited"),
+        *("t", "member", "event", "configuration", "entered", "exited", "taken"),
         *("started", "cancelled", "sent"),
     ]
     assert [line.get("data") for line in ran.trace] == [None, None, {"id": "", "count": 0}, None]
-    assert [list(line.values())[:9] for line in ran.trace] == [
-        [0, None, None, ["Wait"], ["Wait"], [], [], [], []],
-        [250, None, "Start", ["Busy"], ["Busy"], ["Wait"], ["go"], [], []],
-        [1250, None, "do.Busy.succeeded", ["Tell"], ["Tell"], ["Busy"], ["land"], [], ["Found"]],
-        [2250, None, "do.Tell.succeeded", ["End"], ["End"], ["Tell"], [], [], []],
+    assert [list(line.values())[:10] for line in ran.trace] == [
+        [0, None, None, ["Wait"], ["Wait"], [], [], [], [], []],
+        [250, None, "Start", ["Busy"], ["Busy"], ["Wait"], ["Wait->0"], ["go"], [], []],
+        [
+            1250,
+            None,
+            "do.Busy.succeeded",
+            ["Tell"],
+            ["Tell"],
+            ["Busy"],
+            ["Busy->0"],
+            ["land"],
+            [],
+            ["Found"],
+        ],
+        [2250, None, "do.Tell.succeeded", ["End"], ["End"], ["Tell"], ["Tell->0"], [], [], []],
     ]
+
+
+def test_a_transition_that_a_region_takes_is_that_of_the_state_around_it(
+    simulate: Simulate,
+) -> None:
+    ran = simulate(
+        """
+        statemachine M {
+          initial Both
+          parallel state Both {
+            region A { initial A1 state A1 { after 9 s -> A2 } state A2 { } }
+            region B { initial B1 state B1 { after 3 s -> Out } }
+            on Found -> Out
+            internal on Stop -> A2
+          }
+          final Out
+        }
+        """,
+        events=[{"event": "Stop"}],
+    )
+    assert [line["taken"] for line in ran.trace] == [[], ["Both->1"], ["Both.B.B1->0"]]
+    assert ran.trace[1]["entered"] == ["Both.A.A2"]
 
 
 def test_delays_come_before_an_event_at_the_same_time(simulate: Simulate) -> None:

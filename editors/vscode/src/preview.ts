@@ -77,7 +77,11 @@ export class Preview implements vscode.Disposable {
   /** Light up the states that are active by a trace; `alone` is a machine that it has no name for. */
   light(path: string, alone = ""): Trace {
     this.trace?.dispose();
-    this.trace = new Trace(path, alone, (active) => void this.panel?.webview.postMessage({ active }));
+    this.trace = new Trace(
+      path,
+      alone,
+      (active, taken) => void this.panel?.webview.postMessage({ active, taken }),
+    );
     return this.trace;
   }
 

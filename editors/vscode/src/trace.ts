@@ -4,14 +4,24 @@ import { type FileHandle, open, stat } from "node:fs/promises";
 
 const PAUSE = 100; // milliseconds between two looks at the file
 const CHUNK = 1 << 20;
+const MOMENT = 1000; // milliseconds for which a transition counts as just taken
 
 /** The innermost active states of members; null of those that are gone. */
 export type Active = Record<string, readonly string[] | null>;
+/** Transitions that members have just taken. */
+export type Taken = Record<string, readonly string[]>;
+
+interface Step {
+  readonly time: number;
+  readonly member: string;
+  readonly configuration: readonly string[];
+  readonly taken: readonly string[];
+}
 
 export class Trace {
   private readonly path: string;
   private readonly alone: string;
-  private readonly moved: (active: Active) => void;
+  private readonly moved: (active: Active, taken: Taken) => void;
   private readonly timer: NodeJS.Timeout;
   private active: Active = {};
   private file: FileHandle | undefined;
@@ -22,7 +32,7 @@ export class Trace {
   private disposed = false;
 
   /** `alone` is what a member without a name is called. The file may come later. */
-  constructor(path: string, alone: string, moved: (active: Active) => void) {
+  constructor(path: string, alone: string, moved: (active: Active, taken: Taken) => void) {
     this.path = path;
     this.alone = alone;
     this.moved = moved;
@@ -31,7 +41,7 @@ export class Trace {
 
   /** Say again where all are. */
   again(): void {
-    this.moved(this.active);
+    this.moved(this.active, {});
   }
 
   /** What is written is all there will be: read the rest, and leave all where they are. */
@@ -74,7 +84,7 @@ export class Trace {
       [this.inode, this.at, this.rest] = [ino, 0, ""];
       this.forget();
     }
-    const found: Active = {};
+    const steps: Step[] = [];
     const buffer = Buffer.alloc(CHUNK);
     for (;;) {
       const { bytesRead } = await this.file.read(buffer, 0, CHUNK, this.at);
@@ -85,25 +95,40 @@ export class Trace {
       // As one byte a character, since a chunk may end within one of several.
       const lines = (this.rest + buffer.toString("latin1", 0, bytesRead)).split("\n");
       this.rest = lines.pop() ?? "";
-      lines.forEach((line) => Object.assign(found, this.step(line)));
+      steps.push(...lines.flatMap((line) => this.step(line) ?? []));
     }
-    if (Object.keys(found).length) {
+    if (steps.length) {
+      const found = Object.fromEntries(steps.map((each) => [each.member, each.configuration]));
       this.active = { ...this.active, ...found };
-      this.moved(found);
+      this.moved(found, justTaken(steps));
     }
   }
 
-  private step(line: string): Active {
+  private step(line: string): Step | undefined {
     try {
-      const { member, configuration } = JSON.parse(Buffer.from(line, "latin1").toString("utf8"));
-      return Array.isArray(configuration) ? { [member ?? this.alone]: configuration } : {};
+      const { t, member, configuration, taken } = JSON.parse(
+        Buffer.from(line, "latin1").toString("utf8"),
+      );
+      return Array.isArray(configuration)
+        ? { time: t, member: member ?? this.alone, configuration, taken: taken ?? [] }
+        : undefined;
     } catch {
-      return {}; // no line of a trace
+      return undefined; // no line of a trace
     }
   }
 
   private forget(): void {
-    this.moved(Object.fromEntries(Object.keys(this.active).map((each) => [each, null])));
+    this.moved(Object.fromEntries(Object.keys(this.active).map((each) => [each, null])), {});
     this.active = {};
   }
+}
+
+/** What members have taken at the end of some steps: others are long past. */
+function justTaken(steps: readonly Step[]): Taken {
+  const last = steps.reduce((most, { time }) => Math.max(most, time), 0);
+  const taken: Record<string, string[]> = {};
+  for (const each of steps.filter(({ time }) => time > last - MOMENT)) {
+    (taken[each.member] ??= []).push(...each.taken);
+  }
+  return taken;
 }

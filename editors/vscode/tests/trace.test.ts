@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import { type Active, Trace } from "../src/trace.ts";
+import { type Active, type Taken, Trace } from "../src/trace.ts";
 
 const DEADLINE = 20_000;
 
@@ -14,13 +14,21 @@ function step(member: string | null, ...configuration: string[]): string {
   return `${JSON.stringify({ t: 0, member, event: null, configuration })}\n`;
 }
 
+function taken(t: number, member: string, ...taken: string[]): string {
+  return `${JSON.stringify({ t, member, event: "Go", configuration: ["End"], taken })}\n`;
+}
+
 test("a trace is followed while it is written, and when it begins anew", async () => {
   const folder = await mkdtemp(join(tmpdir(), "trace-"));
   const path = join(folder, "trace.jsonl");
   const told: Active[] = [];
-  const trace = new Trace(path, "Alone", (active) => {
+  const steps: Taken[] = [];
+  const trace = new Trace(path, "Alone", (active, taken) => {
     if (Object.keys(active).length) {
       told.push(active);
+    }
+    if (Object.keys(taken).length) {
+      steps.push(taken);
     }
   });
   const next = async (): Promise<Active | undefined> => {
@@ -43,6 +51,15 @@ test("a trace is followed while it is written, and when it begins anew", async (
 
   await writeFile(path, step("uav[0]", "Start"));
   assert.deepEqual(await next(), { "uav[0]": null, "uav[1]": null, ü: null, Alone: null });
+  assert.deepEqual(await next(), { "uav[0]": ["Start"] });
+
+  assert.ok(steps.every((each) => Object.values(each).every((ids) => !ids.length)));
+  const long = [taken(100, "uav[1]", "A->0"), taken(9_500, "uav[0]", "A->0", "B->1")];
+  await appendFile(path, long.join("") + taken(10_000, "uav[0]", "C->0"));
+  assert.deepEqual(await next(), { "uav[0]": ["End"], "uav[1]": ["End"] });
+  assert.deepEqual(steps.at(-1), { "uav[0]": ["A->0", "B->1", "C->0"] });
+  await writeFile(path, step("uav[0]", "Start"));
+  assert.deepEqual(await next(), { "uav[0]": null, "uav[1]": null });
   assert.deepEqual(await next(), { "uav[0]": ["Start"] });
 
   await appendFile(path, step("uav[0]", "End"));

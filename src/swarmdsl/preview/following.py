@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import stat
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from threading import Thread
 from time import sleep
@@ -18,6 +18,8 @@ STDIN = "-"
 _PAUSE = 0.1
 """Seconds between two looks at a file."""
 _CHUNK = 1 << 20
+_MOMENT = 1000
+"""Milliseconds for which a transition counts as just taken."""
 
 
 def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]) -> None:
@@ -27,12 +29,26 @@ def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]
     """
     for name in names:
         # A machine alone has no name: of several, each is called as its trace.
-        alone = name if len(names) > 1 else ""
-        follower = _Follower(name, alone, news, tell)
-        Thread(target=follower.run, daemon=True).start()
+        follower = Follower(name, name if len(names) > 1 else "", news, tell)
+        Thread(target=_read, args=(name, follower), daemon=True).start()
 
 
-class _Follower:
+def _read(name: str, follower: Follower) -> None:
+    """Follow a file to its end, if it has one."""
+    for chunk in _stream() if name == STDIN else _chunks(Path(name)):
+        if chunk is None:
+            follower.forget()
+        else:
+            follower.hear(chunk)
+
+
+class Follower:
+    """Tells pages what the lines of one trace say, as they come.
+
+    A machine alone is called `alone`, or as the machine that it must be. The first line that is
+    none of a trace is told.
+    """
+
     def __init__(
         self, name: str, alone: str, news: News, tell: Callable[[Diagnostics], None]
     ) -> None:
@@ -41,38 +57,40 @@ class _Follower:
         self._news = news
         self._tell = tell
         self._is_right = True
+        self._lines = 0
         # Of a machine alone: the states that it was in, and what it was called at last.
         self._seen: set[str] = set()
         self._called: str | None = None
 
-    def run(self) -> None:
-        """Follow the trace to its end, if it has one."""
-        lines = 0
-        for chunk in _stream() if self._name == STDIN else _chunks(Path(self._name)):
-            if chunk is None:
-                lines = 0
-                self._seen.clear()
-                self._called = None
-                self._news.forget(self._name)
+    def forget(self) -> None:
+        """The trace begins anew."""
+        self._lines = 0
+        self._seen.clear()
+        self._called = None
+        self._news.forget(self._name)
+
+    def hear(self, lines: Iterable[str | bytes]) -> None:
+        """Some more lines, whole ones."""
+        active: dict[str, Sequence[str] | None] = {}
+        steps: list[tuple[int, str, Sequence[str]]] = []
+        for line in lines:
+            self._lines += 1
+            if not line.strip():
                 continue
-            active: dict[str, Sequence[str] | None] = {}
-            for line in chunk:
-                lines += 1
-                if not line.strip():
-                    continue
-                value = read_line(line)
-                if isinstance(value, str):
-                    self._complain(lines, value)
-                    continue
-                member = value.get("member")
-                if member is None:
-                    member = self._machine(value)
-                    if self._called not in (None, member):
-                        active[str(self._called)] = None
-                    self._called = member
-                active[member] = value["configuration"]
-            if active:
-                self._news.move(self._name, active)
+            value = read_line(line)
+            if isinstance(value, str):
+                self._complain(value)
+                continue
+            member = value.get("member")
+            if member is None:
+                member = self._machine(value)
+                if self._called not in (None, member):
+                    active[str(self._called)] = None
+                self._called = member
+            active[member] = value["configuration"]
+            steps.append((value["t"], member, value.get("taken", ())))
+        if active:
+            self._news.move(self._name, active, _just_taken(steps))
 
     def _machine(self, value: dict[str, list[str]]) -> str:
         """The name of a machine alone: the only one that has all states that it was in."""
@@ -83,18 +101,28 @@ class _Follower:
         fitting = [name for name, ids in states.items() if self._seen <= ids]
         return fitting[0] if len(fitting) == 1 else ""
 
-    def _complain(self, line: int, reason: str) -> None:
+    def _complain(self, reason: str) -> None:
         if self._is_right:
             self._is_right = False
             report = Diagnostics()
             report.report(
                 "bad-trace-line",
                 reason=reason,
-                notes=(f"line {line} of {self._name}; others are passed over silently",),
+                notes=(f"line {self._lines} of {self._name}; others are passed over silently",),
                 help="`swarmc simulate --trace json` writes such lines, "
                 "and nodes of target `ros2` do",
             )
             self._tell(report)
+
+
+def _just_taken(steps: Sequence[tuple[int, str, Sequence[str]]]) -> dict[str, list[str]]:
+    """The transitions that members have taken at the end of some steps: others are long past."""
+    taken: dict[str, list[str]] = {}
+    last = max((time for time, _, _ in steps), default=0)
+    for time, member, ids in steps:
+        if ids and time > last - _MOMENT:
+            taken.setdefault(member, []).extend(ids)
+    return taken
 
 
 def _chunks(path: Path) -> Iterator[list[bytes] | None]:

@@ -26,7 +26,7 @@ class Message(TypedDict, total=False):
     `runs` says of the diagram of a state machine who runs it, each with what the ids of its states
     begin with where it is reused: a role, `uav`, a part of one, `uav.camera`, or by its own name
     the machine alone. `active` are the innermost active states of members; None, of those that
-    are gone.
+    are gone. `taken` are transitions that members have just taken, by their ids.
     """
 
     titles: dict[str, str]
@@ -35,6 +35,7 @@ class Message(TypedDict, total=False):
     svg: str
     broken: int
     active: Mapping[str, Sequence[str] | None]
+    taken: Mapping[str, Sequence[str]]
 
 
 class Pictures:

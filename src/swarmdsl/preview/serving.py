@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import threading
+from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http import HTTPStatus
@@ -25,6 +26,8 @@ _POLICY = (
 )
 # After so many seconds without news a connection is tried, to notice that a page is gone.
 _PULSE = 15.0
+# Moves whose transitions a page may still be told that is slow to hear.
+_REMEMBERED = 100
 _LONGEST = 1 << 16
 """Bytes of a message of a page, at most."""
 
@@ -39,6 +42,8 @@ class News:
         # By traces: the innermost active states of members.
         self._active: dict[str, dict[str, Sequence[str]]] = {}
         self._moves = 0
+        # The number of a move, and transitions that were taken in it.
+        self._taken: deque[tuple[int, Mapping[str, Sequence[str]]]] = deque(maxlen=_REMEMBERED)
 
     def tell(self, made: Pictures | Message) -> None:
         """Show something in all pages."""
@@ -51,8 +56,16 @@ class News:
                 self._messages = (*(each for each in self._messages if "titles" in each), made)
             self._changed.notify_all()
 
-    def move(self, trace: str, active: Mapping[str, Sequence[str] | None]) -> None:
-        """Show where members are now, of which a trace says so; None is for those that are gone."""
+    def move(
+        self,
+        trace: str,
+        active: Mapping[str, Sequence[str] | None],
+        taken: Mapping[str, Sequence[str]],
+    ) -> None:
+        """Show where members are now, of which a trace says so; None is for those that are gone.
+
+        `taken` are transitions that they have just taken, for pages that are there to see it.
+        """
         with self._changed:
             there = self._active.setdefault(trace, {})
             for member, states in active.items():
@@ -61,6 +74,7 @@ class News:
                 else:
                     there[member] = states
             self._moves += 1
+            self._taken.append((self._moves, taken))
             self._changed.notify_all()
 
     def forget(self, trace: str) -> None:
@@ -75,6 +89,7 @@ class News:
         sent: Sequence[Message] = ()
         active: dict[str, Sequence[str]] = {}
         moves = 0
+        seen = self._moves
 
         def is_new() -> bool:
             return self._messages is not sent or self._moves != moves
@@ -84,11 +99,20 @@ class News:
                 self._changed.wait_for(is_new, _PULSE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
                 sent, moves = self._messages, self._moves
+                steps = [step for number, step in self._taken if number > seen]
+                seen = moves
                 now = {who: at for trace in self._active.values() for who, at in trace.items()}
             moved: dict[str, Sequence[str] | None] = dict.fromkeys(active.keys() - now.keys())
             moved.update((who, at) for who, at in now.items() if active.get(who) is not at)
             active = now
-            yield [*new, {"active": moved}] if moved else new
+            taken: dict[str, list[str]] = {}
+            for who, ids in (each for step in steps for each in step.items()):
+                taken.setdefault(who, []).extend(ids)
+            if moved:
+                new.append({"active": moved})
+            if taken:
+                new.append({"taken": taken})
+            yield new
 
 
 @contextmanager

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from itertools import combinations
 from typing import TYPE_CHECKING, Any, Callable, NamedTuple  # noqa: UP035 - for Python 3.8
 
@@ -242,6 +243,25 @@ class Machine:
             return False
         meeting = next(a for a in (*self.ancestors(one), 0) if self.inside[a] >> other & 1)
         return self.states[meeting].kind is Kind.PARALLEL
+
+    def called(self, transition: Transition) -> str:
+        """What a trace calls a transition: `A.B->0` is the first of state `A.B`."""
+        return self._called[id(transition)]
+
+    @cached_property
+    def _called(self) -> dict[int, str]:
+        called = {}
+        for state, parent in ((s, self.parents[n]) for n, s in enumerate(self.states)):
+            around = self.states[parent]
+            # What regions do for the state around them is a transition of that one.
+            shared = around.transitions if around.kind is Kind.PARALLEL else ()
+            origins = [each.origin for each in shared]
+            for number, each in enumerate(state.transitions):
+                is_shared = each.origin is not None and each.origin in origins
+                owner = around.id if is_shared else state.id
+                at = origins.index(each.origin) if is_shared else number
+                called[id(each)] = f"{owner}->{at}"
+        return called
 
     def ancestors(self, number: int) -> Iterator[int]:
         """The states around one, from the inside out, the machine itself left out."""

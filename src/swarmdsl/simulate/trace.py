@@ -128,6 +128,7 @@ class Trace(Observer):
 
 def as_json(line: Line) -> str:
     """A line for programs; times are in whole milliseconds."""
+    called = line.actor.machine.called
     values = {
         "t": line.time // MILLISECOND,
         "member": line.actor.name,
@@ -135,6 +136,7 @@ def as_json(line: Line) -> str:
         "configuration": line.configuration,
         "entered": line.entered,
         "exited": line.exited,
+        "taken": list(dict.fromkeys(map(called, line.taken))),
         "started": line.started,
         "cancelled": line.cancelled,
         "sent": line.sent,

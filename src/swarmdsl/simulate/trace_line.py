@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 NAMES = ("configuration", "entered", "exited", "started", "cancelled", "sent")
-"""The keys that have lists of names."""
+"""The keys that have lists of names. `taken` may be missing, as in traces of older nodes."""
 
 
 def read_line(text: str | bytes) -> dict[str, Any] | str:
@@ -29,8 +29,8 @@ def _fault(value: dict[str, Any]) -> str:
         return "`event` is the name of one, or `null`"
     if not isinstance(value.get("member"), (str, type(None))):
         return "`member` is the name of one, or `null`"
-    for key in NAMES:
-        names = value.get(key)
+    for key in (*NAMES, "taken"):
+        names = value.get(key, [] if key == "taken" else None)
         if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
             return f"`{key}` is a list of names"
     return ""

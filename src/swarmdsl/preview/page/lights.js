@@ -1,16 +1,18 @@
-// Where robots are: the states that are active light up.
+// Where robots are: the states that are active light up, and for a moment the transitions taken.
 
 import { made, sides } from "./shapes.js";
 
 const EVERYONE = "*";
 const NOBODY = "-";
 const MOST_NAMED = 12;
+const MOMENT = 1500; // milliseconds
 
 export class Lights {
   #who; // the list of members
   #runs = {}; // by diagrams: [[ROLE, PREFIX OF ITS STATES], ...]
   #roles = new Set();
   #active = new Map(); // by members: their innermost active states
+  #timers = new WeakMap(); // by transitions that are lit
 
   /** `changed` is called when the user has chosen somebody else. */
   constructor(who, changed) {
@@ -71,6 +73,28 @@ export class Lights {
       const counts = Array.from(found, ([id, members]) => count(nodes.get(id), [...members]));
       picture.querySelector("svg")?.append(made("g", { class: "counts" }, ...counts));
     }
+  }
+
+  /** Light up the transitions that members have just taken, by their ids, for a moment. */
+  flash(picture, diagram, taken) {
+    const edges = new Map(
+      Array.from(picture.querySelectorAll(".edge"), (each) => [each.dataset.id, each]),
+    );
+    const chosen = this.#who.value;
+    for (const [member, ids] of Object.entries(taken)) {
+      const prefixes = [EVERYONE, member].includes(chosen) ? this.#prefixes(diagram, member) : [];
+      for (const prefix of prefixes) {
+        ids
+          .filter((id) => id.startsWith(prefix) && edges.has(id.slice(prefix.length)))
+          .forEach((id) => this.#flash(edges.get(id.slice(prefix.length))));
+      }
+    }
+  }
+
+  #flash(edge) {
+    edge.classList.add("taken");
+    clearTimeout(this.#timers.get(edge));
+    this.#timers.set(edge, setTimeout(() => edge.classList.remove("taken"), MOMENT));
   }
 
   /** What the ids of a member's states begin with where they are in a diagram. */

@@ -2,7 +2,8 @@
 //
 // From outside come `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with one of them drawn,
 // `{ broken }` with a number while the text has mistakes (the picture stays), `{ active }` with the
-// states in which robots are, `{ cursor: { file, line } }`, and `{ show: ID }`.
+// states in which robots are, `{ taken }` with transitions that they have just taken,
+// `{ cursor: { file, line } }`, and `{ show: ID }`.
 
 import { Folding } from "./folding.js";
 import * as host from "./host.js";
@@ -82,6 +83,9 @@ function receive(message) {
     } else {
       show(inhabited);
     }
+  }
+  if (message.taken) {
+    lights.flash(picture, shown, message.taken);
   }
   if (message.show) {
     show(message.show);

@@ -30,6 +30,7 @@ class Trace(Observer):
             'configuration': [],
             'entered': [],
             'exited': [],
+            'taken': [],
             'started': [],
             'cancelled': [],
             'sent': [],
@@ -64,6 +65,10 @@ class Trace(Observer):
     def taken(self, instance, transition):
         """Note it."""
         self._taken.append(transition)
+        name = instance.machine.called(transition)
+        # Several regions may take one of the state around them.
+        if self._line is not None and name not in self._line['taken']:
+            self._line['taken'].append(name)
 
     def started(self, instance, run):
         """Note it."""
