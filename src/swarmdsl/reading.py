@@ -14,6 +14,8 @@ from swarmdsl.suggest import closest, did_you_mean, suggest
 
 # No format can carry them: all but tab and line end (XML 1.0, 2.2).
 _CONTROL = re.compile(r"[\x01-\x08\x0b\x0c\x0e-\x1f\x7f]")
+# In UTF-8; to find that there are no others takes a tenth of the time that the pattern takes.
+_OTHERS = bytes(byte for byte in range(256) if not _CONTROL.match(chr(byte)))
 
 _MODEL = "a .swarm file"
 # As many files may be named where one is not there.
@@ -132,8 +134,10 @@ def _similar_file(path: Path) -> str | None:
 
 def without_control_characters(source: Source, report: Diagnostics) -> Source:
     """The source with spaces in place of characters that no format can carry, once reported."""
+    if not source.text.encode("utf-8", "surrogatepass").translate(None, _OTHERS):
+        return source
     found = list(_CONTROL.finditer(source.text))
     for each in found:
         place = Span(source, each.start(), each.end())
         report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
-    return replace(source, text=_CONTROL.sub(" ", source.text)) if found else source
+    return replace(source, text=_CONTROL.sub(" ", source.text))

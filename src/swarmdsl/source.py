@@ -12,6 +12,9 @@ from swarmdsl.dataclass import dataclass, field
 COMMAND_LINE = "<command line>"
 """The name of a source that is an argument of the command line, as compilers call it."""
 
+# To look for so many places takes less time than to find out where all lines begin.
+_FEW = 16
+
 
 @dataclass(eq=False)
 class Source:
@@ -24,20 +27,23 @@ class Source:
     name: str
     text: str
     path: Path | None = None
+    _asked = 0
 
     @cached_property
     def line_starts(self) -> list[int]:
         """Offset of the first character of each line."""
-        starts = [0]
-        find = self.text.find
-        at = find("\n")
-        while at >= 0:
-            starts.append(at + 1)
-            at = find("\n", at + 1)
+        starts, end = [], 0
+        for row in self.text.split("\n"):
+            starts.append(end)
+            end += len(row) + 1
         return starts
 
     def line_column(self, offset: int) -> tuple[int, int]:
         """Line and column of an offset, both counted from 1, columns in characters."""
+        if self._asked < _FEW and "line_starts" not in vars(self):
+            self._asked += 1
+            before = self.text.rfind("\n", 0, offset)
+            return self.text.count("\n", 0, offset) + 1, offset - before
         line = bisect_right(self.line_starts, offset)
         return line, offset - self.line_starts[line - 1] + 1
 

@@ -54,9 +54,5 @@ class Document:
             ends = _LINE_END.finditer(self.text)
             found = next((end for count, end in enumerate(ends, 1) if count >= line), None)
             return 0 if line <= 0 else found.end() if found is not None else len(self.text)
-        start = 0
-        for _ in range(line):
-            start = self.text.find("\n", start) + 1
-            if not start:
-                return len(self.text)
-        return start
+        rows = self.text.split("\n", max(line, 0))
+        return len(self.text) - (len(rows[-1]) if len(rows) > line else 0)

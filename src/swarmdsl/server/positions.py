@@ -16,8 +16,7 @@ Position = tuple[int, int]
 def position(source: Source, offset: int, encoding: str = UTF_16) -> Position:
     """Line and character of an offset."""
     line, column = source.line_column(offset)
-    start = source.line_starts[line - 1]
-    return line - 1, units(source.text[start : start + column - 1], encoding)
+    return line - 1, units(source.text[offset - column + 1 : offset], encoding)
 
 
 def bounds(span: Span, encoding: str = UTF_16) -> tuple[Position, Position]:

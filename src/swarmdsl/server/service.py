@@ -40,6 +40,10 @@ REQUESTS = {
 _OPTIONS = {**reading_answers.OPTIONS, **editing_answers.OPTIONS}
 # Between two looks at whether the process that started the server is still there, in seconds.
 _LOOK = 5.0
+# Garbage is looked for when nothing was asked for that many seconds, or after that many messages:
+# in the middle of a key, it would take a tenth of its time.
+_REST = 0.5
+_MOST_MESSAGES = 200
 # What is wrong is told again at once if that takes less, else after as long: keys that come
 # meanwhile cost nothing.
 _AT_ONCE = 0.05
@@ -49,9 +53,8 @@ _LONGEST_PAUSE = 0.5
 def serve(reader: BinaryIO, writer: BinaryIO) -> int:
     """Answer one client until it is gone; return the exit code that the protocol asks for."""
     server = Server(Outgoing(writer))
-    # What is there by now stays, and is not looked at again; what comes in days does not.
-    gc.freeze()
-    gc.enable()
+    gc.disable()  # the server does that when nobody waits
+    gc.freeze()  # what is there by now stays, and is not looked at
     return server.serve(Incoming(reader))
 
 
@@ -65,6 +68,7 @@ class Server(LanguageServer):
         self.session = Session(self)
         self._outgoing = outgoing
         self._duration = 0.0
+        self._messages = 0
         self.protocol.set_writer(outgoing)
         for name, answer in {**lifecycle.NOTIFICATIONS, **REQUESTS}.items():
             self.feature(name, _OPTIONS.get(name))(partial(answer, self.session))
@@ -87,18 +91,24 @@ class Server(LanguageServer):
             if self.session.dirty:
                 self._tell()
                 return True
+            if self._messages:
+                self._tidy()
+                return True
             return self._client_lives()
         if message is None:
             return False
+        self._messages += 1
         self.protocol.take(message)
         if self.session.dirty and not self.session.models.waiting:
             self._tell()  # the work is done, for the answer that was just given
+        if self._messages >= _MOST_MESSAGES:
+            self._tidy()
         return not self._outgoing.gone
 
     def _pause(self) -> float:
         """How long to wait for a message before there is something else to do."""
         if not self.session.dirty:
-            return _LOOK
+            return _REST if self._messages else _LOOK
         return 0.0 if self._duration < _AT_ONCE else min(self._duration, _LONGEST_PAUSE)
 
     def _tell(self) -> None:
@@ -108,6 +118,10 @@ class Server(LanguageServer):
         except Exception as error:
             self.report_server_error(error)
         self._duration = time.perf_counter() - start
+
+    def _tidy(self) -> None:
+        self._messages = 0
+        gc.collect()
 
     def _client_lives(self) -> bool:
         """Whether the process that started the server is there, as far as it was named."""
