@@ -5,10 +5,22 @@ A topic of such messages, `fly/feedback` of `uav_msgs/FlyActionFeedback`, is a h
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir import Action, Event, Message, Named, System
+from swarmdsl.ir import (
+    Action,
+    Assignment,
+    Event,
+    FieldAccess,
+    Message,
+    Named,
+    Send,
+    StateMachine,
+    System,
+    Transition,
+)
+from swarmdsl.ir.expressions import parts
 
 from .names import TARGET, type_name
 
@@ -22,6 +34,7 @@ _PARTS = {
     "ActionResult": "Impl.GetResultService",
 }
 _FEEDBACK = "ActionFeedback"
+_IN_BOTH = "feedback"
 _TOPIC = "/feedback"
 _HIDDEN = "/_action/feedback"
 
@@ -53,6 +66,35 @@ def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
             report,
         )
     return f"{event.topic.removesuffix(_TOPIC)}{_HIDDEN}"
+
+
+def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Diagnostics) -> None:
+    """Report what is read of feedback in ROS 1 only: its header and the status of its goal."""
+    for state in machine.walk():
+        for transition in state.transitions:
+            for use in _fields_read(transition):
+                owner = use.base.type
+                if owner in made and str(owner).endswith(_FEEDBACK) and use.field != _IN_BOTH:
+                    construct = f"field `{use.field}` of `{owner}`"
+                    report.report(
+                        "unsupported-construct",
+                        use.origin or transition.origin,
+                        target=TARGET,
+                        construct=construct,
+                        help="the message that ROS 2 has on the way holds `feedback` alone",
+                    )
+
+
+def _fields_read(transition: Transition) -> Iterator[FieldAccess]:
+    values = [transition.guard] if transition.guard is not None else []
+    for effect in transition.effects:
+        match effect:
+            case Assignment(value=value):
+                values.append(value)
+            case Send(arguments=arguments):
+                values += [value for _, value in arguments]
+    for value in values:
+        yield from (part for part in parts(value) if isinstance(part, FieldAccess))
 
 
 def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:

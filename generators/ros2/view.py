@@ -15,7 +15,7 @@ from swarmdsl.ros_package import manifest
 from swarmdsl.source import Span
 
 from . import names, package
-from .actions import messages_of_actions
+from .actions import check_feedback, messages_of_actions
 from .expressions import default_value, stored
 from .imports import WIDTH, Imports
 from .launch import Launch, launches
@@ -165,6 +165,7 @@ def _machine_view(
     if declared:
         imports.own("parameters", "Parameter")
     heard = topics(machine, system, sent, imports, report)
+    check_feedback(machine, imports.messages_of_actions, report)
     if heard:
         imports.own("topics", "Topic")
     functions = _functions(machine, system, imports, report)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.dataclass import dataclass
@@ -10,11 +9,9 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.graph import cycles
 from swarmdsl.interface_files import Generation, definition, depends, file_name, named, parts
-from swarmdsl.ir import Action, Interface, Named, System
+from swarmdsl.ir import Interface, Named, System
 from swarmdsl.ros import standard
 from swarmdsl.source import Span
-
-_OF_ACTION = re.compile(r"(Action)?(Goal|Result|Feedback)$")
 
 
 @dataclass(frozen=True)
@@ -61,17 +58,11 @@ def check_described(system: System, others: str, target: str, report: Diagnostic
         if isinstance(type_, Named) and type_.package in packages:
             first.setdefault(type_, origin)
     for type_, origin in first.items():
-        if system.interface(type_) is None and not _is_of_action(type_, system):
+        if system.interface(type_) is None:
             construct = (
                 f"`{type_}`, which the model does not describe, in a package that is written"
             )
             report.report("unsupported-construct", origin, target=target, construct=construct)
-
-
-def _is_of_action(type_: Named, system: System) -> bool:
-    """Whether ROS makes it of an action that the model describes, as `FlyActionFeedback`."""
-    base = _OF_ACTION.sub("", type_.name)
-    return isinstance(system.interface(Named(type_.package, base)), Action)
 
 
 def packages_of_others(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 
+from swarmdsl.action_messages import Made, ways_made
 from swarmdsl.ir.types import Named
 from swarmdsl.libraries import SUFFIX
 from swarmdsl.link_types import interface_name, written_type
 from swarmdsl.load import File, Project
 from swarmdsl.ros import standard
 from swarmdsl.ros.interface_file import Kind
+from swarmdsl.source import Span
 from swarmdsl.suggest import closest
 from swarmdsl.syntax import (
     ActionType,
@@ -23,6 +25,7 @@ from swarmdsl.syntax import (
     ServiceType,
     StructType,
     TypeRef,
+    Word,
     nodes_of,
 )
 
@@ -84,7 +87,26 @@ class Interfaces:
     def fields(self, type_: Named) -> list[Field] | None:
         """The fields of a message or struct, None when they are not known."""
         found = self.get(type_)
+        if found is None:
+            return self._fields_made(type_)
         return found.fields if isinstance(found, (StructType, MessageType)) else None
+
+    def actions_of(self, type_: Named) -> Iterator[tuple[Made, ActionType]]:
+        """The actions that ROS makes a message of that name of."""
+        for made in ways_made(type_):
+            action = self.get(made.action, ActionType)
+            if isinstance(action, ActionType):
+                yield made, action
+
+    def _fields_made(self, type_: Named) -> list[Field] | None:
+        """The fields of what ROS makes of an action."""
+        for made, action in self.actions_of(type_):
+            if made.fields:
+                at = action.name.span
+                return [_field(name, inside, at) for name, inside in made.fields]
+            parts = {"goal": action.goal, "result": action.result, "feedback": action.feedback}
+            return parts[made.part]
+        return None
 
     def missing(self, type_: Named) -> bool:
         """Whether there is certainly no such interface: the files of its package were read.
@@ -114,3 +136,9 @@ class Interfaces:
             return None
         near = Named(package, type_.name)
         return near if self.get(near) is not None else None
+
+
+def _field(name: str, type_: Named, at: Span) -> Field:
+    ref = TypeRef(at, str(type_), "", "")
+    ref.type = type_
+    return Field(at, Word(name, at), ref)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from swarmdsl.action_messages import ways_made
 from swarmdsl.dataclass import dataclass
 from swarmdsl.interfaces import only_retells, own_interfaces
 from swarmdsl.ir.types import Array, Named
@@ -83,8 +84,10 @@ def _uses(owner: TopLevel) -> Uses:
     asked = [activity.owner for activity in nodes_of(owner, Activity)]
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)
+    named = {element for element in elements if isinstance(element, Named)}
+    actions = {made.action for element in named for made in ways_made(element)}
     return Uses(
         frozenset(node for node in (*refs, *names, *asked) if node is not None),
-        frozenset(element for element in elements if isinstance(element, Named)),
+        frozenset(named | actions),
         None not in refs and None not in names,
     )

@@ -99,6 +99,16 @@ statemachine Work {
             "",
         ),
         (
+            ACTION
+            + MACHINE.replace(
+                "-> B",
+                '-> B monitor "fly/feedback" : lab/FlyActionFeedback [event.header.seq > 1] -> B',
+            ),
+            "unsupported-construct",
+            "field `header` of `lab/FlyActionFeedback`",
+            "event.header",
+        ),
+        (
             'swarm event Loud : std_msgs/Empty on "~/loud"\n'
             + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
             "bad-identifier",

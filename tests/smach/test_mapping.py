@@ -11,7 +11,7 @@ from swarmdsl.plugins import load
 
 HEADER = """package lab
 message Note { level : int32 }
-action Move { goal { x : float64 } result { seen : int32 } }
+action Move { goal { x : float64 } result { seen : int32 } feedback { x : float64 } }
 service Ask { }
 function move : abstraction { action "move" : Move }
 function ask  : abstraction { service "ask" : Ask }

@@ -123,3 +123,46 @@ statemachine M { initial A state A { on MissionStart -> B on Begin -> B } final 
     assert "topic-types" in say(text)
     assert "topic-types" not in say(other)
     assert "topic-types" in say(text)
+
+
+CLIMB = """\
+action uav_msgs/Climb { goal { altitude : float64 } feedback { altitude : float64 } }
+"""
+ASCENT = """\
+function climb : abstraction { action "climb" : uav_msgs/Climb }
+statemachine Ascent {
+  var last : uav_msgs/ClimbFeedback
+  initial Climbing
+  state Climbing {
+    do climb(altitude = 40.0)
+    monitor "climb/feedback" : uav_msgs/ClimbActionFeedback
+      [event.feedback.altitude > last.altitude] / last = event.feedback
+    on succeeded, aborted -> High
+  }
+  final High
+}
+member Uav { behavior Ascent }
+"""
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        (CLIMB.replace("feedback { altitude", "feedback { height"), "unknown-field"),
+        (CLIMB.replace("feedback { altitude : float64", "feedback { altitude : bool"), "operand"),
+        (CLIMB.replace("feedback { altitude : float64 }", ""), "unknown-field"),
+    ],
+)
+def test_feedback_of_an_action_has_other_fields(say: Say, changed: str, said: str) -> None:
+    before = say(CLIMB + ASCENT)
+    assert any(said in name for name in say(changed + ASCENT))
+    # As long as nothing is known of the action, nothing is known of its feedback.
+    assert say(ASCENT) == before
+    assert any(said in name for name in say(changed + ASCENT))
+    assert say(CLIMB + ASCENT) == before
+
+
+def test_fields_around_the_feedback_of_an_action(say: Say) -> None:
+    of_ros1 = ASCENT.replace("[event.feedback", "[event.status.status == 1 and event.feedback")
+    assert say(CLIMB + of_ros1) == say(CLIMB + ASCENT)
+    assert "unknown-field" in say(CLIMB + ASCENT.replace("[event.feedback", "[event.feedbak"))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from swarmdsl.action_messages import ways_made
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
-from swarmdsl.ir.interfaces import Event, Function, Interface
+from swarmdsl.ir.interfaces import Action, Event, Field, Function, Interface, Message
 from swarmdsl.ir.optimization import Fitness, Optimization
 from swarmdsl.ir.statemachine import StateMachine
+from swarmdsl.ir.types import Named
 from swarmdsl.source import Span
 
 
@@ -41,4 +43,21 @@ class System:
 
     def interface(self, type_: object) -> Interface | None:
         """What is known of an interface's fields; None for one the model does not describe."""
-        return next((known for known in self.interfaces if known.type == type_), None)
+        found = next((known for known in self.interfaces if known.type == type_), None)
+        if found is None and isinstance(type_, Named):
+            return self._made_of_action(type_)
+        return found
+
+    def _made_of_action(self, type_: Named) -> Message | None:
+        """The message of that name that ROS makes of an action."""
+        for made in ways_made(type_):
+            for action in self.interfaces:
+                if isinstance(action, Action) and action.type == made.action:
+                    parts = {
+                        "goal": action.goal,
+                        "result": action.result,
+                        "feedback": action.feedback,
+                    }
+                    around = tuple(Field(name, inside) for name, inside in made.fields)
+                    return Message(type_, around or parts[made.part], action.external)
+        return None

@@ -7,11 +7,12 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 
+from swarmdsl.action_messages import names_made
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
 from swarmdsl.ros import standard
 from swarmdsl.source import Source
-from swarmdsl.syntax import Interface
+from swarmdsl.syntax import ActionType, Interface
 from swarmdsl.workspace.sheets import Sheet
 from swarmdsl.workspace.units import Unit, with_users
 
@@ -100,10 +101,16 @@ def _mentioning(words: Collection[str], units: Iterable[Unit]) -> Iterator[Unit]
 
 
 def _names(units: Iterable[Unit]) -> Iterable[tuple[type, str]]:
-    """The kinds and names of declarations; those of ROS interfaces without the package."""
+    """The kinds and names of declarations; those of ROS interfaces without the package.
+
+    With an action come the messages that ROS makes of it.
+    """
     for unit in units:
         for declaration in unit.parsed.model.declarations:
-            yield type(declaration), declaration.name.rpartition("/")[2]
+            name = declaration.name.rpartition("/")[2]
+            yield type(declaration), name
+            if isinstance(declaration, ActionType):
+                yield from ((ActionType, made) for made in names_made(name))
 
 
 def _is_standard(units: Iterable[Unit]) -> bool:

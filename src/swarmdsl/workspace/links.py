@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from swarmdsl.action_messages import ways_made
 from swarmdsl.ir.types import Array, Named
 from swarmdsl.link import Linker, machines_of
 from swarmdsl.load import File, Project
@@ -131,8 +132,9 @@ def _targets(
         # An alias on the way leaves no trace in the type.
         yield from (node for _, node in scopes[file].find(type_.name))
         element = type_.type.element if isinstance(type_.type, Array) else type_.type
-        if isinstance(element, Named) and element in interfaces:
-            yield interfaces[element]
+        if isinstance(element, Named):
+            behind = (element, *(made.action for made in ways_made(element)))
+            yield from (interfaces[name] for name in behind if name in interfaces)
 
 
 class _WatchedScope(FileScope):
