@@ -238,6 +238,7 @@ CODES: dict[str, Code] = {
     "too-many-members": Code("SW1009", "error", "{count} members are too many to simulate"),
     "bad-trace-line": Code("SW1010", "error", "this line is none of a trace: {reason}"),
     "trace-departs": Code("SW1011", "error", "{who} leaves the model on {event} at {time}"),
+    "ros2-unavailable": Code("SW1012", "error", "ROS 2 cannot be followed: {reason}"),
     # ---- tests
     "failed-expectation": Code("SW1101", "error", "expected {expected}"),
     "no-tests": Code("SW1102", "error", "no test in `{path}`"),

@@ -193,6 +193,24 @@ def test_standard_input_is_followed(
 
 
 @pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("/sar/uav 0", "`/sar/uav 0` is no name in ROS"),
+        ("/sar", f"{sys.executable} has no rclpy"),
+    ],
+)
+def test_nodes_that_cannot_be_followed(
+    name: str, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: Any
+) -> None:
+    monkeypatch.setitem(sys.modules, "rclpy", None)
+    (tmp_path / "yard.swarm").write_text(MODEL, encoding="utf-8")
+    assert run(["preview", str(tmp_path), "--follow", f"ros2:{name}"]) == 1
+    said = capsys.readouterr().err
+    assert f"error[SW1012]: ROS 2 cannot be followed: {why}" in said
+    assert "help: " in said
+
+
+@pytest.mark.parametrize(
     ("command", "why"),
     [
         ("nowhere-to-be-found {file}", "there is no program `nowhere-to-be-found`"),

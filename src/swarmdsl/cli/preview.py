@@ -45,7 +45,8 @@ def _editor(_context: click.Context, _param: click.Parameter, text: str | None) 
     metavar="TRACE",
     multiple=True,
     help="Light up the states that are active by this trace, a line of JSON each, while it is "
-    "written; `-` for standard input. May be repeated.",
+    "written; `-` for standard input, `ros2:NAME` for a running node, or all in a namespace. May "
+    "be repeated.",
 )
 @click.option(
     "--editor",
@@ -76,6 +77,7 @@ def preview(
     from swarmdsl.diagnostics import Diagnostics
     from swarmdsl.preview.following import follow
     from swarmdsl.preview.pictures import pictures
+    from swarmdsl.preview.ros2 import PREFIX, UnavailableError, listening
     from swarmdsl.preview.serving import News, serving
     from swarmdsl.project.command_line import run_settings
     from swarmdsl.project.settings import Settings
@@ -101,12 +103,23 @@ def preview(
 
         return Concluded(len(result.report) > 0, say)
 
+    def tell(report: Diagnostics) -> None:
+        render(report, "text", sys.stderr)
+
+    nodes = [each.removeprefix(PREFIX) for each in traces if each.startswith(PREFIX)]
     with ExitStack() as stack:
+        try:
+            stack.enter_context(listening(nodes, news, tell))
+        except UnavailableError as error:
+            report = Diagnostics()
+            report.report("ros2-unavailable", reason=str(error), help=error.way_out)
+            tell(report)
+            return 1
         try:
             address = stack.enter_context(serving(news, port, editor))
         except OSError as error:
             raise click.ClickException(f"port {port}: {error.strerror}") from error
-        follow(traces, news, lambda report: render(report, "text", sys.stderr))
+        follow([each for each in traces if not each.startswith(PREFIX)], news, tell)
         if opens:
             click.launch(address)
         return watch_files(paths, settings, show)
