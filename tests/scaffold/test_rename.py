@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -136,31 +137,100 @@ def test_a_file_that_is_not_there(swarmc, yard) -> None:
         assert "did you mean `yard.swarm`?" in ran.err
 
 
-def test_tests_and_scenarios_that_have_the_old_name_are_told(swarmc, yard) -> None:
-    (yard / "yard.swarmtest.toml").write_text(
-        '[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n# Drive\n'
-    )
+TESTS = """# Going goes to Drive.
+machine = "Going"
+
+[[test]]
+name  = "Drive"   # Drive
+scenario = { params = { speed = 1.0 } }
+steps = [
+  { send = "MissionStart" },
+  { in = "Drive" },
+  { in = ["Busy.Drive", "Drive"] },
+  { has = { camera = 1.0 } },
+]
+[[test]]
+name    = "other"
+machine = "Other"
+steps   = [{ in = "Idle" }, { in = "Drive" }]
+"""
+EVENT = """event Start : std_msgs/Empty on "start"
+event MissionAbort : std_msgs/Empty on "abort"
+"""
+SWARM = "swarm Yard { cart : Cart[1..3] }\n"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "changes", "told"),
+    [
+        (
+            "Going.Busy.Drive",
+            "Roll",
+            [
+                ('in = "Drive" },\n', 'in = "Roll" },\n'),
+                ('["Busy.Drive", "Drive"]', '["Busy.Roll", "Roll"]'),
+            ],
+            # The comments, the name of a test, and a mistake that was one before.
+            [(1, 17), (5, 10), (5, 21), (16, 37)],
+        ),
+        ("Busy", "Work", [('"Busy.', '"Work.')], []),
+        ("Going", "Roaming", [('machine = "Going"', 'machine = "Roaming"')], [(1, 3)]),
+        ("Going.camera", "seen", [("{ camera =", "{ seen =")], []),
+        # Nothing here means this one.
+        ("Other.Idle", "Still", [('[{ in = "Idle"', '[{ in = "Still"')], []),
+        ("Going.Idle", "Still", [], []),
+    ],
+)
+def test_tests_follow(old, new, changes, told, swarmc, yard) -> None:
+    file = yard / "yard.swarmtest.toml"
+    file.write_bytes(TESTS.replace("\n", "\r\n").encode())
+    wanted = TESTS
+    for before, after in changes:
+        assert before in wanted
+        wanted = wanted.replace(before, after)
+    shown = swarmc("rename", old, new, "--dry-run")
+    assert ("+++ yard.swarmtest.toml" in shown.out) == bool(changes)
+    ran = swarmc("rename", old, new, "--format", "concise")
+
+    assert ran.code == 0, ran.err
+    assert file.read_bytes().decode() == wanted.replace("\n", "\r\n")
+    found = re.findall(r"yard.swarmtest.toml:(\d+):(\d+): warning\[SW1506\]", ran.err)
+    assert [(int(line), int(column)) for line, column in found] == told
+
+
+def test_scenarios_follow(swarmc, yard) -> None:
+    model = MODEL.replace("import cpswarm.events.*", EVENT).replace("MissionStart", "Start")
+    (yard / "yard.swarm").write_text(model + SWARM)
+    scenario = """# Start is called by the Cart.
+count.cart = 2
+[params.cart]
+speed = 2.0
+[[messages]]
+event = "Start"   # Start
+to    = ["cart[1]", "Cart"]
+at    = "1 s"
+[[faults]]
+at   = "3 s"
+lost = "cart[0]"
+"""
+    (yard / "mission.toml").write_text(scenario)
+    (yard / "other.toml").write_text('text = "Start"\n')
+    for old, new in (("Start", "Go"), ("Yard.cart", "van"), ("Cart", "Van")):
+        assert swarmc("rename", old, new).code == 0
+
+    wanted = scenario.replace('"Start"', '"Go"').replace("cart", "van").replace('"Cart"', '"Van"')
+    assert (yard / "mission.toml").read_text() == wanted
+    assert (yard / "other.toml").read_text() == 'text = "Start"\n'
+    ran = swarmc("simulate", "--scenario", "mission.toml", "--trace", "text")
+    assert (ran.code, "Go -> Busy.Drive" in ran.out) == (0, True), ran.err
+
+
+def test_what_stays_where_nothing_says_what_it_means(swarmc, yard) -> None:
+    (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n')
     (yard / "other.toml").write_text('text = "Driver"\n')
     ran = swarmc("rename", "Going.Busy.Drive", "Roll", "--format", "concise")
 
     assert ran.code == 0
     assert "yard.swarmtest.toml:3:18: warning[SW1506] `Drive` stands here still" in ran.err
-    assert "yard.swarmtest.toml:4:3: warning[SW1506]" in ran.err
     assert "other.toml" not in ran.err
     assert "keeps this name" not in ran.err
-
-
-def test_a_test_may_mean_what_has_the_same_name(swarmc, yard) -> None:
-    (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Idle" }]\n')
-    ran = swarmc("rename", "Going.Idle", "Still")
-
-    assert ran.code == 0
-    assert "now: a state `Other.Idle` keeps this name" in ran.err
-
-
-def test_the_style_of_a_name_is_looked_at(swarmc, yard) -> None:
-    ran = swarmc("rename", "Cart.camera", "Front", "--format", "concise")
-
-    assert ran.code == 0
-    assert "warning[SW0206] part `Front` is not in snake_case" in ran.err
-    assert "SW0206" not in swarmc("rename", "Cart.Front", "front").err

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swarmdsl.changes.names import Named, all_named, find, similar
 from swarmdsl.changes.rewriting import Change, rewritten
@@ -16,10 +16,13 @@ from swarmdsl.format.files import Layout, write
 from swarmdsl.project import find_file, find_settings
 from swarmdsl.reading import read_source
 from swarmdsl.scaffold.names import given
-from swarmdsl.source import Span
+from swarmdsl.source import Source, Span
 from swarmdsl.workspace import Workspace
 from swarmdsl.workspace.renaming import RefusedError, replaced
 from swarmdsl.workspace.renaming import rename as places_of
+
+if TYPE_CHECKING:
+    from swarmdsl.ir import System
 
 _MOST_SHOWN = 8
 
@@ -55,12 +58,18 @@ def rename(paths: Sequence[Path], old: str, new: str, *, dry_run: bool = False) 
         way = f"give the new name alone: `{last}`" if last != new else "choose another name"
         report.report("cannot-rename", found.place, what=str(found), reason=error, help=way)
         return Renamed(report, workspace.files)
-    layouts = list(_layouts(spans, new))
-    _check_tests(paths, found, namesakes, report)
+    changes: dict[Path, list[Change]] = defaultdict(list)
+    for source, start, end in (span.absolute for span in spans):
+        assert source.path is not None  # what has been read from a file
+        changes[source.path].append((start, end, new))
+    changes |= _in_tests(
+        workspace, paths, (found.path[-1], new), namesakes, replaced(spans, new), report
+    )
+    layouts = [rewritten(str(path), path.read_bytes(), made) for path, made in changes.items()]
     _check_style(workspace, spans, new, report)
     if not dry_run and not write(layouts, report):
         return Renamed(report, workspace.files)
-    return Renamed(report, workspace.files, layouts, len(spans))
+    return Renamed(report, workspace.files, layouts, sum(map(len, changes.values())))
 
 
 def _found(workspace: Workspace, name: str, report: Diagnostics) -> Named | None:
@@ -83,15 +92,6 @@ def _found(workspace: Workspace, name: str, report: Diagnostics) -> Named | None
     return None
 
 
-def _layouts(spans: Sequence[Span], new: str) -> Iterator[Layout]:
-    changes: dict[Path, list[Change]] = defaultdict(list)
-    for source, start, end in (span.absolute for span in spans):
-        assert source.path is not None  # what has been read from a file
-        changes[source.path].append((start, end, new))
-    for path, made in changes.items():
-        yield rewritten(str(path), path.read_bytes(), made)
-
-
 def _namesakes(workspace: Workspace, found: Named) -> list[Named]:
     """What else has the same name, and keeps it."""
     every = all_named(workspace)
@@ -106,21 +106,53 @@ def _check_style(workspace: Workspace, spans: list[Span], new: str, report: Diag
     report.include(each for each in found if each.message not in known)
 
 
-def _check_tests(
-    paths: Sequence[Path], found: Named, namesakes: Sequence[Named], report: Diagnostics
-) -> None:
-    """Point to where tests and scenarios of the project still have the old name."""
-    old = found.path[-1]
+def _in_tests(
+    workspace: Workspace,
+    paths: Sequence[Path],
+    names: tuple[str, str],
+    namesakes: Sequence[Named],
+    texts: Mapping[Path, str],
+    report: Diagnostics,
+) -> dict[Path, list[Change]]:
+    """The changes from an old name to a new one in tests and scenarios of the project.
+
+    What has the old one still is told.
+    """
+    old, new = names
+    sources = list(_naming(paths, old))
+    if not sources:
+        return {}
     way = "change it there too, if it means what is called otherwise now"
     if namesakes:
         way += f": {namesakes[0]} keeps this name"
+    # Checking these takes modules that a change of the model alone does not need.
+    from swarmdsl.changes.mentions import Mentions, mentions, word
+    from swarmdsl.lower import lower
+
+    systems: tuple[System, System] | None = None
+    if not workspace.report.has_errors:
+        before = lower(workspace.project)
+        with workspace.supposing(texts):
+            systems = before, lower(workspace.project)
+    files = [file.source.path for file in workspace.project.files if file.source.path is not None]
+    changes: dict[Path, list[Change]] = {}
+    for path, source in sources:
+        there = mentions(source, old, new, files, *systems) if systems else Mentions()
+        if there.changes:
+            changes[path] = [*there.changes]
+        changed = {start for start, _, _ in there.changes}
+        for each in word(old).finditer(source.text):
+            if each.start() not in changed and each.start() not in there.others:
+                report.report("still-named", Span(source, *each.span()), name=old, help=way)
+    return changes
+
+
+def _naming(paths: Sequence[Path], name: str) -> Iterator[tuple[Path, Source]]:
+    """The files of TOML beside the model that have a name somewhere."""
     project = find_file(paths[0] if paths else Path())
     folders = [project.parent] if project is not None else [*paths] or [Path()]
-    word = re.compile(rf"(?<![A-Za-z0-9_]){re.escape(old)}(?![A-Za-z0-9_])")
     for folder in folders:
         for path in files_below(folder, ".toml"):
             source = read_source(path, None, Diagnostics()) if path.name != "swarm.toml" else None
-            if source is None:
-                continue
-            for each in word.finditer(source.text):
-                report.report("still-named", Span(source, *each.span()), name=old, help=way)
+            if source is not None and name in source.text:
+                yield path, source

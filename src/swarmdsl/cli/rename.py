@@ -19,7 +19,7 @@ from swarmdsl.cli.outcome import exit_code
 @options.diagnostics_format
 @options.debug
 def rename(old: str, new: str, paths: tuple[Path, ...], dry_run: bool, format_: str) -> int:
-    """Call something otherwise, wherever the model names it.
+    """Call something otherwise, wherever the model, its tests and scenarios name it.
 
     OLD is its name, or its path where several have that: `Uav.altitude` is a param of a
     member, `Search.Rise` a state of a machine. NEW is one word. A name that makes a mistake

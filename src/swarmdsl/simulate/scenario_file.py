@@ -15,7 +15,7 @@ from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Subject
 from swarmdsl.simulate.values import Way, fitted, fitted_result
 
-_TABLES = ("seed", "until", "count", "params", "network", "functions", "messages", "faults")
+TABLES = ("seed", "until", "count", "params", "network", "functions", "messages", "faults")
 _SHARES = ("aborted", "preempted", "never")
 _FUNCTION = ("duration", "stopping", *_SHARES, "results", "of")
 
@@ -36,7 +36,7 @@ class _Reader:
 
     def read(self) -> Scenario:
         top = self.top
-        top.check_keys(_TABLES, "a scenario")
+        top.check_keys(TABLES, "a scenario")
         counts = self.counts()
         self.robots = self.subject.crew(counts)
         self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))

@@ -142,3 +142,8 @@ class TestFile:
 
     source: Source
     cases: tuple[Case | Unread, ...]
+
+    @property
+    def unread(self) -> tuple[Unread, ...]:
+        """Those that are not run."""
+        return tuple(case for case in self.cases if isinstance(case, Unread))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TextIO
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.reading import read_source
 from swarmdsl.simulate.coverage import Coverage
 from swarmdsl.simulate.trace import Line
 from swarmdsl.testing.case import Unread
@@ -76,7 +77,8 @@ class _Session:
 
     def _file(self, path: Path) -> None:
         report = Diagnostics()
-        tests = read_tests(path, self._models, report)
+        source = read_source(path, None, report)
+        tests = read_tests(source, self._models, report) if source is not None else None
         cases = tests.cases if tests is not None else ()
         chosen = [c for c in cases if selected(f"{path.as_posix()}::{c.name}", self._pattern)]
         self._left_out += len(cases) - len(chosen)

@@ -16,7 +16,7 @@ from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.scenario_file import read_scenario
 from swarmdsl.simulate.scenario_table import Table
 from swarmdsl.simulate.subject import Subject
-from swarmdsl.source import Span
+from swarmdsl.source import Source, Span
 from swarmdsl.testing.case import Case, End, Step, TestFile, Unread
 from swarmdsl.testing.models import Model, Models
 from swarmdsl.testing.names import Names
@@ -30,16 +30,16 @@ _NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
 _MOST_SEEDS = 10_000
 
 
-def read_tests(path: Path, models: Models, report: Diagnostics) -> TestFile | None:
+def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile | None:
     """The tests of a file; None where it has errors, which are reported.
 
     What is wrong with one test alone is kept with that, so that the others can run.
     """
-    source = read_source(path, None, report)
-    document = parse_toml(source, report) if source is not None else None
+    document = parse_toml(source, report)
     if document is None:
         return None
-    cases = _Reader(document, path, models, report).read()
+    assert source.path is not None  # what it names lies beside it
+    cases = _Reader(document, source.path, models, report).read()
     if not cases or report.has_errors:
         for case in cases:
             report.include(case.problems if isinstance(case, Unread) else ())
