@@ -36,13 +36,13 @@ def made(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str
 
 
 # The engine is that of this project, which tests of the targets compare with it.
-ENGINE = re.compile(r"(smach|ros2|yasmin)/\w+/(src/\w+/engine/\w+|\w+/engine)\.py")
+ENGINE = re.compile(r"(smach|ros2|smach_ros2|yasmin)/\w+/(src/\w+/engine/\w+|\w+/engine)\.py")
 # What else is the same in each package is looked at in one.
 SAME_IN_ALL = re.compile(
     r"smach/\w+/src/\w+/(actions|chart|containers|node|services|states)\.py"
     r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|node|parameters|topics|tracing|values)\.py"
     r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
-    r"|yasmin/\w+/\w+/(following|node|runner)\.py"
+    r"|(yasmin|smach_ros2)/\w+/\w+/(following|node|runner)\.py"
 )
 
 
@@ -56,13 +56,15 @@ def make(model: Path, out: Path) -> dict[str, str]:
         result = compiler.build([model], [Request(target)], out)
         if len(result.report):
             texts[f"{target}.diagnostics.txt"] = rendered(result)
+    compiler.build([model], [Request("smach", {"ros": "2"})], out / "with")
+    (out / "with" / "smach").rename(out / "smach_ros2")
     for path in sorted(out.rglob("*")):
         name = path.relative_to(out).as_posix()
         common = ENGINE.fullmatch(name) or (model != SHOWN and SAME_IN_ALL.fullmatch(name))
         if path.is_file() and not path.name.startswith(".swarmdsl") and not common:
             text = path.read_text(encoding="utf-8")
-            # Target `yasmin` adds to the package of `ros2`.
-            base = out / re.sub("^yasmin/", "ros2/", name)
+            # Targets `yasmin` and, on ROS 2, `smach` add to the package of `ros2`.
+            base = out / re.sub("^(yasmin|smach_ros2)/", "ros2/", name)
             if base == path or not base.exists() or base.read_text(encoding="utf-8") != text:
                 texts[name] = text
     return texts

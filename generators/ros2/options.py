@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
 from swarmdsl.generator import option
-from swarmdsl.ros_package import PackageOptions, packages_fault
+from swarmdsl.ros_package import PackageOptions, copyright_fault, packages_fault
 
 from .names import NAMES
-
-_COPYRIGHT = re.compile(r"[0-9]{4}(-[0-9]{4})? \S.*")
-
-
-def _copyright_fault(value: str) -> str | None:
-    if not value or (_COPYRIGHT.fullmatch(value) and value.isprintable()):
-        return None
-    return f"`{value}` is not a year and a name, as in `2026 Example Robotics`"
 
 
 @dataclass(frozen=True)
@@ -32,6 +23,6 @@ class Options(PackageOptions):
         check=packages_fault,
     )
     copyright: str = option(
-        "", "year and holder of the copyright, for the head of each file", check=_copyright_fault
+        "", "year and holder of the copyright, for the head of each file", check=copyright_fault
     )
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")

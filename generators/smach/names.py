@@ -39,7 +39,7 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
     """Check the names that become userdata keys, labels, outcomes and functions."""
     keys: list[Param | Variable] = [*machine.params, *machine.variables]
     for named in keys:
-        if not is_python_name(named.name) or named.name.startswith("_") or named.name in _USERDATA:
+        if not is_python_name(named.name) or not _is_key(named.name):
             NAMES.bad(report, named.name, "a key of userdata", named.origin)
     for param in machine.params:
         if param.name in _OF_NODES:
@@ -47,6 +47,18 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
                 report, param.name, "a ROS parameter: all nodes have one of that name", param.origin
             )
     NAMES.check_callbacks(machine, report)
+
+
+def check_keys(machine: StateMachine, report: Diagnostics) -> None:
+    """Check that names that Python takes are also those of userdata."""
+    keys: list[Param | Variable] = [*machine.params, *machine.variables]
+    for named in keys:
+        if not _is_key(named.name):
+            NAMES.bad(report, named.name, "a key of userdata", named.origin)
+
+
+def _is_key(name: str) -> bool:
+    return not name.startswith("_") and name not in _USERDATA
 
 
 def event_constants(

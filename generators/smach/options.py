@@ -5,9 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from swarmdsl.generator import option
-from swarmdsl.ros_package import PackageOptions, packages_fault
+from swarmdsl.ros_package import PackageOptions, copyright_fault, packages_fault
 
 from .names import NAMES
+
+
+def _package_fault(name: str) -> str | None:
+    from ..ros2.names import NAMES as OF_ROS_2
+
+    return NAMES.option_fault(name) or OF_ROS_2.option_fault(name)
 
 
 def _seconds_fault(value: int) -> str | None:
@@ -18,8 +24,9 @@ def _seconds_fault(value: int) -> str | None:
 class Options(PackageOptions):
     """The options of the target."""
 
+    ros: int = option(1, "generation of ROS that the nodes run on", choices=("1", "2"))
     package: str = option(
-        "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
+        "", "name of the package; made from the model's name when empty", check=_package_fault
     )
     interfaces: str = option(
         "",
@@ -27,21 +34,42 @@ class Options(PackageOptions):
         check=packages_fault,
     )
     simulation: bool = option(
-        False, "whether to write launch files for Gazebo, with the worlds of the environments"
+        False,
+        "whether to write launch files for Gazebo, with the worlds of the environments",
+        only="ros=1",
     )
     components: bool = option(
         False,
         "whether launch files start the components, too, by the package that target skeleton "
         "writes; true where that is built with it",
         beside="skeleton.ros=1",
+        only="ros=1",
     )
     missing_server: int = option(
-        10, "seconds to wait for the server of an action or service", check=_seconds_fault
+        10,
+        "seconds to wait for the server of an action or service",
+        check=_seconds_fault,
+        only="ros=1",
     )
     dead_server: int = option(
-        5, "seconds without a sign of life until a goal counts as aborted", check=_seconds_fault
+        5,
+        "seconds without a sign of life until a goal counts as aborted",
+        check=_seconds_fault,
+        only="ros=1",
     )
-    cancel: int = option(5, "seconds to wait for the end of a cancelled goal", check=_seconds_fault)
+    cancel: int = option(
+        5, "seconds to wait for the end of a cancelled goal", check=_seconds_fault, only="ros=1"
+    )
+
+    copyright: str = option(
+        "",
+        "year and holder of the copyright, for the head of each file",
+        check=copyright_fault,
+        only="ros=2",
+    )
+    lifecycle: bool = option(
+        False, "managed nodes: configured and activated from outside", only="ros=2"
+    )
 
     @property
     def timeouts(self) -> dict[str, int]:

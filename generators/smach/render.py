@@ -24,6 +24,10 @@ from .view import PackageView, package_view
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
     """The files of the package with the behaviour, and of those with the interfaces."""
+    if options.ros == 2:
+        from .ros2 import render as ros2  # which who builds for ROS 1 need not wait for
+
+        return ros2.emit(system, options, report)
     package = package_view(system, options, report)
     if package is None:
         return []

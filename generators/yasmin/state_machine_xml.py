@@ -12,8 +12,8 @@ from swarmdsl.exchange.xml import document as written
 from swarmdsl.exchange.xml import legal
 from swarmdsl.ir import StateMachine
 
-from .structure import Kind, Node
-from .ways import CANCELED
+from ..following.structure import Kind, Node
+from .library import YASMIN
 
 
 def document(root: Node, machine: StateMachine, module: str) -> str:
@@ -39,7 +39,7 @@ def _element(node: Node, module: str) -> etree._Element:
     if node.kind is Kind.MACHINE:
         element = etree.Element("StateMachine", _head(node))
     elif node.kind is Kind.CONCURRENCE:
-        element = etree.Element("Concurrence", name=node.name, default_outcome=CANCELED)
+        element = etree.Element("Concurrence", name=node.name, default_outcome=YASMIN.stopped)
     else:
         called = {"type": "py", "module": module, "class": node.python_name}
         element = etree.Element("State", {"name": node.name, **called})

@@ -27,7 +27,7 @@ _Made = TypeVar("_Made")
 
 @dataclass(frozen=True)
 class Request:
-    """A target to build and its options, as text; `places` are those of options given just now.
+    """A target to build and its options, as text; `places` are those of the options.
 
     One that is not `required` is left out, with a warning, when it cannot express the model
     or does not work, as long as another one can.
@@ -101,7 +101,7 @@ def _emit_target(
         report.report(
             "unsupported-construct", place, target=request.target, construct=feature.value
         )
-    given = {**_implied(generator, built), **request.options}
+    given = {**_implied(generator, request, built), **request.options}
     options = parse_options(generator, given, report, request.places)
     if report.has_errors:
         return None
@@ -116,11 +116,14 @@ def _emit_target(
     return files
 
 
-def _implied(generator: Generator, built: Iterable[Request]) -> dict[str, str]:
+def _implied(generator: Generator, request: Request, built: Iterable[Request]) -> dict[str, str]:
     """The options that are true because of what else is built."""
-    beside = {name: each.beside for name, each in options_of(generator).items() if each.beside}
+    options = options_of(generator)
+    beside = {name: each.beside for name, each in options.items() if each.beside}
     if not beside:
         return {}
+    own = {"", *(f"{name}={value}" for name, value in _all(request))}
+    beside = {name: other for name, other in beside.items() if options[name].only in own}
     chosen = {f"{each.target}.{name}={value}" for each in built for name, value in _all(each)}
     return {name: "true" for name, other in beside.items() if other in chosen}
 

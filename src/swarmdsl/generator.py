@@ -6,7 +6,7 @@ touches the disk; the core checks the paths, finds collisions and writes.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import field as field_of_python
 from enum import Enum
 from typing import Any, TypeVar
@@ -103,16 +103,18 @@ def option(
     choices: tuple[str, ...] = (),
     check: Callable[[V], str | None] | None = None,
     beside: str = "",
+    only: str = "",
 ) -> Any:
     """A field of an options class: its default, what it is for, the values it may take.
 
     `beside` is for one that is true where nothing else is said and another target is built too:
-    `skeleton.ros=1` is target `skeleton` with its option `ros` at 1.
+    `skeleton.ros=1` is target `skeleton` with its option `ros` at 1. `only` is for one that counts
+    only where another of the same target has a value, as `ros=1`.
 
     `check` is called with a value of the option's type that somebody gave, and returns what
     is wrong with it, in words, or None. It is reported where the value stands.
     """
-    about = {"help": text, "choices": choices, "check": check, "beside": beside}
+    about = {"help": text, "choices": choices, "check": check, "beside": beside, "only": only}
     return field_of_python(default=default, metadata=about)
 
 
@@ -138,7 +140,8 @@ class Generator:
     What it finds wrong with the model goes to `report`. Before it is called the core has
     reported every construct outside `supports` in the machines that `machines(system)`
     names, those it writes, and does not call it when there is one. `mapping` says what becomes
-    of each construct, for `swarmc targets`.
+    of each construct, for `swarmc targets`; `mapping_with` the same by the value of an option, as
+    `ros=2`, with which that is something else.
     """
 
     target: str
@@ -149,6 +152,7 @@ class Generator:
     api_version: int = API_VERSION
     machines: Callable[[System], Iterable[StateMachine]] = all_machines
     mapping: tuple[Mapped, ...] = ()
+    mapping_with: Mapping[str, tuple[Mapped, ...]] = field(default_factory=dict)
 
 
 __all__ = [

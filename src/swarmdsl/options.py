@@ -29,6 +29,7 @@ class Option:
     choices: tuple[str, ...]
     check: Callable[[Any], str | None] | None
     beside: str
+    only: str
 
     @property
     def takes(self) -> str:
@@ -63,6 +64,7 @@ def _option(field: Field[Any], type_: type) -> Option:
         tuple(field.metadata.get("choices", ())),
         field.metadata.get("check"),
         field.metadata.get("beside", ""),
+        field.metadata.get("only", ""),
     )
 
 
@@ -71,10 +73,13 @@ def parse_options(
     given: Mapping[str, str],
     report: Diagnostics,
     places: Mapping[str, Span] | None = None,
+    *,
+    is_all: bool = True,
 ) -> object:
     """The generator's options with what was given; defaults where that is wrong and reported.
 
-    `places` are those of the values: in the project file, or on the command line.
+    `places` are those of the values: in the project file, or on the command line. Where that is
+    not all, more can be given elsewhere.
     """
     places = places or {}
     known = options_of(generator)
@@ -92,7 +97,14 @@ def parse_options(
             report.report("bad-option", place, target=generator.target, fault=fault)
         elif _passes(known[name], value, generator, place, report):
             values[name] = value
-    return generator.options_type(**values)
+    options = generator.options_type(**values)
+    for name in values if is_all else ():
+        condition = known[name].only
+        other, _, value_of_other = condition.partition("=")
+        if condition and str(getattr(options, other)) != value_of_other:
+            fault = f"option `{name}` counts only with `{condition}`"
+            report.report("bad-option", places.get(name), target=generator.target, fault=fault)
+    return options
 
 
 def _passes(

@@ -14,6 +14,7 @@ from swarmdsl.naming import is_ros_package_name
 
 # What catkin_pkg demands of them.
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
+_COPYRIGHT = re.compile(r"[0-9]{4}(-[0-9]{4})? \S.*")
 _EMAIL = re.compile(r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}")
 
 
@@ -31,6 +32,13 @@ def packages_fault(value: str) -> str | None:
     """What is wrong with names of packages with commas between them; None if nothing is."""
     wrong = [name for name in value.split(",") if value and not is_ros_package_name(name)]
     return f"`{wrong[0]}` is not the name of a package of ROS" if wrong else None
+
+
+def copyright_fault(value: str) -> str | None:
+    """What is wrong with a year and the holder of a copyright, which may be empty; or None."""
+    if not value or (_COPYRIGHT.fullmatch(value) and value.isprintable()):
+        return None
+    return f"`{value}` is not a year and a name, as in `2026 Example Robotics`"
 
 
 def _line_fault(name: str) -> Callable[[str], str | None]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import Feature, Generator
+from swarmdsl.generator import Feature, Generator, Mapped
 from swarmdsl.options import options_of
 
 
@@ -59,15 +59,22 @@ def _page(generator: Generator) -> Iterator[str]:
         yield f"\noptions, given as `--option {generator.target}.NAME=VALUE`"
         for option in options:
             yield f"  {option.name}: {option.help}"
-            yield f"    takes {option.takes}; default: {_shown(option.default)}"
+            only = option.only and f"; counts only with `{option.only}`"
+            yield f"    takes {option.takes}; default: {_shown(option.default)}{only}"
     missing = _cannot_express(generator)
     yield "\ncannot express" if missing else "\ncan express every construct of state machines"
     yield from (f"  {construct}" for construct in missing)
-    if generator.mapping:
-        yield "\nwhat becomes of the constructs of a model"
-    wide = max((len(each.construct) for each in generator.mapping), default=0)
-    for each in generator.mapping:
-        yield f"  {each.construct:<{wide}}  {each.support.value:<8}  {each.means}"
+    for with_, mapping in _mappings(generator).items():
+        with_ = with_ and f" with `{generator.target}.{with_}`"
+        yield f"\nwhat becomes of the constructs of a model{with_}"
+        wide = max(len(each.construct) for each in mapping)
+        for each in mapping:
+            yield f"  {each.construct:<{wide}}  {each.support.value:<8}  {each.means}"
+
+
+def _mappings(generator: Generator) -> dict[str, tuple[Mapped, ...]]:
+    """What becomes of constructs, by the value of an option with which that is so."""
+    return {"": generator.mapping, **generator.mapping_with} if generator.mapping else {}
 
 
 def _shown(value: object) -> str:
@@ -98,8 +105,15 @@ def _as_json(generator: Generator) -> dict[str, Any]:
             for option in options_of(generator).values()
         ],
         "cannot_express": _cannot_express(generator),
-        "mapping": [
-            {"construct": one.construct, "support": one.support.value, "means": one.means}
-            for one in generator.mapping
-        ],
+        "mapping": _rows(generator.mapping),
+        "mapping_with": {
+            option: _rows(mapping) for option, mapping in generator.mapping_with.items()
+        },
     }
+
+
+def _rows(mapping: Sequence[Mapped]) -> list[dict[str, str]]:
+    return [
+        {"construct": one.construct, "support": one.support.value, "means": one.means}
+        for one in mapping
+    ]

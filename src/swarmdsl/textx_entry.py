@@ -109,7 +109,7 @@ swarm = LanguageDesc(
 
 scxml = _generator("scxml", "SCXML documents of the state machines")
 adf = _generator("adf", "Abstraction description file of the functions")
-smach = _generator("smach", "ROS 1 packages that run the state machines with SMACH")
+smach = _generator("smach", "ROS packages that run the state machines with SMACH")
 ros2 = _generator("ros2", "ROS 2 packages that run the state machines on rclpy")
 yasmin = _generator("yasmin", "ROS 2 packages that run the state machines with YASMIN")
 skeleton = _generator("skeleton", "Packages of functions and components, to fill in")

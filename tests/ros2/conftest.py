@@ -133,7 +133,8 @@ def _agrees(node: Any, scenario: Path) -> None:
     """What a node did is what its machine does in the model when the same happens to it."""
     environment = load_module("environment")
     (model,) = [m for m in environment.MODELS if f"{_system(m).name}_behavior" == node.package]
-    module = node.module.removesuffix("_fsm")  # what target `yasmin` calls it
+    # What targets `yasmin` and `smach` call it.
+    module = node.module.removesuffix("_fsm").removesuffix("_smach")
     (machine,) = [m for m in _system(model).machines if snake_case(m.name) == module]
     names = {param.name: param.type for param in machine.params}
     lines = ["[params]"]

@@ -8,7 +8,7 @@ def paths(machine):
 
 def settled(machine):
     """Whether SMACH has come to the states that are active."""
-    for label in _running(machine):
+    for label in running(machine):
         child = machine.get_children()[label]
         if child.following is not child.current or child.current.is_over:
             return False
@@ -18,7 +18,7 @@ def settled(machine):
 
 
 def _paths(container, path):
-    for label in _running(container):
+    for label in running(container):
         child = container.get_children()[label]
         if hasattr(child, "get_children"):
             yield from _paths(child, f"{path}{label}/")
@@ -26,7 +26,8 @@ def _paths(container, path):
             yield f"{path}{label}"
 
 
-def _running(container):
+def running(container):
+    """The labels of the states in a container that are active."""
     children = container.get_children()
     if hasattr(container, "_child_outcomes"):
         return [label for label, outcome in container._child_outcomes.items() if outcome is None]

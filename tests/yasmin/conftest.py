@@ -7,24 +7,22 @@ SWARMDSL_YASMIN_PATH names the folder that it is in, or Python has it.
 from __future__ import annotations
 
 import functools
-import importlib
 import importlib.util
-import itertools
 import os
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
-from typing import Any
+from types import ModuleType
 
 import pytest
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
-from swarmdsl.naming import snake_case
 from swarmdsl.options import parse_options
 from swarmdsl.plugins import load
+
+from ..following.generated import Builder, forget
 
 # The modules of YASMIN, of the stand-in and of the real one: that can be imported only once.
 _LOADED: dict[bool, dict[str, ModuleType]] = {}
@@ -89,44 +87,19 @@ def yasmin_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
 @pytest.fixture
 def build(
     yasmin_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> Iterator[Callable[..., ModuleType]]:
+) -> Iterator[Builder]:
     """Generate a system and import the module of a machine; `chart` stands for the table."""
-    packages: set[str] = set()
     for place in yasmin_path:
         monkeypatch.syspath_prepend(place)
     kind = str(STAND_IN) in yasmin_path
     sys.modules.update(_LOADED.setdefault(kind, {}))
-    roots = (tmp_path / f"out{number}" for number in itertools.count())
 
-    def build(system: System, machine: str, chart: Any) -> ModuleType:
-        files, report = emit(system)
-        assert not list(report), [found.message for found in report]
-        package = files[0].path.partition("/")[0]
-        folder = next(roots) / package
-        for file in files:
-            path = folder.parent / file.path
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(file.text, encoding="utf-8")
-        for name in [each for each in sys.modules if each.partition(".")[0] == package]:
-            del sys.modules[name]
-        packages.add(package)
-        monkeypatch.syspath_prepend(str(folder))
-        module = snake_case(machine)
-        behavior = SimpleNamespace(machine=chart)
-        fakes = {
-            module: {"BEHAVIOR": behavior},
-            "node": {"run": None},
-            "runner": {"Fsm": None, "in_node_of_its_own": lambda behavior, name: None},
-        }
-        importlib.import_module(package)
-        for name, content in fakes.items():
-            fake = ModuleType(f"{package}.{name}")
-            vars(fake).update(content)
-            monkeypatch.setitem(sys.modules, fake.__name__, fake)
-        return importlib.import_module(f"{package}.{module}_fsm")
+    def files(system: System) -> list[OutputFile]:
+        found, report = emit(system)
+        assert not list(report), [each.message for each in report]
+        return found
 
-    yield build
-    for name in [each for each in sys.modules if each.partition(".")[0] in packages]:
-        del sys.modules[name]
-    for name in [each for each in sys.modules if each.partition(".")[0] == "yasmin"]:
-        _LOADED[kind][name] = sys.modules.pop(name)
+    made = Builder(files, "_fsm", tmp_path, monkeypatch)
+    yield made
+    made.close()
+    _LOADED[kind].update(forget({"yasmin"}))

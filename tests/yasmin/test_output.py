@@ -15,8 +15,8 @@ from swarmdsl import compiler
 from swarmdsl.ir import System
 from swarmdsl.naming import snake_case
 
+from ..following.agreement import ROOT
 from ..ros2.test_output import BARE, FORMAT, LINTERS, ruff
-from .test_agreement import ROOT
 
 MODEL = """package lab
 message Note { level : int32 }

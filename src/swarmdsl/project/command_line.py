@@ -60,7 +60,12 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
             )
         places[target][name] = _place(option)
     return [
-        Request(target, {**settings.targets.get(target, {}), **own}, required, places[target])
+        Request(
+            target,
+            {**settings.targets.get(target, {}), **own},
+            required,
+            {**settings.places.get(target, {}), **places[target]},
+        )
         for target, own in given.items()
     ]
 

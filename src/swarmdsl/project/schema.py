@@ -54,11 +54,13 @@ class _Reader:
         self._check_keys(self._document.values, (), _KEYS)
         project = self._table("project", _KEYS["project"])
         build = self._table("build", _KEYS["build"])
+        targets = dict(self._targets())
         return Settings(
             name=self._name() if "name" in project else None,
             sources=tuple(self._sources()) if "sources" in project else (self._folder,),
             libraries=(self._folder, *(self._libraries() if "libraries" in project else ())),
-            targets=dict(self._targets()),
+            targets=targets,
+            places={target: self._places(target, options) for target, options in targets.items()},
             levels=self._levels(),
             out=self._path(("build", "out")) or Path() if "out" in build else self._folder / "out",
         )
@@ -111,9 +113,12 @@ class _Reader:
             known_options = options_of(generator) if isinstance(generator, Generator) else {}
             options = dict(self._options(keys, known_options))
             if isinstance(generator, Generator):
-                places = {name: self._pair_place((*keys, name)) for name in options}
-                parse_options(generator, options, self._report, places)
+                places = self._places(target, options)
+                parse_options(generator, options, self._report, places, is_all=False)
             yield target, options
+
+    def _places(self, target: str, options: Iterable[str]) -> dict[str, Span]:
+        return {name: self._pair_place(("targets", target, name)) for name in options}
 
     def _options(self, keys: Keys, known: dict[str, Option]) -> Iterator[tuple[str, str]]:
         """The options of a target as they are written on a command line."""

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Level
+from swarmdsl.source import Span
 
 FILE_NAME = "swarm.toml"
 
@@ -16,12 +17,14 @@ class Settings:
     """The settings of a project; the defaults are those of a folder without project file.
 
     `sources` are compiled when no file is named, `libraries` searched for packages.
-    `targets` are built when none is named, with these options; none stands for all.
+    `targets` are built when none is named, with these options, which stand in `places`; none
+    stands for all.
     """
 
     name: str | None = None
     sources: tuple[Path, ...] = (Path(),)
     libraries: tuple[Path, ...] = ()
     targets: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    places: Mapping[str, Mapping[str, Span]] = field(default_factory=dict)
     levels: Mapping[str, Level] = field(default_factory=dict)
     out: Path = Path("out")

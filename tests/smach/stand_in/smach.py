@@ -108,6 +108,9 @@ class State:
     def get_registered_output_keys(self):
         return tuple(self._output_keys)
 
+    def register_output_keys(self, keys):
+        self._output_keys |= {*keys}
+
     def request_preempt(self):
         self._preempt_requested = True
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import yasmin
 
-CANCELED = 'canceled'
+STOPPED = 'canceled'
 
 
 class Way(NamedTuple):
@@ -52,7 +52,7 @@ class Chart:
     def __init__(self, machine, make_host, ways, entries):
         self.changed = Condition(RLock())
         self.host = None
-        self.blackboard = None
+        self.memory = None
         self.is_closed = False
         self._make_host = make_host
         self._ways = {
@@ -74,22 +74,24 @@ class Chart:
 
     # ---- what states call
 
-    def visit(self, path, blackboard):
+    def visit(self, path, memory):
         """Let YASMIN be in a state until the engine has left it; return the outcome."""
         with self.changed:
             begins = not self._is_running and not self._queues.get(path) and not self.is_closed
             if begins:
                 self._clear()
                 self._is_running, self._has_begun = True, False
-                self.blackboard = blackboard
+                self.memory = memory
         if begins:
             if self.host is None:
                 self.host = self._make_host(self)
             self.host.begin_engine()
+            if self.is_closed:  # meanwhile
+                self.cancel()
         with self.changed:
             self.changed.wait_for(lambda: self._queues.get(path) or not self._is_running)
             if not self._queues.get(path):
-                return CANCELED
+                return STOPPED
             activation = self._queues[path].popleft()
             activation.has_come = True
         if activation.run is not None:
@@ -137,7 +139,7 @@ class Chart:
         """Let YASMIN go on, after a step of the engine."""
         with self.changed:
             for path in self._left:
-                self._end(path, CANCELED)
+                self._end(path, STOPPED)
             self._left.clear()
             if self._has_begun:
                 self._is_running = is_running
@@ -147,7 +149,7 @@ class Chart:
         """Let YASMIN leave all states: the engine has failed."""
         with self.changed:
             for activation in self._current.values():
-                activation.outcome = activation.outcome or CANCELED
+                activation.outcome = activation.outcome or STOPPED
             self._has_begun, self._is_canceling = True, False
             self.settle(False)
 

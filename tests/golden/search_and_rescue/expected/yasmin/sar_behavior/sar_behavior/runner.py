@@ -30,19 +30,19 @@ class Fsm(NamedTuple):
 class Data:
     """What the machine remembers, on the blackboard of YASMIN: its params and variables."""
 
-    def __init__(self, blackboard, values):
-        vars(self)['_blackboard'] = blackboard
+    def __init__(self, memory, values):
+        vars(self)['_memory'] = memory
         for name, value in values.items():
-            blackboard[name] = value
+            memory[name] = value
 
     def __getattr__(self, name):
         try:
-            return self._blackboard[name]
+            return self._memory[name]
         except (KeyError, RuntimeError) as error:
-            raise AttributeError(f'nothing on the blackboard is called `{name}`') from error
+            raise AttributeError(f'there is nothing called `{name}`') from error
 
     def __setattr__(self, name, value):
-        self._blackboard[name] = value
+        self._memory[name] = value
 
 
 class Follower:
@@ -135,7 +135,7 @@ class Engine(host.Host):
             super().start(run)
 
     def _data(self, values):
-        return Data(self._chart.blackboard, vars(self._first(values)))
+        return Data(self._chart.memory, vars(self._first(values)))
 
     def _run(self, action):
         super()._run(action)

@@ -1,6 +1,6 @@
 """Which states a machine can come to, and which of them are entered first in those around.
 
-YASMIN refuses a state that nothing leads to, and a machine in it begins in one fixed state.
+A library may refuse a state that nothing leads to, and a machine in it begins in a fixed one.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""Generated nodes that run their machines in YASMIN: what they do is what the engine does.
+"""Generated nodes that run their machines in a library: what they do is what the engine does.
 
-They run on the stand-in of tests/yasmin, and on the real YASMIN where SWARMDSL_YASMIN_PATH names
-the folders of its packages. As for all nodes here, their traces are those of the model.
+They run on stand-ins for YASMIN and SMACH, and on the real ones where SWARMDSL_YASMIN_PATH and
+SWARMDSL_SMACH_PATH name the folders of their packages for ROS 2. As for all nodes here, their
+traces are those of the model.
 """
 
 from __future__ import annotations
@@ -9,18 +10,18 @@ from __future__ import annotations
 import os
 import subprocess
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 HERE = Path(__file__).resolve().parent
-STAND_IN = HERE.parent / "yasmin" / "stand_in"
 TAKE_OFF = ("/sar/uav_0/cmd/takeoff", "uav_mavros_takeoff/action/TakeOff")
 COVERAGE = ("/sar/uav_0/uav_coverage", "cpswarm_msgs/action/Coverage")
 LAND = ("/sar/uav_0/cmd/land", "std_srvs/srv/Empty")
-# A program of somebody's own, in which the machine is a part of another one.
-PROGRAM = """
+# Programs of somebody's own, in which the machine is a part of another one.
+IN_YASMIN = """
 import os
 import sys
 from threading import Thread
@@ -51,22 +52,98 @@ Thread(target=cancel, daemon=True).start()
 print('came out with', outer(yasmin.Blackboard()), flush=True)
 os._exit(0)
 """
+IN_SMACH = """
+import os
+import sys
+from threading import Thread
+import rclpy
+import smach
+from sar_behavior.uav_search_smach import build
+
+class Count(smach.State):
+    def __init__(self):
+        super().__init__(['again', 'enough'], ['altitude'])
+        self.left = 2
+
+    def execute(self, userdata):
+        print('altitude', userdata.altitude, flush=True)
+        self.left -= 1
+        return 'again' if self.left else 'enough'
+
+def preempt():
+    for _ in sys.stdin:
+        search.request_preempt()
+
+rclpy.init(args=sys.argv)
+search = build()
+search.register_output_keys(['altitude'])
+outer = smach.StateMachine(['enough'])
+with outer:
+    smach.StateMachine.add('Search', search, {'preempted': 'Count'})
+    smach.StateMachine.add('Count', Count(), {'again': 'Search', 'enough': 'enough'})
+Thread(target=preempt, daemon=True).start()
+print('came out with', outer.execute(), flush=True)
+os._exit(0)
+"""
 
 
-@pytest.fixture(params=["stand-in", "real"])
-def robot(
-    request: pytest.FixtureRequest, ros: Any, variant: Callable[..., Path]
-) -> Callable[..., Any]:
+@dataclass(frozen=True)
+class Library:
+    """A library, and the program in which a machine of it is a part of another one."""
+
+    name: str
+    options: dict[str, str]
+    suffix: str
+    stopped: str
+    stand_in: tuple[Path, ...]
+    real: str
+    program: str
+
+
+YASMIN = Library(
+    "YASMIN",
+    {"target": "yasmin"},
+    "_fsm",
+    "canceled",
+    (HERE.parent / "yasmin" / "stand_in",),
+    "SWARMDSL_YASMIN_PATH",
+    IN_YASMIN,
+)
+SMACH = Library(
+    "SMACH",
+    {"target": "smach", "ros": "2"},
+    "_smach",
+    "preempted",
+    (HERE.parent / "smach" / "stand_in", HERE / "smach_stand_in"),
+    "SWARMDSL_SMACH_PATH",
+    IN_SMACH,
+)
+
+
+@pytest.fixture(
+    params=[(each, is_real) for each in (YASMIN, SMACH) for is_real in (False, True)],
+    ids=lambda each: f"{each[0].name}-{'real' if each[1] else 'stand-in'}",
+)
+def library(request: pytest.FixtureRequest, ros: Any) -> Library:
+    """A library that nodes can import."""
+    found, is_real = request.param
+    if is_real and found.real not in os.environ:
+        pytest.skip(f"no real {found.name} here; {found.real} names the folders of it")
+    real = map(Path, os.environ.get(found.real, "").split(os.pathsep))
+    for place in real if is_real else found.stand_in:
+        ros.prefer(place)
+    made: Library = found
+    return made
+
+
+@pytest.fixture
+def robot(library: Library, ros: Any, variant: Callable[..., Path]) -> Callable[..., Any]:
     """Make nodes of a model."""
-    if request.param == "real" and "SWARMDSL_YASMIN_PATH" not in os.environ:
-        pytest.skip("no real YASMIN here; SWARMDSL_YASMIN_PATH names the folders of it")
-    real = os.environ.get("SWARMDSL_YASMIN_PATH", "").split(os.pathsep)
-    for place in [str(STAND_IN)] if request.param == "stand-in" else real:
-        ros.prefer(Path(place))
 
     def robot(model: str, module: str, namespace: str, **parameters: Any) -> Any:
-        ros.prefer(variant(model, target="yasmin"))
-        return ros.node(module, namespace, **parameters) if module else None
+        ros.prefer(variant(model, **library.options))
+        name = f"{module}{library.suffix}"
+        return ros.node(name, namespace, **parameters) if module else None
 
     return robot
 
@@ -83,7 +160,7 @@ def fakes(ros: Any) -> Any:
 def uav(robot: Callable[..., Any], fakes: Any, **parameters: Any) -> Any:
     """A UAV that waits for its mission."""
     given = {"member": "uav[0]", "timeouts__server": 1.0, **parameters}
-    node = robot("examples/search_and_rescue", "sar_behavior.uav_search_fsm", "/sar/uav_0", **given)
+    node = robot("examples/search_and_rescue", "sar_behavior.uav_search", "/sar/uav_0", **given)
     for event in ("start", "abort"):
         fakes.listeners(f"/sar/mission_{event}")
     node.wait_in("Mission.Idle")
@@ -108,7 +185,9 @@ def test_a_mission_that_is_aborted(robot: Callable[..., Any], fakes: Any) -> Non
 
 
 @pytest.mark.parametrize("number", [2, 15], ids=["SIGINT", "SIGTERM"])
-def test_signals_cancel_goals(robot: Callable[..., Any], fakes: Any, number: int) -> None:
+def test_signals_cancel_goals(
+    robot: Callable[..., Any], fakes: Any, library: Library, number: int
+) -> None:
     fakes.action(*TAKE_OFF, "never", stopping=0.2)
     node = uav(robot, fakes)
     fakes.publish("/sar/mission_start")
@@ -117,17 +196,17 @@ def test_signals_cancel_goals(robot: Callable[..., Any], fakes: Any, number: int
     assert node.terminate(number) == 0
     fakes.wait("stopped", TAKE_OFF[0])
     assert node.trace[-1]["cancelled"] == ["uav_mavros_takeoff"]
-    assert "the machine of YASMIN has ended with canceled" in node.log
+    assert f"the machine of {library.name} has ended with {library.stopped}" in node.log
     assert "Traceback" not in node.log
 
 
 def test_a_machine_in_a_program_of_somebody_else(
-    robot: Callable[..., Any], ros: Any, fakes: Any, tmp_path: Path
+    robot: Callable[..., Any], library: Library, ros: Any, fakes: Any, tmp_path: Path
 ) -> None:
     """It has a node of its own there, and begins anew each time."""
     robot("examples/search_and_rescue", "", "")
     program = tmp_path / "program.py"
-    program.write_text(PROGRAM, encoding="utf-8")
+    program.write_text(library.program, encoding="utf-8")
     fakes.action(*TAKE_OFF, "never", "never")
     words = ["--ros-args", "-r", "__ns:=/sar/uav_0", "-p", "altitude:=3.5"]
     process = ros.start(program, *words, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
@@ -143,5 +222,5 @@ def test_a_machine_in_a_program_of_somebody_else(
         process.stdin.flush()
         fakes.wait("stopped", TAKE_OFF[0], number)
     output, _ = process.communicate(timeout=60)
-    said = [line for line in output.splitlines() if not line.startswith("[")]  # YASMIN logs there
+    said = [line for line in output.splitlines() if not line.startswith("[")]  # logs, too
     assert said == ["altitude 3.5", "altitude 3.5", "came out with enough"]

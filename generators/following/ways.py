@@ -1,4 +1,4 @@
-"""By which outcomes transitions lead on in YASMIN, and which states end with each of them.
+"""By which outcomes transitions lead on in a library, and which states end with each of them.
 
 What a transition leaves is left from the inside: the innermost states end with an outcome that
 the machines around them pass on, up to the one that binds it to what comes next. So an outcome
@@ -25,10 +25,9 @@ from swarmdsl.ir import (
 from swarmdsl.naming import fresh
 
 from .domains import Domains, Move, is_in
+from .library import Library
 from .reach import Reach
 
-TARGET = "yasmin"
-CANCELED = "canceled"
 _LEAVES = (StateKind.SIMPLE, StateKind.CHOICE, StateKind.FINAL)
 
 
@@ -42,10 +41,10 @@ class Meaning:
 
 @dataclass(frozen=True)
 class Way:
-    """A transition in YASMIN: what is active inside `left` ends with an outcome.
+    """A transition in the library: what is active inside `left` ends with an outcome.
 
     Which one that is depends on the event; one that needs no event has an empty name.
-    `history` is the id of the history that it leads to, where YASMIN has a state for that.
+    `history` is the id of the history that it leads to, where the library has a state for that.
     """
 
     outcomes: tuple[tuple[str, str], ...]
@@ -56,12 +55,13 @@ class Way:
 class Ways:
     """The ways of a machine, and the outcomes of its states with what they mean."""
 
-    def __init__(self, machine: StateMachine, report: Diagnostics) -> None:
+    def __init__(self, machine: StateMachine, library: Library, report: Diagnostics) -> None:
         self.domains = Domains(machine)
         self.reach = Reach(machine, self.domains)
         self.outcomes: dict[str, dict[str, Meaning]] = {}
         self.of: dict[str, tuple[Way | None, ...]] = {}
         self._machine = machine
+        self._library = library
         self._known = {state.id: state for state in machine.walk()}
         self._report = report
         for state in machine.walk():
@@ -116,7 +116,7 @@ class Ways:
             if known != meaning
         }
         taken |= {child.name for state in passed for child in self._known[state].states}
-        taken |= {CANCELED, *filter(None, map(self.junction, passed))}
+        taken |= {self._library.stopped, *filter(None, map(self.junction, passed))}
         outcome = name if name not in taken else fresh(f"{move.state.name}_{name}", taken)
         for state in passed:
             self.outcomes[state][outcome] = meaning
@@ -134,7 +134,7 @@ class Ways:
             self._report.report(
                 "unsupported-construct",
                 move.origin,
-                target=TARGET,
+                target=self._library.target,
                 construct="a transition to a deep history from states inside of others around it",
                 help=f"let state `{child}` have the transition",
             )

@@ -1,4 +1,4 @@
-"""From a state machine to what YASMIN has: states and containers, each bound to what comes next."""
+"""From a machine to what a library has: states and containers, each bound to what comes next."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import State, StateKind, StateMachine
 from swarmdsl.naming import camel_case, fresh
-from swarmdsl.source import Span
 
-from .ways import CANCELED, TARGET, Way, Ways
+from .library import Library
+from .ways import Way, Ways
 
 # What the generated module has besides the classes of its states.
 _RESERVED = (
@@ -21,7 +21,7 @@ _RESERVED = (
 
 
 class Kind(Enum):
-    """What a node is in YASMIN."""
+    """What a node is in the library."""
 
     STATE = "State"
     JUNCTION = "Junction"
@@ -31,7 +31,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Node:
-    """A state of YASMIN.
+    """A state of the library.
 
     `path` is its id in the chart, `python_name` its class or the function that builds it.
     `transitions` bind its outcomes in the machine around: to a state in that, or an outcome of it.
@@ -62,13 +62,14 @@ class Structure:
     `entries` are the names of the junctions at the beginning of containers, by their ids.
     """
 
-    def __init__(self, machine: StateMachine, report: Diagnostics) -> None:
-        self._ways = Ways(machine, report)
+    def __init__(self, machine: StateMachine, library: Library, report: Diagnostics) -> None:
+        self._ways = Ways(machine, library, report)
+        self._stopped = library.stopped
         self._classes = {*_RESERVED}
         self._functions = {"build", "main"}
         self.entries: dict[str, str] = {}
         self.ways: Mapping[str, tuple[Way | None, ...]] = self._ways.of
-        _check(machine, report)
+        _check(machine, library, report)
         finals = [
             state.name
             for state in machine.states
@@ -76,7 +77,7 @@ class Structure:
         ]
         nodes, start = self._inside("", machine)
         self.root = Node(
-            Kind.MACHINE, machine.name, "", "build", (*finals, CANCELED), {}, nodes, start
+            Kind.MACHINE, machine.name, "", "build", (*finals, library.stopped), {}, nodes, start
         )
 
     def _inside(self, path: str, around: State | StateMachine) -> tuple[tuple[Node, ...], str]:
@@ -101,18 +102,18 @@ class Structure:
         self, around: str, name: str, labels: list[str], state: State | None = None
     ) -> Node:
         path = f"{around}.{name}" if around else name
-        bound = {**{label: label for label in labels}, CANCELED: CANCELED}
+        bound = {**{label: label for label in labels}, self._stopped: self._stopped}
         python_name = self._class(path)
         return Node(Kind.JUNCTION, name, path, python_name, tuple(bound), bound, state=state)
 
     def _node(self, around: str, state: State) -> Node:
         meanings = self._ways.outcomes[state.id]
-        outcomes = (*meanings, CANCELED)
+        outcomes = (*meanings, self._stopped)
         bound = {
             outcome: meaning.label if meaning.domain == around else outcome
             for outcome, meaning in meanings.items()
         }
-        bound[CANCELED] = CANCELED
+        bound[self._stopped] = self._stopped
         if state.kind is StateKind.REGION:
             bound = {}  # a concurrence has a map of outcomes instead
         if state.kind is StateKind.PARALLEL:
@@ -135,7 +136,7 @@ class Structure:
         outcome_map = {
             outcome: {region.name: outcome for region in regions if outcome in region.outcomes}
             for outcome in outcomes
-            if outcome != CANCELED
+            if outcome != self._stopped
         }
         return Node(
             Kind.CONCURRENCE,
@@ -161,21 +162,23 @@ class Structure:
         return name
 
 
-def _check(machine: StateMachine, report: Diagnostics) -> None:
-    """Report what YASMIN cannot have."""
+def _check(machine: StateMachine, library: Library, report: Diagnostics) -> None:
+    """Report what the library cannot have."""
     by_id = {state.id: state for state in machine.walk()}
     if by_id[machine.initial].kind is StateKind.FINAL:
         report.report(
             "unsupported-construct",
             machine.origin,
-            target=TARGET,
+            target=library.target,
             construct="an initial state that is final",
             help="a machine that ends as soon as it begins needs no node",
         )
     for state in by_id.values():
-        if state.name == CANCELED:
-            _bad(state.name, "a state: machines of YASMIN end with it", state.origin, report)
-
-
-def _bad(name: str, use: str, at: Span | None, report: Diagnostics) -> None:
-    report.report("bad-identifier", at, target=TARGET, name=name, use=use)
+        if state.name == library.stopped:
+            report.report(
+                "bad-identifier",
+                state.origin,
+                target=library.target,
+                name=state.name,
+                use=f"a state: machines of {library.name} end with it",
+            )

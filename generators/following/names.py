@@ -1,0 +1,29 @@
+"""Names that machines and interfaces cannot have besides those that target `ros2` does not take."""
+
+from __future__ import annotations
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.source import Span
+
+from ..ros2.view import PackageView
+from .library import Library
+
+_MODULES = ("following", "runner")
+
+
+def check_names(package: PackageView, library: Library, report: Diagnostics) -> None:
+    """Report modules that would be others of the package, and packages that hide the library."""
+
+    def bad(name: str, use: str, at: Span | None) -> None:
+        report.report("bad-identifier", at, target=library.target, name=name, use=use)
+
+    charts = {machine.module for machine in package.machines}
+    for machine in package.machines:
+        module = f"{machine.module}{library.suffix}"
+        if machine.module in _MODULES or module in charts:
+            name = module if module in charts else machine.module
+            bad(name, "a module name", machine.origin)
+    for each in package.interfaces:
+        if each.name in library.packages:
+            at = each.interfaces[0].origin
+            bad(each.name, f"the name of a ROS package: {library.name} has it", at)

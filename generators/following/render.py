@@ -1,0 +1,88 @@
+"""The files of packages whose machines run in a library: those of target `ros2`, and more."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from jinja2 import Environment
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.source import Span
+from swarmdsl.source_map import MappedText
+from swarmdsl.templates import environment, fill
+
+from ..ros2 import render as ros2
+from ..ros2.options import Options
+from ..ros2.view import MachineView, PackageView, package_view
+from .library import Library
+from .names import check_names
+
+Behavior = Callable[[PackageView, Diagnostics], Iterable[OutputFile]]
+
+
+def emit(
+    system: System, options: Options, report: Diagnostics, library: Library, behavior: Behavior
+) -> list[OutputFile]:
+    """The files of the package that `behavior` makes, and of those with the interfaces."""
+    found = _Report(library.target)
+    package = package_view(system, options, found, library.variant)
+    files: list[OutputFile] = []
+    if package is not None:
+        check_names(package, library, found)
+        files += behavior(package, found)
+        for each in package.interfaces:
+            files += ros2.interface_files(each, options, found)
+    report.include(found)
+    return files
+
+
+class _Report(Diagnostics):
+    """What is found wrong for a target, also by what belongs to target `ros2`."""
+
+    def __init__(self, target: str) -> None:
+        super().__init__()
+        self._target = target
+
+    def report(self, name: str, at: Span | None = None, /, **fields: Any) -> None:
+        if "target" in fields:
+            fields["target"] = self._target
+        super().report(name, at, **fields)
+
+
+def shared_files(
+    package: PackageView, options: Options, library: Library, readme: str, states: str
+) -> Iterator[OutputFile]:
+    """What all libraries have; `states` are the classes of the states of this one."""
+    root = package.name
+    for file in ros2.files(package, options):
+        yield OutputFile(file.path, readme) if file.path == f"{root}/README.md" else file
+    values = {"header": header(package, options), "library": library, "states": states}
+    values["is_yasmin"] = library.target == "yasmin"
+    for module in ("following", "runner"):
+        text = fill(_environment().get_template(f"{module}.py.j2"), **values)
+        yield OutputFile(f"{root}/{root}/{module}.py", text)
+
+
+def header(package: PackageView, options: Options) -> str:
+    """The head of a file of the package."""
+    return f"{ros2.legal_head(options)}# {package.header}"
+
+
+def module_file(
+    machine: MachineView, package: PackageView, library: Library, text: MappedText
+) -> OutputFile:
+    """The module of a machine in the library."""
+    path = f"{package.name}/{package.name}/{machine.module}{library.suffix}.py"
+    return OutputFile(path, text.rewritten(ros2.within_width), origin=machine.origin)
+
+
+@cache
+def _environment() -> Environment:
+    made = environment(Path(__file__).parent / "templates")
+    made.filters["repr"] = repr
+    return made

@@ -1,0 +1,106 @@
+"""What the templates of each library print: its chart, and the functions that build containers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.ir import StateKind, System
+from swarmdsl.python_source import Call, comments, layout
+
+from ..ros2.imports import WIDTH, Imports
+from .structure import Kind, Node, Structure
+from .ways import Way
+
+STEP = "    "
+_OWN = (
+    *(("following", "Chart"), ("following", "Way"), ("node", "run")),
+    *(("runner", "Fsm"), ("runner", "in_node_of_its_own")),
+)
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A statement of a function, and the comments above it."""
+
+    text: str
+    comments: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class ContainerView:
+    """A function that builds a machine or a concurrence."""
+
+    function: str
+    doc: str
+    comments: tuple[str, ...]
+    lines: tuple[Statement, ...]
+
+
+@dataclass(frozen=True)
+class ChartView:
+    """The arguments of a chart: the names of junctions at the beginning, and ways."""
+
+    entries: str
+    ways: str
+
+
+def imports_of(chart: str) -> Imports:
+    """What a module needs whose chart is in the module of that name."""
+    imports = Imports({})
+    for own, name in _OWN:
+        imports.own(own, name)
+    imports.own(chart, "BEHAVIOR")
+    return imports
+
+
+def chart_view(structure: Structure) -> ChartView:
+    """The chart of a machine."""
+    ways = {state: tuple(map(_way, ways)) for state, ways in structure.ways.items()}
+    return ChartView(
+        entries=layout(structure.entries, 1, f"{STEP}entries=", ",", WIDTH),
+        ways=layout(ways, 1, f"{STEP}ways=", ",", WIDTH),
+    )
+
+
+def _way(way: Way | None) -> object:
+    if way is None:
+        return None
+    outcomes = {outcome for _, outcome in way.outcomes}
+    outcome = outcomes.pop() if len(outcomes) == 1 else dict(way.outcomes)
+    return Call("Way", (outcome, way.left, *([way.history] if way.history else [])))
+
+
+def class_of(node: Node, system: System) -> tuple[str, str]:
+    """The class of a state or that it extends, and what it does."""
+    if node.kind is Kind.JUNCTION:
+        kept = "was active last" if node.state is not None else "is entered first"
+        return "Junction", f"Leads to the state that {kept}."
+    assert node.state is not None
+    if node.state.activity is not None:
+        call = system.function(node.state.activity.function).communication
+        base = "ActionState" if call.paradigm == "action" else "ServiceState"
+        return base, f"Calls {call.paradigm} {call.name}."
+    words = {
+        StateKind.FINAL: "Waits until the state around, which is complete, is left.",
+        StateKind.CHOICE: "Is left at once, to where its guards say.",
+    }
+    return "State", words.get(node.state.kind, "Waits for what leads on.")
+
+
+def containers(node: Node, lines: Callable[[Node], Iterable[Statement]]) -> Iterator[ContainerView]:
+    """The functions that build it and what is inside, the outer ones first, with these `lines`."""
+    if node.kind in (Kind.MACHINE, Kind.CONCURRENCE):
+        yield _container(node, lines(node))
+    for inside in node.nodes:
+        yield from containers(inside, lines)
+
+
+def _container(node: Node, lines: Iterable[Statement]) -> ContainerView:
+    state = node.state
+    doc, said = f"Build state machine {node.name}.", tuple[str, ...]()
+    if state is not None:
+        words = {StateKind.REGION: "region", StateKind.PARALLEL: "the regions of state"}
+        doc = f"Build {words.get(state.kind, 'state')} {node.path}."
+        said = comments(state.origin, state.doc)
+    return ContainerView(node.python_name, doc, said, tuple(lines))

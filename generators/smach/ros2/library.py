@@ -1,0 +1,19 @@
+"""What SMACH is called, and what its packages have besides those of target `ros2`."""
+
+from __future__ import annotations
+
+from ...following.library import Library
+from ...ros2.view import Variant
+from ..module import PREEMPTED, TARGET
+
+SMACH = Library(
+    target=TARGET,
+    name="SMACH",
+    stopped=PREEMPTED,
+    variant=Variant(
+        host="runner",
+        suffix="_smach",
+        depends=(("depend", "smach"), ("depend", "smach_ros")),
+    ),
+    packages=("smach", "smach_msgs", "smach_ros"),
+)

@@ -1,0 +1,75 @@
+"""From the view to files: those of target `ros2`, and what SMACH has besides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+from functools import cache
+from pathlib import Path
+
+from jinja2 import Environment
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.source_map import MappedText
+from swarmdsl.templates import environment, fill
+
+from ...following import render as following
+from ...ros2 import render as ros2
+from ...ros2.imports import Imports
+from ...ros2.options import Options as RosOptions
+from ...ros2.view import PackageView
+from ..names import check_keys
+from ..options import Options
+from .library import SMACH
+from .view import SmachView, smach_view
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
+    """The files of the package with the behaviour, and of those with the interfaces."""
+    chosen = RosOptions(**{each.name: getattr(options, each.name) for each in fields(RosOptions)})
+
+    def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
+        machines = {machine.name: machine for machine in system.machines}
+        for each in package.machines:
+            check_keys(machines[each.name], report)
+        views = [
+            smach_view(machines[each.name], each.module, system, report)
+            for each in package.machines
+        ]
+        return _behavior(package, views, chosen)
+
+    return following.emit(system, chosen, report, SMACH, behavior)
+
+
+def _behavior(
+    package: PackageView, views: list[SmachView], options: RosOptions
+) -> Iterator[OutputFile]:
+    root = package.name
+    head = following.header(package, options)
+    values = {"package": package, "views": views, "header": head}
+    readme, states = _fill("README.md", **values), _fill("states.py")
+    yield from following.shared_files(package, options, SMACH, readme, states)
+    imports = Imports({})
+    imports.module("pytest")
+    imports.name(f"{root}.following", "check")
+    for view in views:
+        imports.name(root, view.module)
+    text = _fill("test_smach.py", imports=imports.lines(), **values)
+    yield OutputFile(f"{root}/test/test_smach.py", text)
+    for view, machine in zip(views, package.machines, strict=True):
+        head = f"{ros2.legal_head(options)}# {machine.header}"
+        text = _fill("machine.py", machine=view, header=head)
+        yield following.module_file(machine, package, SMACH, text)
+
+
+def _fill(template: str, **values: object) -> MappedText:
+    return fill(_environment().get_template(f"{template}.j2"), **values)
+
+
+@cache
+def _environment() -> Environment:
+    made = environment(Path(__file__).parents[1] / "templates" / "ros2")
+    made.filters["repr"] = repr
+    return made

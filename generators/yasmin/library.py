@@ -1,0 +1,22 @@
+"""What YASMIN is called, and what its packages have besides those of target `ros2`."""
+
+from __future__ import annotations
+
+from ..following.library import Library
+from ..ros2.view import Variant
+
+YASMIN = Library(
+    target="yasmin",
+    name="YASMIN",
+    stopped="canceled",
+    variant=Variant(
+        host="runner",
+        suffix="_fsm",
+        depends=(
+            *(("depend", name) for name in ("yasmin", "yasmin_ros", "yasmin_viewer")),
+            ("test_depend", "yasmin_factory"),
+        ),
+        folders=(("state_machines", "*.xml"),),
+    ),
+    packages=("yasmin", "yasmin_factory", "yasmin_ros", "yasmin_viewer"),
+)
