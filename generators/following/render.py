@@ -7,14 +7,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from jinja2 import Environment
-
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 from swarmdsl.source import Span
 from swarmdsl.source_map import MappedText
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from ..ros2 import render as ros2
 from ..ros2.options import Options
@@ -64,7 +62,7 @@ def shared_files(
     values = {"header": header(package, options), "library": library, "states": states}
     values["is_yasmin"] = library.target == "yasmin"
     for module in ("following", "runner"):
-        text = fill(_environment().get_template(f"{module}.py.j2"), **values)
+        text = _templates().fill(f"{module}.py.j2", **values)
         yield OutputFile(f"{root}/{root}/{module}.py", text)
 
 
@@ -82,7 +80,5 @@ def module_file(
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parent / "templates")
-    made.filters["repr"] = repr
-    return made
+def _templates() -> Templates:
+    return Templates(Path(__file__).parent / "templates")

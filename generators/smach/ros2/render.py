@@ -7,13 +7,11 @@ from dataclasses import fields
 from functools import cache
 from pathlib import Path
 
-from jinja2 import Environment
-
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 from swarmdsl.source_map import MappedText
-from swarmdsl.templates import environment, fill
+from swarmdsl.templates import Templates
 
 from ...following import render as following
 from ...ros2 import render as ros2
@@ -65,11 +63,9 @@ def _behavior(
 
 
 def _fill(template: str, **values: object) -> MappedText:
-    return fill(_environment().get_template(f"{template}.j2"), **values)
+    return _templates().fill(f"{template}.j2", **values)
 
 
 @cache
-def _environment() -> Environment:
-    made = environment(Path(__file__).parents[1] / "templates" / "ros2")
-    made.filters["repr"] = repr
-    return made
+def _templates() -> Templates:
+    return Templates(Path(__file__).parents[1] / "templates" / "ros2")
