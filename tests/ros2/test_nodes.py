@@ -293,6 +293,14 @@ def test_delays_follow_params_and_histories_remember(ros: Any) -> None:
     lab.node.wait_in("Busy.Hands.Working", "Busy.Head.Thinking.Bored")
 
 
+def test_a_delay_that_has_no_length_is_told_before_anything_moves(ros: Any) -> None:
+    node = ros.node("lab_behavior.lab", "/lab", patience=float("inf"))
+
+    assert node.exit_code() == 1
+    assert "`patience` is inf, which is no duration" in node.log
+    assert "Traceback" not in node.log
+
+
 def test_values_that_ros_holds_in_its_own_way(ros: Any) -> None:
     lab = Lab(ros)
     lab.fakes.do("subscribe", topic="/told", kind="lab_msgs/msg/Report")
@@ -327,6 +335,8 @@ def test_a_service_that_says_that_it_has_failed(ros: Any) -> None:
     assert node.trace[-1]["event"] == "do.First.aborted"
     assert node.trace[-1]["entered"] == ["Silent"]
     assert "ring on ring was refused: no" in node.log
+    # Its delay is longer than ROS can count.
+    assert "Traceback" not in node.log
 
 
 def test_a_model_that_looks_itself_whether_a_service_has_succeeded(ros: Any) -> None:

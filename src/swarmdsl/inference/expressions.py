@@ -33,6 +33,8 @@ from swarmdsl.syntax import (
 )
 
 _FLOAT32 = Primitive("float32")
+_LONGEST = 2**31 * 10**9
+"""More nanoseconds than a duration has in ROS 1 and in ROS 2."""
 _LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
 
 
@@ -137,6 +139,11 @@ class Typing:
                 return
             case int() if (possible := range_of(wanted)) is not None and value not in possible:
                 help_ = f"it is a number from {possible[0]} to {possible[-1]}"
+            case int() | float() if wanted == DURATION:
+                if -_LONGEST <= value < _LONGEST:
+                    return
+                found = f"`{value / 1e9:.12g} s`"
+                help_ = f"ROS counts its seconds in an `int32`: they are {2**31 - 1} at most"
             case int() | float() if abs(value) > _LARGEST_FLOAT32 and wanted == _FLOAT32:
                 help_ = "larger numbers need a `float64`"
             case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):

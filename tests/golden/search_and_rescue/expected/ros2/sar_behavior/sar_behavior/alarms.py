@@ -4,6 +4,9 @@
 import heapq
 from itertools import count
 
+_LONGEST = 86_400_000_000_000
+"""For how many nanoseconds a timer is set at most: ROS adds them to the time in 64 bits."""
+
 
 class Alarms:
     """
@@ -55,7 +58,7 @@ class Alarms:
             if self._timer is not None:
                 self._timer.cancel()
             return
-        delay = max(self._waiting[0][0] - self.now, 1)
+        delay = min(max(self._waiting[0][0] - self.now, 1), _LONGEST)
         if self._timer is None:
             self._timer = self._node.create_timer(
                 delay / 1e9, self._ring, callback_group=self._group, clock=self._clock
