@@ -111,6 +111,33 @@ async def test_changes_of_colours(client, editor, folder):
     assert list((await delta("no such result")).data) == data
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("/// Begin.", "/// Begin.\n///"),
+        ("event Start", "event  Start"),
+        ("/* 🤖🤖 */ state", "/* 🤖🤖🤖 */ state"),
+        ("state Idle", "state /* 🤖 */ Idle"),
+        ("event Stop", "event"),
+    ],
+)
+async def test_what_was_told_before_an_edit_is_moved_with_it(client, editor, folder, change):
+    async def told(document):
+        outline = await client.text_document_document_symbol_async(
+            lsp.DocumentSymbolParams(text_document=document)
+        )
+        assert outline
+        return outline, (await tokens(client, document)).data
+
+    document = editor.open(folder / "patrol.swarm")
+    before = await told(document)
+    editor.type(document, MODEL.replace(*change))
+    edited = await told(document)
+    assert edited != before
+    editor.close(document)
+    assert await told(editor.open(folder / "patrol.swarm", MODEL.replace(*change))) == edited
+
+
 async def test_a_half_typed_file_keeps_its_colours(client, editor, folder):
     text = MODEL.replace("on Stop -> Home", "on Stop ->")
     document = editor.open(folder / "patrol.swarm", text)

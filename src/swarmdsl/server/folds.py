@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Literal
 
 from swarmdsl.dataclass import dataclass
+from swarmdsl.server.code import found_in
 from swarmdsl.source import Source
 
-_TOKEN = re.compile(
-    r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/|[{}]|^[ \t]*import\b', re.MULTILINE
-)
+_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*|[{}]|^[ \t]*import\b', re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -25,7 +24,8 @@ class Fold:
 
 def folds(source: Source) -> list[Fold]:
     """All that can be folded, in any text: braces that do not match are passed over."""
-    found = [*_blocks(source), *_groups(source)]
+    tokens = list(found_in(source.text, _TOKEN))
+    found = [*_blocks(source, tokens), *_groups(source, tokens)]
     return sorted((each for each in found if each.last > each.first), key=lambda each: each.first)
 
 
@@ -33,29 +33,28 @@ def _line(source: Source, offset: int) -> int:
     return source.line_column(offset)[0] - 1
 
 
-def _blocks(source: Source) -> Iterator[Fold]:
+def _blocks(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[Fold]:
     opened: list[int] = []
-    for token in _TOKEN.finditer(source.text):
-        if token[0] == "{":
-            opened.append(_line(source, token.start()))
-        elif token[0] == "}" and opened:
+    for at, token in tokens:
+        if token == "{":
+            opened.append(_line(source, at))
+        elif token == "}" and opened:
             # The line of the closing brace stays in sight.
-            yield Fold(opened.pop(), _line(source, token.start()) - 1)
-        elif token[0].startswith("/*"):
-            first, last = token.start(), token.end() - 1
-            yield Fold(_line(source, first), _line(source, last), "comment")
+            yield Fold(opened.pop(), _line(source, at) - 1)
+        elif token.startswith("/*"):
+            yield Fold(_line(source, at), _line(source, at + len(token) - 1), "comment")
 
 
-def _groups(source: Source) -> Iterator[Fold]:
+def _groups(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[Fold]:
     """Comments and imports on lines that follow each other."""
     before = Fold(0, -1)
-    for token in _TOKEN.finditer(source.text):
-        word = token[0].lstrip()
+    for at, token in tokens:
+        word = token.lstrip()
         kind: Literal["comment", "imports", ""] = ""
-        start = token.start() + len(token[0]) - len(word)
-        begins = not source.text[source.text.rfind("\n", 0, start) + 1 : start].strip()
-        if word.startswith("//") and begins:
-            kind = "comment"
+        start = at + len(token) - len(word)
+        if word.startswith("//"):
+            row = source.text[source.text.rfind("\n", 0, start) + 1 : start]
+            kind = "" if row.strip() else "comment"
         elif word == "import":
             kind = "imports"
         if not kind:

@@ -13,12 +13,14 @@ from swarmdsl.server.hints import hints
 from swarmdsl.server.hover import hover
 from swarmdsl.server.lenses import lenses
 from swarmdsl.server.links import links
+from swarmdsl.server.painting import changes
+from swarmdsl.server.positions import Position
 from swarmdsl.server.selections import selections
 from swarmdsl.server.session import Session
-from swarmdsl.server.tokens import MODIFIERS, TYPES, changes, encoded
+from swarmdsl.server.tokens import MODIFIERS, TYPES
 from swarmdsl.server.words import SYMBOL_KINDS
 from swarmdsl.source import Span
-from swarmdsl.workspace.occurrences import occurrence_at, occurrences_of
+from swarmdsl.workspace.occurrences import occurrence_at, occurrences_of, owners
 
 _HINT_KINDS = {"type": lsp.InlayHintKind.Type, "parameter": lsp.InlayHintKind.Parameter}
 
@@ -39,7 +41,19 @@ def _document_symbols(
     found = session.file(params.text_document)
     if found is None:
         return []
-    return [_as_symbol(each, session) for each in symbols.outline(found[1])]
+    before, session.outlined = session.outlined, {}
+    for owner in owners(found[1]):
+        start = session.start(owner.span)
+        known = before.get(owner)
+        if known is None or known[0] != start:
+            told = [_as_symbol(each, session) for each in symbols.symbols_of(owner)]
+            known = (start, told)
+        session.outlined[owner] = known
+    return [each for _, told in sorted(session.outlined.values(), key=_start) for each in told]
+
+
+def _start(of: tuple[Position, object]) -> Position:
+    return of[0]
 
 
 def _as_symbol(symbol: symbols.Symbol, session: Session) -> lsp.DocumentSymbol:
@@ -59,7 +73,7 @@ def _tokens(
     found = session.file(params.text_document)
     if found is None:
         return None
-    data = encoded(session.painter.tokens(*found), found[1], session.encoding)
+    data = session.painter.tokens(*found, session.encoding)
     remembered = session.painter.remember(found[1].source.name, data)
     return lsp.SemanticTokens(data=data, result_id=remembered)
 
@@ -88,8 +102,8 @@ def _tokens_in_range(
     found = session.file(params.text_document)
     if found is None:
         return None
-    tokens = session.painter.tokens(*found, session.span(found[1], params.range))
-    return lsp.SemanticTokens(data=encoded(tokens, found[1], session.encoding))
+    part = session.span(found[1], params.range)
+    return lsp.SemanticTokens(data=session.painter.tokens(*found, session.encoding, part))
 
 
 def _folds(session: Session, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:

@@ -18,9 +18,10 @@ from swarmdsl.load import File
 from swarmdsl.server.documents import Document
 from swarmdsl.server.findings import as_findings, as_range
 from swarmdsl.server.models import Models
-from swarmdsl.server.positions import offset
-from swarmdsl.server.tokens import Painter
+from swarmdsl.server.painting import Painter
+from swarmdsl.server.positions import Position, offset, position
 from swarmdsl.source import Span
+from swarmdsl.syntax import TopLevel
 from swarmdsl.workspace import Workspace
 
 Place = tuple[Workspace, File, int]
@@ -40,6 +41,8 @@ class Session:
         self.commands: frozenset[str] = frozenset()
         self.documents: dict[Path, Document] = {}
         self.painter = Painter()
+        # What was last told of declarations that may still be the same, and where they began.
+        self.outlined: dict[TopLevel, tuple[Position, list[lsp.DocumentSymbol]]] = {}
         self.dirty = False
         self._uris: dict[Path, str] = {}
         self._told: dict[str, list[Diagnostic]] = {}
@@ -105,6 +108,7 @@ class Session:
             self._changed.discard(self._uris.pop(path, ""))
             self.models.close(path)
             self.painter.forget(str(path))
+            self.outlined.clear()
             self.dirty = True
 
     def _edited(self, path: Path) -> None:
@@ -149,6 +153,11 @@ class Session:
         """A part of a file that a request is about."""
         start, end = self.offset(file, range_.start), self.offset(file, range_.end)
         return Span(file.source, min(start, end), max(start, end))
+
+    def start(self, span: Span) -> Position:
+        """Line and character where a span begins in its file."""
+        source, start, _ = span.absolute
+        return position(source, start, self.encoding)
 
     def range(self, span: Span) -> lsp.Range:
         """Where a span is in its file."""

@@ -27,7 +27,7 @@ class Symbol:
 
 def outline(file: File) -> list[Symbol]:
     """What a file declares, in the order of its text."""
-    found = [symbol for owner in owners(file) for symbol in _symbols(owner)]
+    found = [symbol for owner in owners(file) for symbol in symbols_of(owner)]
     return sorted(found, key=lambda symbol: symbol.span.start)
 
 
@@ -48,14 +48,16 @@ def _matches(query: str, name: str) -> bool:
     return all(letter in letters for letter in query)
 
 
-def _symbols(node: Node) -> Iterator[Symbol]:
-    inside = [symbol for child in children(node) for symbol in _symbols(child)]
+def symbols_of(node: Node) -> Iterator[Symbol]:
+    """What is declared in a node, and the node itself if it has a name."""
+    inside = [symbol for child in children(node) for symbol in symbols_of(child)]
+    if not isinstance(node, Optimization) and type(node) not in KINDS:
+        yield from inside
+        return
     span = node.span.absolute
     if isinstance(node, Optimization):
         name = node.swarm.span.absolute
         yield Symbol(f"optimize {node.swarm.name}", type(node), "", span, name, inside)
-    elif type(node) in KINDS:
+    else:
         name = node.name.span.absolute  # type: ignore[attr-defined]
         yield Symbol(name.text, type(node), bare(kind_of(node)), span, name, inside)
-    else:
-        yield from inside

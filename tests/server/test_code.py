@@ -1,0 +1,45 @@
+"""What is found in a text that cannot be parsed."""
+
+import re
+from time import process_time
+
+import pytest
+
+from swarmdsl.server.code import found_in
+from swarmdsl.server.folds import folds
+from swarmdsl.source import Source
+
+WORD = re.compile(r"//[^\n]*|/\*|\w+")
+
+
+@pytest.mark.parametrize(
+    ("text", "found"),
+    [
+        ("a /* b */ c", ["a", "/* b */", "c"]),
+        ("a /* b /* c */ d */", ["a", "/* b /* c */", "d"]),
+        ("a /* b", ["a", "b"]),
+        ("a */ /* b /* c", ["a", "b", "c"]),
+        ("/*/ a */ b", ["/*/ a */", "b"]),
+        ("a /*/", ["a"]),
+        ("a // /* */ b\nc", ["a", "// /* */ b", "c"]),
+    ],
+)
+def test_comments_are_found_whole(text, found):
+    assert [word for _, word in found_in(text, WORD)] == found
+    assert all(text.startswith(word, at) for at, word in found_in(text, WORD))
+
+
+def test_only_a_part_is_looked_at():
+    text = "a b /* c */ d"
+    assert list(found_in(text, WORD, 2, 8)) == [(2, "b"), (7, "c")]
+
+
+@pytest.mark.parametrize("end", ["", "*/"])
+def test_many_comments_without_an_end(end):
+    """A pattern of whole comments looks for the end of each, which takes minutes."""
+    text = "/*\n" * 40_000 + end + "{\n\n}"
+    start = process_time()
+    found = [(fold.first, fold.last, fold.kind) for fold in folds(Source("a.swarm", text))]
+    assert process_time() - start < 2
+    comment = [(0, 40_000, "comment")] if end else []
+    assert found == [*comment, (40_000, 40_001, "")]
