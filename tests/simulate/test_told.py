@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 import re
 from io import StringIO
 from pathlib import Path
@@ -16,7 +18,7 @@ from swarmdsl.simulate.clock import Clock
 from swarmdsl.simulate.durations import SECOND, duration, shown
 from swarmdsl.simulate.live import Board
 from swarmdsl.simulate.scenario import Robot
-from swarmdsl.simulate.timeline import Timeline
+from swarmdsl.simulate.timeline import Timeline, nth_colour
 from swarmdsl.simulate.trace import Line
 
 from .conftest import Simulate
@@ -155,6 +157,62 @@ def test_the_timeline(simulate: Simulate) -> None:
     ]
     arrows = [line for line in ElementTree.fromstring(svg).iter(f"{SVG}line") if line[:]]
     assert [arrow[0].text for arrow in arrows] == ["Found: uav[0] -> uav[1], 6 s"]
+
+
+# What people see of red, green and blue who lack the receptors for red, or for green: Machado,
+# Oliveira and Fernandes, A Physiologically-based Model for Simulation of Color Vision Deficiency,
+# 2009.
+SIGHTS = {
+    "all colours": ((1, 0, 0), (0, 1, 0), (0, 0, 1)),
+    "no red": (
+        (0.152286, 1.052583, -0.204868),
+        (0.114503, 0.786281, 0.099216),
+        (-0.003882, -0.048116, 1.051998),
+    ),
+    "no green": (
+        (0.367322, 0.860646, -0.227968),
+        (0.280085, 0.672501, 0.047413),
+        (-0.01182, 0.04294, 0.968881),
+    ),
+}
+
+
+def light(colour: str) -> list[float]:
+    """Red, green and blue of a colour as amounts of light, by sRGB."""
+    parts = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
+    return [p / 12.92 if p <= 0.04045 else ((p + 0.055) / 1.055) ** 2.4 for p in parts]
+
+
+def seen(colour: str, sight: str) -> tuple[float, float, float]:
+    """A colour as CIELAB, in which distances are those that a person sees."""
+    red, green, blue = (
+        max(0.0, sum(a * b for a, b in zip(row, light(colour), strict=True)))
+        for row in SIGHTS[sight]
+    )
+    x = (0.4124 * red + 0.3576 * green + 0.1805 * blue) / 0.9505
+    y = 0.2126 * red + 0.7152 * green + 0.0722 * blue
+    z = (0.0193 * red + 0.1192 * green + 0.9505 * blue) / 1.089
+    a, b, c = (v ** (1 / 3) if v > 0.008856 else 7.787 * v + 16 / 116 for v in (x, y, z))
+    return 116 * b - 16, 500 * (a - b), 200 * (b - c)
+
+
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_states_are_told_apart_by_their_colours(sight: str) -> None:
+    first = [seen(nth_colour(number), sight) for number in range(8)]
+
+    assert min(math.dist(a, b) for a, b in itertools.combinations(first, 2)) > 10
+
+
+def test_letters_can_be_read_on_all_colours() -> None:
+    colours = [nth_colour(number) for number in range(24)]
+    weights = (0.2126, 0.7152, 0.0722)
+
+    def brightness(colour: str) -> float:
+        return sum(a * b for a, b in zip(weights, light(colour), strict=True)) + 0.05
+
+    assert len(set(colours)) == 24
+    # Of WCAG 2.2, level AA.
+    assert min(map(brightness, colours)) / brightness("#1f2430") > 4.5
 
 
 def test_names_in_a_timeline_are_text_and_nothing_else() -> None:

@@ -14,17 +14,31 @@ text { font: 11px "DejaVu Sans", Verdana, "Helvetica Neue", Arial, sans-serif; f
 .member { text-anchor: end; font-weight: bold }
 .machine { font-weight: bold }
 .state { font-size: 10px; pointer-events: none }
+.paper { fill: #ffffff }
 .lane { fill: #f1f3f6 }
 .tick { stroke: #d5d9e0; stroke-width: 1 }
 .bar { stroke: #ffffff; stroke-width: 0.6 }
 .arrow { stroke: #20304d; stroke-width: 1; stroke-opacity: 0.55; marker-end: url(#head) }
+.head { fill: #20304d }
 .dropped { stroke: #c0362c; stroke-width: 1; stroke-opacity: 0.7; stroke-dasharray: 3 2;
   marker-end: url(#cross) }
+@media (prefers-color-scheme: dark) {
+text { fill: #e3e8ee }
+.state { fill: #1f2430 }
+.note, .time { fill: #9aa5b4 }
+.paper { fill: #16191d }
+.lane { fill: #242a32 }
+.tick { stroke: #3a424d }
+.bar { stroke: #16191d }
+.arrow { stroke: #ffffff; stroke-opacity: 0.75 }
+.head { fill: #ffffff }
+.dropped { stroke: #ff8a7a; stroke-opacity: 1 }
+}
 """
 _DEFINITIONS = """<defs>
 <marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="6" markerHeight="6"
  orient="auto">
-<path d="M0,0.5 L8,4 L0,7.5 z" fill="#20304d"/></marker>
+<path class="head" d="M0,0.5 L8,4 L0,7.5 z"/></marker>
 <marker id="cross" viewBox="0 0 8 8" refX="4" refY="4" markerWidth="7" markerHeight="7">
 <path d="M1,1 L7,7 M7,1 L1,7" stroke="#c0362c" stroke-width="1.6"/></marker>
 <pattern id="lost" width="6" height="6" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
@@ -43,7 +57,7 @@ class Drawing:
             f'<svg xmlns="http://www.w3.org/2000/svg" {size}>',
             f"<style>{_STYLE}</style>",
             _DEFINITIONS,
-            '<rect width="100%" height="100%" fill="#ffffff"/>',
+            '<rect class="paper" width="100%" height="100%"/>',
         ]
 
     def text(self, x: float, y: float, text: str, style: str) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from colorsys import hls_to_rgb
 from itertools import groupby
 from typing import NamedTuple
 
@@ -25,6 +24,11 @@ _LETTER = 6.2
 _NARROWEST = 0.6
 """Bars that are narrower are drawn together: nobody could see them."""
 _MOST_ARROWS = 2000
+# The scheme "light" for areas under dark letters, which people who see few colours tell apart:
+# Paul Tol, Colour Schemes, SRON/EPS/TN/09-002, issue 3.2. In an order in which neighbours differ.
+_COLOURS = ("77aadd", "ee8866", "eedd88", "44bb99", "ffaabb", "99ddff", "bbcc33", "aaaa00")
+# Towards which part of white, and how far.
+_TONES = ((255, 0.0), (255, 0.55), (0, 0.12))
 _STEPS = tuple(
     SECOND * each
     for each in (
@@ -112,7 +116,7 @@ class _Picture:
             for state in actor.machine.states[1:]:
                 if not state.states:
                     key = (actor.machine, state.id)
-                    self.colours.setdefault(key, _colour(len(self.colours)))
+                    self.colours.setdefault(key, nth_colour(len(self.colours)))
 
     def draw(self) -> str:
         drawing = Drawing(self.left + _WIDTH + 24, self.bottom + 40 + self.legend_height())
@@ -265,15 +269,11 @@ def _name(actor: Actor) -> str:
     return actor.name or actor.machine.name
 
 
-def _colour(number: int) -> str:
-    """Colours that are as unlike as the golden angle makes them, light enough for dark letters.
-
-    As numbers in red, green and blue: not all that shows SVG knows `hsl`.
-    """
-    hue = (205 + number * 137508 // 1000) % 360
-    light = (72, 80, 64)[number // 8 % 3]
-    parts = hls_to_rgb(hue / 360, light / 100, 0.58)
-    return "#" + "".join(f"{round(part * 255):02x}" for part in parts)
+def nth_colour(number: int) -> str:
+    """One of the colours, then one of lighter ones, then of darker ones, and again."""
+    parts = (int(_COLOURS[number % len(_COLOURS)][at : at + 2], 16) for at in (0, 2, 4))
+    towards, share = _TONES[number // len(_COLOURS) % len(_TONES)]
+    return "#" + "".join(f"{round(part + (towards - part) * share):02x}" for part in parts)
 
 
 def _shortened(state: str, width: float) -> str:
