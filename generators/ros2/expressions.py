@@ -7,10 +7,10 @@ is what the model does not know of a message.
 from __future__ import annotations
 
 import keyword
-from dataclasses import replace as with_names
 
 from swarmdsl.bounds import bound_of
 from swarmdsl.dataclass import replace
+from swarmdsl.dataclass import replace as with_names
 from swarmdsl.ir import (
     Array,
     Binary,

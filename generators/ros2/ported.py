@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import TypeVar
 
+from swarmdsl.dataclass import replace
 from swarmdsl.ir import Action, Array, Field, Interface, Message, Named, Service, Type
 
 from .names import field_name, type_name

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from swarmdsl.dataclass import dataclass
 from swarmdsl.generator import option
 from swarmdsl.ros_package import PackageOptions
 

@@ -10,7 +10,6 @@ from pathlib import Path
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.xml import legal
 from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
@@ -18,6 +17,7 @@ from swarmdsl.ir import System
 from swarmdsl.python_source import docstring
 from swarmdsl.ros_package import manifest
 from swarmdsl.templates import Templates
+from swarmdsl.xml_text import legal
 
 from .bringup import bringup
 from .bringup_files import bringup_files

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from lxml import etree
-
 from swarmdsl.exchange.nodes import BehaviorNode
-from swarmdsl.exchange.xml import add_comment, document, legal
 from swarmdsl.ir import Named
 from swarmdsl.naming import snake_case
+from swarmdsl.xml_text import Element, document, legal
 
 from .robots import Fleet, Robot, Team
 
@@ -23,45 +21,44 @@ _SWITCHES = {
 
 def robot_launch(robot: Robot, package: str) -> str:
     """Starts the nodes of one robot in its namespace."""
-    root = etree.Element("launch")
-    add_comment(root, robot.member.doc)
+    root = Element("launch")
+    root.comment(robot.member.doc)
     _arg(root, "name", f"{robot.name}_0", "the namespace of the robot")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
     if robot.components is not None:
         # Before the params of this robot, so that these can be for components, too.
         file = f"$(find {robot.components.package})/launch/{robot.name}.launch"
-        include = etree.SubElement(root, "include", {"file": file, "if": "$(arg components)"})
+        include = root.add("include", {"file": file, "if": "$(arg components)"})
         _pass(include, "name", "$(arg name)")
-    group = etree.SubElement(root, "group", ns="$(arg name)")
+    group = root.add("group", {"ns": "$(arg name)"})
     _load(group, f"$(find {package})/param/{robot.name}.yaml")
-    _load(group, "$(arg params)")
-    group[-1].set("if", "$(eval arg('params') != '')")
+    _load(group, "$(arg params)").attributes["if"] = "$(eval arg('params') != '')"
     for node in robot.nodes:
         element = _node(group, package, snake_case(node.machine.name), node.name)
         _param(element, "introspection", "$(arg introspection)")
         for name, topic in node.remaps:
-            etree.SubElement(element, "remap", {"from": name, "to": topic})
+            element.add("remap", {"from": name, "to": topic})
     if robot.bridge is not None:
         bridge = _node(group, "swarmros", "bridge", "swarmros")
-        bridge.set("args", f"-C$(find {package})/param/{robot.name}.swarmros.cfg")
-        bridge.set("if", "$(arg bridge)")
+        bridge.attributes["args"] = f"-C$(find {package})/param/{robot.name}.swarmros.cfg"
+        bridge.attributes["if"] = "$(arg bridge)"
     return document(root)
 
 
 def fleet_launch(fleet: Fleet, package: str) -> str:
     """Starts all robots of a swarm, each in a namespace of its own."""
-    root = etree.Element("launch")
-    add_comment(root, fleet.swarm.doc)
+    root = Element("launch")
+    root.comment(fleet.swarm.doc)
     _team_args(root, fleet.teams)
     _switches(root, [team.robot for team in fleet.teams])
     for team in fleet.teams:
-        add_comment(root, team.role.doc)
+        root.comment(team.role.doc)
         for number in range(team.most):
             file = f"$(find {package})/launch/{team.robot.name}.launch"
-            include = etree.SubElement(root, "include", file=file)
+            include = root.add("include", {"file": file})
             if team.most > team.fewest and number >= team.fewest:
-                include.set("if", f"$(eval arg('{_count(team)}') > {number})")
+                include.attributes["if"] = f"$(eval arg('{_count(team)}') > {number})"
             name = f"{team.role.name}_{number}"
             _pass(include, "name", name)
             _pass(include, "params", f"$(find {package})/param/{fleet.name}/{name}.yaml")
@@ -71,19 +68,19 @@ def fleet_launch(fleet: Fleet, package: str) -> str:
 
 def simulation_launch(fleet: Fleet, world: str, package: str) -> str:
     """Starts Gazebo with the world of a swarm, and the swarm in simulated time."""
-    root = etree.Element("launch")
+    root = Element("launch")
     _arg(root, "world", f"$(find {package})/world/{world}", "the world to simulate")
     _arg(root, "gui", "true", "whether Gazebo has a window")
     _team_args(root, fleet.teams)
     robots = [team.robot for team in fleet.teams]
     _switches(root, robots)
     file = "$(find gazebo_ros)/launch/empty_world.launch"
-    gazebo = etree.SubElement(root, "include", file=file)
+    gazebo = root.add("include", {"file": file})
     _pass(gazebo, "world_name", "$(arg world)")
     _pass(gazebo, "gui", "$(arg gui)")
     _pass(gazebo, "use_sim_time", "true")
     file = f"$(find {package})/launch/{fleet.name}.launch"
-    swarm = etree.SubElement(root, "include", file=file)
+    swarm = root.add("include", {"file": file})
     for team in fleet.teams:
         if team.most > team.fewest:
             _pass(swarm, _count(team), f"$(arg {_count(team)})")
@@ -99,19 +96,17 @@ def world_file(fleet: Fleet) -> str | None:
 
 def test_launch(robots: Iterable[Robot], package: str) -> str:
     """Runs the test of each machine with the params of a robot."""
-    root = etree.Element("launch")
+    root = Element("launch")
     for robot in robots:
         for node in robot.nodes:
             name = f"{robot.name}_{node.name}"
-            test = etree.SubElement(
-                root, "test", {"pkg": package, "type": "test_machine.py", "test-name": name}
-            )
+            test = root.add("test", {"pkg": package, "type": "test_machine.py", "test-name": name})
             _param(test, "machine", snake_case(node.machine.name))
             for name, value in _needed(node):
                 _param(test, name, value)
             for given in node.params:
                 if isinstance(given.param.type, Named):
-                    etree.SubElement(test, "rosparam", param=given.param.name).text = "{}"
+                    test.add("rosparam", {"param": given.param.name}, "{}")
     return document(root)
 
 
@@ -126,7 +121,7 @@ def _needed(node: BehaviorNode) -> list[tuple[str, str]]:
     return [(name, "0" if "$(" in text else text) for name, text in texts.items()]
 
 
-def _team_args(root: etree._Element, teams: Iterable[Team]) -> None:
+def _team_args(root: Element, teams: Iterable[Team]) -> None:
     for team in teams:
         if team.most > team.fewest:
             doc = f"how many, {team.fewest} to {team.most}"
@@ -137,7 +132,7 @@ def _count(team: Team) -> str:
     return f"{team.role.name}_count"
 
 
-def _switches(root: etree._Element, robots: Iterable[Robot]) -> None:
+def _switches(root: Element, robots: Iterable[Robot]) -> None:
     robots = list(robots)
     components = next((robot.components for robot in robots if robot.components is not None), None)
     for name in _names(robots):
@@ -147,7 +142,7 @@ def _switches(root: etree._Element, robots: Iterable[Robot]) -> None:
         _arg(root, name, default, doc)
 
 
-def _pass_switches(include: etree._Element, robots: Iterable[Robot]) -> None:
+def _pass_switches(include: Element, robots: Iterable[Robot]) -> None:
     for name in _names(robots):
         _pass(include, name, f"$(arg {name})")
 
@@ -160,22 +155,22 @@ def _names(robots: Iterable[Robot]) -> list[str]:
     return [name for name in _SWITCHES if name in has]
 
 
-def _arg(parent: etree._Element, name: str, default: str, doc: str) -> None:
-    etree.SubElement(parent, "arg", name=name, default=default, doc=doc)
+def _arg(parent: Element, name: str, default: str, doc: str) -> None:
+    parent.add("arg", {"name": name, "default": default, "doc": doc})
 
 
-def _pass(include: etree._Element, name: str, value: str) -> None:
-    etree.SubElement(include, "arg", name=name, value=value)
+def _pass(include: Element, name: str, value: str) -> None:
+    include.add("arg", {"name": name, "value": value})
 
 
-def _param(parent: etree._Element, name: str, value: str) -> None:
-    etree.SubElement(parent, "param", name=name, value=value)
+def _param(parent: Element, name: str, value: str) -> None:
+    parent.add("param", {"name": name, "value": value})
 
 
-def _load(parent: etree._Element, file: str) -> None:
-    etree.SubElement(parent, "rosparam", command="load", file=file)
+def _load(parent: Element, file: str) -> Element:
+    return parent.add("rosparam", {"command": "load", "file": file})
 
 
-def _node(parent: etree._Element, package: str, type_: str, name: str) -> etree._Element:
+def _node(parent: Element, package: str, type_: str, name: str) -> Element:
     attributes = {"pkg": package, "type": type_, "name": name, "output": "screen"}
-    return etree.SubElement(parent, "node", attributes)
+    return parent.add("node", attributes)

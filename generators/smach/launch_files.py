@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lxml import etree
-
-from swarmdsl.exchange.xml import document
 from swarmdsl.generator import OutputFile
+from swarmdsl.xml_text import Element, document
 
 from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
 from .parameters import own_params, robot_params
@@ -55,9 +53,8 @@ def _robot(robot: Robot, package: PackageView) -> Iterator[OutputFile]:
 
 def _world(fleet: Fleet) -> str:
     """A plain world to begin with (SDF 1.6), as Gazebo 11 reads it."""
-    root = etree.Element("sdf", version="1.6")
-    world = etree.SubElement(root, "world", name=fleet.name)
+    root = Element("sdf", {"version": "1.6"})
+    world = root.add("world", {"name": fleet.name})
     for model in ("sun", "ground_plane"):
-        include = etree.SubElement(world, "include")
-        etree.SubElement(include, "uri").text = f"model://{model}"
+        world.add("include").add("uri", text=f"model://{model}")
     return document(root)

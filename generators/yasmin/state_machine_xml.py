@@ -9,8 +9,8 @@ from __future__ import annotations
 from lxml import etree
 
 from swarmdsl.exchange.xml import document as written
-from swarmdsl.exchange.xml import legal
 from swarmdsl.ir import StateMachine
+from swarmdsl.xml_text import legal
 
 from ..following.structure import Kind, Node
 from .library import YASMIN

@@ -6,10 +6,10 @@ A model is made of the two on the way, which nobody sees; targets make the packa
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 from swarmdsl.compiler import Result
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Level
 from swarmdsl.emit import Output, Request, emit
 from swarmdsl.generator import OutputFile

@@ -10,7 +10,8 @@ instance, it does with these.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+import sys
+from collections.abc import Callable, Mapping
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import SimpleNamespace
@@ -45,13 +46,25 @@ class _Field(dict[str, Any]):
     """What is said of a field: the arguments of `dataclasses.field`."""
 
 
-def described(cls: type[Any]) -> Iterator[tuple[str, str, Mapping[str, Any]]]:
-    """The fields of a class: name, annotation and what is said of it."""
+def is_dataclass(cls: type) -> bool:
+    """Whether it is a data class, made here or by Python."""
+    return "__parts__" in vars(cls) or hasattr(cls, "__dataclass_fields__")
+
+
+def fields_of(cls: type[Any]) -> Mapping[str, Mapping[str, Any]]:
+    """The fields of a data class by name, with the arguments of `dataclasses.field`."""
+    if "__parts__" in vars(cls):
+        own: dict[str, _Field] = cls.__parts__
+        return own
+    return {name: _about(field) for name, field in cls.__dataclass_fields__.items()}
+
+
+def annotations_of(cls: type) -> Mapping[str, str]:
+    """What is said of the types of the fields of a data class, by name, as it is written."""
     annotations: dict[str, str] = {}
     for base in reversed(cls.__mro__):
         annotations |= vars(base).get("__annotations__", {})
-    for name, about in cls.__parts__.items():
-        yield name, annotations[name], about
+    return annotations
 
 
 def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
@@ -101,7 +114,15 @@ _FEW = 12
 
 
 def _about(given: Any) -> _Field:
-    return given if isinstance(given, _Field) else _Field(default=given)
+    if isinstance(given, _Field):
+        return given
+    # A field of Python can only be there where its module is, which is slow to import.
+    python = sys.modules.get("dataclasses")
+    if python is None or not isinstance(given, python.Field):
+        return _Field(default=given)
+    names = ("default", "default_factory", "init", "repr", "compare", "kw_only", "metadata")
+    about = {name: getattr(given, name) for name in names}
+    return _Field({name: of for name, of in about.items() if of is not python.MISSING})
 
 
 def _named(about: _Field) -> bool:
@@ -214,9 +235,10 @@ class _FieldsOfPython:
     def __get__(self, _instance: object, owner: type[Any]) -> dict[str, PythonField[Any]]:
         import dataclasses
 
+        annotations = annotations_of(owner)
         fields = [
-            (name, annotation, dataclasses.field(**about))
-            for name, annotation, about in described(owner)
+            (name, annotations[name], dataclasses.field(**about))
+            for name, about in fields_of(owner).items()
         ]
         of_python = dataclasses.make_dataclass(
             owner.__name__,
@@ -231,4 +253,4 @@ class _FieldsOfPython:
         return found
 
 
-__all__ = ["dataclass", "described", "field", "replace"]
+__all__ = ["annotations_of", "dataclass", "field", "fields_of", "is_dataclass", "replace"]

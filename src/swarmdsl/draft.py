@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from swarmdsl.dataclass import dataclass, described
+from swarmdsl.dataclass import dataclass, fields_of
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Expression, Node, Ref, Word
 
@@ -77,7 +77,7 @@ class Draft:
             span = self._place(value.span, source)
             if isinstance(value, Expression) and span.text != value.span.text:
                 repaired.add(value)
-            for name, _, _ in described(type(value)):
+            for name in fields_of(type(value)):
                 inside = getattr(value, name)
                 if isinstance(inside, (list, tuple, Word, Ref, Node)) and inside != value.span:
                     setattr(value, name, self._restore(inside, source, repaired))

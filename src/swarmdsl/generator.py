@@ -6,8 +6,8 @@ touches the disk; the core checks the paths, finds collisions and writes.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import field as field_of_python
 from enum import Enum
 from typing import Any, TypeVar
 
@@ -115,7 +115,9 @@ def option(
     is wrong with it, in words, or None. It is reported where the value stands.
     """
     about = {"help": text, "choices": choices, "check": check, "beside": beside, "only": only}
-    return field_of_python(default=default, metadata=about)
+    # The data classes of Python, which are slow to import, take no fields but their own.
+    python = sys.modules.get("dataclasses")
+    return (python.field if python is not None else field)(default=default, metadata=about)
 
 
 def all_machines(system: System) -> tuple[StateMachine, ...]:

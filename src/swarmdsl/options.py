@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import Field, fields
+from functools import cache
 from typing import Any, get_type_hints
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, fields_of
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.foreign import failure
 from swarmdsl.generator import Generator
@@ -49,22 +49,28 @@ class Option:
 
 def options_of(generator: Generator) -> dict[str, Option]:
     """The options of a target by name."""
-    types = get_type_hints(generator.options_type)
+    return _options(generator.options_type)
+
+
+@cache
+def _options(type_: type) -> dict[str, Option]:
+    types = get_type_hints(type_)
     return {
-        field.name: _option(field, types[field.name]) for field in fields(generator.options_type)
+        name: _option(name, types[name], about["default"], about.get("metadata", {}))
+        for name, about in fields_of(type_).items()
     }
 
 
-def _option(field: Field[Any], type_: type) -> Option:
+def _option(name: str, type_: type, default: Any, about: Mapping[str, Any]) -> Option:
     return Option(
-        field.name,
+        name,
         type_,
-        field.default,  # type: ignore[arg-type]  # plugins.load has seen that there is one
-        field.metadata.get("help", ""),
-        tuple(field.metadata.get("choices", ())),
-        field.metadata.get("check"),
-        field.metadata.get("beside", ""),
-        field.metadata.get("only", ""),
+        default,
+        about.get("help", ""),
+        tuple(about.get("choices", ())),
+        about.get("check"),
+        about.get("beside", ""),
+        about.get("only", ""),
     )
 
 

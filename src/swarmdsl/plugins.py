@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import MISSING, fields, is_dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, get_type_hints
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, fields_of, is_dataclass
 from swarmdsl.foreign import failure
 from swarmdsl.generator import API_VERSION, Generator
 from swarmdsl.suggest import suggest
@@ -125,9 +124,9 @@ def _fault(name: str, found: object) -> str | None:
     if not (isinstance(found.options_type, type) and is_dataclass(found.options_type)):
         return "its `options_type` is not a dataclass"
     types = get_type_hints(found.options_type)
-    for field in fields(found.options_type):
-        if types[field.name] not in OPTION_TYPES:
-            return f"its option `{field.name}` is neither `str`, `bool` nor `int`"
-        if field.default is MISSING:
-            return f"its option `{field.name}` has no default"
+    for option, about in fields_of(found.options_type).items():
+        if types[option] not in OPTION_TYPES:
+            return f"its option `{option}` is neither `str`, `bool` nor `int`"
+        if "default" not in about:
+            return f"its option `{option}` has no default"
     return None

@@ -13,9 +13,9 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import get_args
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.draft import Draft, untouched
 from swarmdsl.parsed import Parsed

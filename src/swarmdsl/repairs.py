@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
 
 from swarmdsl.brackets import Repair
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.draft import Draft
 from swarmdsl.slips import replacement
 from swarmdsl.statements import Statement

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import Literal
 
-from lxml import etree
-
+from swarmdsl.dataclass import dataclass
 from swarmdsl.generator import option
 from swarmdsl.naming import is_ros_package_name
+from swarmdsl.xml_text import Element, document
 
 # What catkin_pkg demands of them.
 _VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
@@ -75,25 +74,19 @@ def manifest(
     `depends` are tags with what they name, in their order. Where `region` has a name, it is
     that of lines that are the user's (`swarmdsl.regions`).
     """
-    root = etree.Element("package", format=str(format_))
+    root = Element("package", {"format": str(format_)})
     if region:
-        root.append(etree.Comment(" Lines between the two marks below are yours. "))
-    _child(root, "name", name)
-    _child(root, "version", options.version)
-    _child(root, "description", " ".join(doc.split()))
-    _child(root, "maintainer", options.maintainer, email=options.email)
-    _child(root, "license", options.license)
+        root.comment("Lines between the two marks below are yours.")
+    root.add("name", text=name)
+    root.add("version", text=options.version)
+    root.add("description", text=" ".join(doc.split()))
+    root.add("maintainer", {"email": options.email}, options.maintainer)
+    root.add("license", text=options.license)
     for tag, package in depends:
-        _child(root, tag, package)
+        root.add(tag, text=package)
     if region:
-        root.append(etree.Comment(f" swarmc:begin {region} "))
-        root.append(etree.Comment(f" swarmc:end {region} "))
+        root.comment(f"swarmc:begin {region}")
+        root.comment(f"swarmc:end {region}")
     if build_type:
-        _child(etree.SubElement(root, "export"), "build_type", build_type)
-    text = etree.tostring(root, pretty_print=True, encoding="unicode")
-    return f'<?xml version="1.0"?>\n{text}'
-
-
-def _child(parent: etree._Element, tag: str, text: str, **attributes: str) -> None:
-    child = etree.SubElement(parent, tag, attributes)
-    child.text = text
+        root.add("export").add("build_type", text=build_type)
+    return document(root, '<?xml version="1.0"?>')

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from swarmdsl.brackets import CLOSER, Repair, find_faults, report_fault
 from swarmdsl.comments import Comments, DocComment
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.slips import likeness

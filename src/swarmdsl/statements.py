@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+
+from swarmdsl.dataclass import dataclass
 
 _TOKEN = re.compile(
     r'(?P<comment>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))|(?P<text>"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?)'

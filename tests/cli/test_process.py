@@ -12,10 +12,15 @@ posix = pytest.mark.skipif(os.name != "posix", reason="signals and limits of POS
 
 ROOT = Path(__file__).resolve().parents[2]
 
+TARGETS = ("-t", "smach", "-t", "ros2", "-t", "skeleton", "-t", "fitness")
+# What these import themselves.
+CLICK = LXML = {"inspect"}
 # To find libraries in Python packages.
 LIBRARIES = {"importlib.metadata"}
 HEAVY = (
     "click",
+    "dataclasses",
+    "inspect",
     "textx",
     "arpeggio",
     "lark",
@@ -30,9 +35,9 @@ HEAVY = (
 @pytest.mark.parametrize(
     ("arguments", "allowed"),
     [
-        (["--version"], {"click"}),
-        (["--help"], {"click"}),
-        (["check", "--help"], {"click"}),
+        (["--version"], {"click", *CLICK}),
+        (["--help"], {"click", *CLICK}),
+        (["check", "--help"], {"click", *CLICK}),
         (["check", "examples/minimal"], set()),
         (["check", "examples/search_and_rescue"], LIBRARIES),
         (
@@ -40,20 +45,41 @@ HEAVY = (
             LIBRARIES,
         ),
         (["build", "examples/minimal", "-t", "adf", "-o", "OUT"], set()),
-        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], {"lxml"}),
+        (["build", "examples/minimal", "-t", "scxml", "-o", "OUT"], {"lxml", *LXML}),
+        (["fmt", "--check", "examples/minimal"], {"click", *CLICK}),
     ],
 )
 def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)
     monkeypatch.delenv("FORCE_COLOR", raising=False)
     arguments = [str(tmp_path) if word == "OUT" else word for word in arguments]
+    assert imported(arguments) <= allowed
+
+
+def imported(arguments):
+    """What is slow to import and was imported by a command."""
     code = (
         "import sys\nfrom swarmdsl.cli import run\n"
         f"run({arguments!r})\n"
         f"print([name for name in {HEAVY!r} if name in sys.modules], file=sys.stderr)"
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert set(eval(ran.stderr.splitlines()[-1])) <= allowed
+    return set(eval(ran.stderr.splitlines()[-1]))
+
+
+def test_packages_are_generated_without_jinja_once_templates_are_compiled(tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    monkeypatch.delenv("FORCE_COLOR", raising=False)
+    monkeypatch.delenv("PYTHONDONTWRITEBYTECODE", raising=False)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    for out, targets, allowed in [
+        ("first", TARGETS, set(HEAVY)),
+        ("second", TARGETS, {"dataclasses", "inspect", "lxml"}),
+        ("third", ("-t", "smach"), set()),
+    ]:
+        found = imported(["build", "examples/minimal", *targets, "-o", str(tmp_path / out)])
+        assert found <= allowed
+        assert ("jinja2" in found) == (out == "first")
 
 
 def test_a_model_without_mistakes_needs_no_colours(monkeypatch):

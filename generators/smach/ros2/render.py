@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
 from functools import cache
 from pathlib import Path
 
+from swarmdsl.dataclass import fields_of
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
@@ -26,7 +26,7 @@ from .view import SmachView, smach_view
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
     """The files of the package with the behaviour, and of those with the interfaces."""
-    chosen = RosOptions(**{each.name: getattr(options, each.name) for each in fields(RosOptions)})
+    chosen = RosOptions(**{name: getattr(options, name) for name in fields_of(RosOptions)})
 
     def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
         machines = {machine.name: machine for machine in system.machines}

@@ -7,13 +7,13 @@ import os
 import signal
 import sys
 from contextlib import ExitStack
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from swarmdsl.cli import options
+from swarmdsl.dataclass import replace
 
 if TYPE_CHECKING:
     from swarmdsl.preview.editors import Editor

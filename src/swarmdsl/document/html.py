@@ -16,7 +16,7 @@ from swarmdsl.diagram.svg import style
 from swarmdsl.document.page import Cell, Code, Figure, Inline, Page
 from swarmdsl.document.page import Prose as Documentation
 from swarmdsl.document.prose import Prose
-from swarmdsl.exchange.xml import legal
+from swarmdsl.xml_text import legal
 
 _BREAK = re.compile(r"(?<=[a-z])([./_])(?=\w)")
 _FILES = Path(__file__).resolve().parent / "files"

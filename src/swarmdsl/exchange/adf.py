@@ -7,9 +7,9 @@ In the form of D5.4 (appendix), or in the one before it, that of the JSON schema
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.description import (
     D5_4,

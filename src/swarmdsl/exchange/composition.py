@@ -7,19 +7,20 @@ a launch file, which is started as often as that number says.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from lxml import etree
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value
 from swarmdsl.exchange.nodes import Given, behavior_nodes
 from swarmdsl.exchange.search import behaviours
-from swarmdsl.exchange.xml import add_comment, document, legal
+from swarmdsl.exchange.xml import add_comment, document
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import Member, Role, Swarm, System, Type
 from swarmdsl.ir.types import INTEGERS, Primitive
 from swarmdsl.naming import snake_case
+from swarmdsl.xml_text import legal
 
 
 @dataclass(frozen=True)

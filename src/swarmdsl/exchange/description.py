@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.exchange.constants import UndefinedValueError, evaluate
 from swarmdsl.ir import (

@@ -8,9 +8,10 @@ from lxml import etree
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.search import number
-from swarmdsl.exchange.xml import document, legal
+from swarmdsl.exchange.xml import document
 from swarmdsl.ir import Environment, Optimization, Swarm, System
 from swarmdsl.source import Span
+from swarmdsl.xml_text import legal
 
 _DOCTYPE = '<!DOCTYPE icomponent SYSTEM "../IComponent.dtd">'
 

@@ -7,8 +7,8 @@ tool), in which a scale is a text.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.description import document
 from swarmdsl.exchange.search import varied

@@ -1,33 +1,26 @@
-"""What XML can hold, and documents as files."""
+"""Documents of XML as files."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from lxml import etree
 
 from swarmdsl.source import Span
 from swarmdsl.source_map import Entry, MappedText
+from swarmdsl.xml_text import comment_text
 
 Places = dict[etree._Element, Span | None]
 """The places in a model that elements come from, with what is in them."""
 
 # libxml2 counts no further.
 _MOST_LINES = 65535
-# What XML 1.0 does not allow anywhere, not even escaped.
-_ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
 def add_comment(parent: etree._Element, text: str) -> None:
     """A new comment, in which XML allows no `--` and no `-` at the end."""
     if text:
-        parent.append(etree.Comment(f" {re.sub('-(?=-)', '- ', legal(text))} "))
-
-
-def legal(text: str) -> str:
-    """The text with what XML cannot hold replaced."""
-    return _ILLEGAL.sub("\N{REPLACEMENT CHARACTER}", text)
+        parent.append(etree.Comment(f" {comment_text(text)} "))
 
 
 def document(tree: etree._Element, places: Places | None = None) -> str:

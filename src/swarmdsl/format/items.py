@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.format.marks import Marks
 from swarmdsl.format.tokens import Token
 from swarmdsl.syntax import Node

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+
+from swarmdsl.dataclass import dataclass, field
 
 WIDTH = 100
 INDENT = 2

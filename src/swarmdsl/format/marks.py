@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.format.tokens import Tokens, tokenize
 from swarmdsl.syntax import (
     ActionType,

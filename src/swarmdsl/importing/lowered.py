@@ -7,11 +7,11 @@ one is left that does nothing. See exchange/scxml/portable.py and inward.py.
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 from lark import Token, Tree
 
+from swarmdsl.dataclass import replace
 from swarmdsl.importing.drafts import Draft, Edge
 from swarmdsl.ir import StateKind
 from swarmdsl.scxml.document import Node

@@ -10,9 +10,9 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable
-from dataclasses import replace
 from functools import cache
 
+from swarmdsl.dataclass import replace
 from swarmdsl.generator import OutputFile
 from swarmdsl.source import Source, Span
 from swarmdsl.source_map import Entry, MappedText

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.importing.drafts import THREADS, Draft, Edge
 from swarmdsl.ir import StateKind

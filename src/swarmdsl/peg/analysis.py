@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from string import ascii_letters
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.expressions import MARKS
 from swarmdsl.peg.grammar import (
     Assign,

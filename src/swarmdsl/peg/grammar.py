@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 from string import punctuation
 from typing import Any, Literal
 
 import arpeggio
 from textx.const import MULT_ONEORMORE, MULT_ZEROORMORE, RULE_ABSTRACT, RULE_MATCH
 from textx.lang import ALL_TYPE_NAMES, BASE_TYPE_NAMES
+
+from swarmdsl.dataclass import dataclass
 
 WORD = r"[A-Za-z_][A-Za-z0-9_]*\b"
 _NAME = re.compile(r"(?:\(\?!\(\?:([a-z|]+)\)\\b\))?" + re.escape(WORD))

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.expressions import MARKS
 from swarmdsl.peg.analysis import Analysis, First
 from swarmdsl.peg.grammar import Assign, Choice, Expression, Rule, Terminal, UnsupportedError, Use

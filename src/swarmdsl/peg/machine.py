@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from functools import cache
+
+from swarmdsl.dataclass import dataclass
 
 # What an instruction does, and what its number means:
 MATCH = 0  # match a terminal; its number

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.ir import Array, Component, Function, Named, Part, Primitive, System, Type
 from swarmdsl.ir.types import PRIMITIVES
 

@@ -7,8 +7,8 @@ each further one inside the state that the one before means.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
 
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.ir import State, StateKind, StateMachine
 from swarmdsl.printer.layout import UnprintableError
 

@@ -6,10 +6,9 @@ Lowering puts a reused machine in place: this finds out again what was written.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
 from typing import Any
 
-from swarmdsl.dataclass import dataclass, replace
+from swarmdsl.dataclass import dataclass, fields_of, is_dataclass, replace
 from swarmdsl.ir import (
     Assignment,
     Binary,
@@ -215,11 +214,11 @@ class _Match:
                     and len(template) == len(actual)
                     and all(map(self.same, template, actual))
                 )
-        if is_dataclass(template):
+        if is_dataclass(type(template)):
             return type(template) is type(actual) and all(
-                self._same_field(template, actual, field.name)
-                for field in fields(template)
-                if field.compare
+                self._same_field(template, actual, name)
+                for name, about in fields_of(type(template)).items()
+                if about.get("compare", True)
             )
         return bool(template == actual)
 

@@ -8,13 +8,13 @@ here tells apart no more than it needs to.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, NamedTuple
 
 import tomli
 from lark import Lark, Token, Tree
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 

@@ -6,7 +6,6 @@ import gc
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from queue import SimpleQueue
@@ -16,6 +15,7 @@ from typing import TextIO
 import click
 
 from swarmdsl import compiler
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.ir import System
 from swarmdsl.project import find_settings

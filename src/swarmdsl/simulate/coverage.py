@@ -7,8 +7,8 @@ machine, wherever it runs.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.ir import State as ModelState
 from swarmdsl.ir import Transition as ModelTransition
 from swarmdsl.runtime import Kind, Machine, Transition

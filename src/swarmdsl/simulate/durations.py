@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from random import Random
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.expressions import UNITS, nanoseconds
 
 MILLISECOND = UNITS["ms"]

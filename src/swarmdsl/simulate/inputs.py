@@ -6,9 +6,9 @@ import json
 import math
 import os
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.durations import MILLISECOND

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.defaults import default_value, result_fields
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.ir import Field, Message, System, Type

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
 from random import Random
 from typing import Any
 
+from swarmdsl.dataclass import dataclass, field, replace
 from swarmdsl.simulate.durations import AT_ONCE, ONE_SECOND, Length
 
 EVERY_FUNCTION = "*"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 from itertools import islice
 
 from swarmdsl import ir
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import StateMachine, Swarm, System
 from swarmdsl.runtime import Machine

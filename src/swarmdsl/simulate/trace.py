@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.runtime import Event, Instance, LoopError, Observer, Run, State, Transition
 from swarmdsl.simulate.actors import Actor
 from swarmdsl.simulate.clock import Clock

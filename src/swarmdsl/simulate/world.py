@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.defaults import default_result
 from swarmdsl.ir import System
 from swarmdsl.runtime import Event, Instance, Run, Servers

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import UnionType
 from typing import Any, TypeVar, get_args
 
-from swarmdsl.dataclass import described
+from swarmdsl.dataclass import annotations_of, fields_of
 from swarmdsl.syntax import architecture, behaviour, composition, file, interfaces, nodes
 from swarmdsl.syntax.nodes import Documented, Node, Ref, TopLevel
 
@@ -29,27 +29,39 @@ _HOLDERS = NODES.keys() | {
     if isinstance(value, UnionType) and issubclass(get_args(value)[0], Node)
 }
 _NO_PARTS = re.compile(r"(?:Ref|Literal)\[[^\]]*\]")
+_WORD = re.compile(r"\w+")
 
 
-def _parts(cls: type[Node]) -> tuple[tuple[str, bool], ...]:
+class _Parts(dict[type[Node], tuple[tuple[str, bool], ...]]):
     """The attributes that hold parts of a node, and whether they hold many, last ones first."""
-    annotations = {
-        name: _NO_PARTS.sub("", annotation)
-        for name, annotation, about in described(cls)
-        if "elsewhere" not in about.get("metadata", ())
-    }
-    return tuple(
-        (name, annotation.startswith(("list", "tuple")))
-        for name, annotation in reversed(annotations.items())
-        if not _HOLDERS.isdisjoint(re.findall(r"\w+", annotation))
-    )
+
+    # A model has few kinds of nodes.
+    def __missing__(self, cls: type[Node]) -> tuple[tuple[str, bool], ...]:
+        annotations = annotations_of(cls)
+        holding = {
+            name: _NO_PARTS.sub("", annotations[name])
+            for name, about in fields_of(cls).items()
+            if "elsewhere" not in about.get("metadata", ())
+        }
+        self[cls] = tuple(
+            (name, annotation.startswith(("list", "tuple")))
+            for name, annotation in reversed(holding.items())
+            if not _HOLDERS.isdisjoint(_WORD.findall(annotation))
+        )
+        return self[cls]
 
 
-_PARTS = {cls: _parts(cls) for cls in NODES.values()}
-_REFERENCES = {
-    cls: tuple(name for name, annotation, _ in described(cls) if annotation.startswith("Ref["))
-    for cls in NODES.values()
-}
+class _References(dict[type[Node], tuple[str, ...]]):
+    """The attributes that hold references."""
+
+    def __missing__(self, cls: type[Node]) -> tuple[str, ...]:
+        annotations = annotations_of(cls)
+        self[cls] = tuple(name for name in fields_of(cls) if annotations[name].startswith("Ref["))
+        return self[cls]
+
+
+_PARTS = _Parts()
+_REFERENCES = _References()
 
 N = TypeVar("N", bound=Node)
 

@@ -6,9 +6,9 @@ A machine that runs is known by its number in the cast, so that a test can run w
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.simulate.scenario import Scenario
 from swarmdsl.simulate.subject import Subject

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from swarmdsl import compiler
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.ir import System
 from swarmdsl.project import find_file, find_settings

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from pathlib import Path
 
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.testing.case import Unread
 from swarmdsl.testing.verdict import Verdict

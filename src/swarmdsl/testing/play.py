@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.runtime import LoopError
 from swarmdsl.simulate.actors import Actor, actors

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.project.toml import Document, Keys, Place, parse_toml
 from swarmdsl.reading import read_source

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from typing import Any
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.simulate.durations import shown
 from swarmdsl.simulate.scenario_table import Table

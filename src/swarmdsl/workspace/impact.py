@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
-from dataclasses import dataclass, field
 
 from swarmdsl.action_messages import names_made
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.link_types import interface_name
 from swarmdsl.load import File, Project
 from swarmdsl.ros import standard

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
-
+from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagram.layout.level import Point
 from swarmdsl.diagram.layout.loops import Loop
 from swarmdsl.diagram.shapes import Shape

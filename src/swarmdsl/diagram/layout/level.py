@@ -6,8 +6,9 @@ layer. All are whole numbers of pixels.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
+
+from swarmdsl.dataclass import dataclass
 
 Side = Literal["first", "last"]
 Point = tuple[int, int]

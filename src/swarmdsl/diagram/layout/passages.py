@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagram.graph import Diagram, Edge, Node
 from swarmdsl.diagram.layout.cycles import backward
 from swarmdsl.diagram.layout.level import Side

@@ -8,8 +8,8 @@ with Orthogonal Hyperedges, 2004; here a greedy order as in Eades, Lin, Smyth 19
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagram.layout.level import Cell, Layers, Link, Placement, Point, Segment
 
 TRACK = 10

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 from swarmdsl.exchange.scxml.profile import HELP
-from swarmdsl.exchange.xml import Places, document
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
+
+if TYPE_CHECKING:
+    from swarmdsl.exchange.xml import Places
 
 PROFILES = ("both", "portable", "cpswarm")
 
@@ -25,8 +28,9 @@ class Options:
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """The files of each machine."""
-    # Imported here because other targets use single modules of this package.
+    # Imported here because other targets use single modules of this package, which need no XML.
     from swarmdsl.exchange.scxml.portable import portable
+    from swarmdsl.exchange.xml import document
 
     for machine in system.machines:
         if options.profile != "cpswarm":
@@ -41,6 +45,7 @@ def _in_dialect(
     machine: StateMachine, system: System, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
     from swarmdsl.exchange.scxml.cpswarm import cpswarm, file_name
+    from swarmdsl.exchange.xml import document
 
     found = Diagnostics()
     places: Places = {}

@@ -7,8 +7,8 @@ callback. What is none of these becomes a callback that a person completes.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.exchange.constants import constant, params_by_name
 from swarmdsl.exchange.policy import goal_policy, result_policy
 from swarmdsl.ir import (

@@ -8,10 +8,10 @@ the files their form: ids are made Python names, so they differ in more than cas
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 
 from lxml import etree
 
+from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.scxml.calls import Call, call_of
 from swarmdsl.exchange.scxml.profile import in_profile, without_first_values

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 
 from lxml import etree
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
 from swarmdsl.exchange.scxml.events import Events, delays
 from swarmdsl.exchange.scxml.ids import data_ids, state_ids

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import fields, is_dataclass, replace
 from typing import Any
 
+from swarmdsl.dataclass import fields_of, is_dataclass, replace
 from swarmdsl.diagnostics import Diagnostic, Label
 from swarmdsl.ir import State, StateMachine
 from swarmdsl.source import Span
@@ -70,6 +70,6 @@ def _places(node: Any) -> Iterator[Span]:
     elif isinstance(node, tuple):
         for item in node:
             yield from _places(item)
-    elif is_dataclass(node):
-        for field in fields(node):
-            yield from _places(getattr(node, field.name))
+    elif is_dataclass(type(node)):
+        for name in fields_of(type(node)):
+            yield from _places(getattr(node, name))

@@ -13,8 +13,8 @@ with an outcome of one of its states; a `<parallel>` ends as soon as one child d
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
 
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import Feature
 from swarmdsl.ir import (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from swarmdsl.exchange.xml import legal
+from swarmdsl.xml_text import legal
 
 SCXML = "http://www.w3.org/2005/07/scxml"
 PAYLOAD = "urn:swarmdsl:scxml"
