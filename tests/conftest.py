@@ -4,6 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from swarmdsl import compiler
 from swarmdsl.ir import System
@@ -11,6 +12,13 @@ from swarmdsl.ir import System
 ROOT = Path(__file__).resolve().parents[1]
 # What targets make has tests of its own, which are for ROS.
 collect_ignore = ["golden", "skeleton/golden"]
+
+# What is made by chance is the same in each run; `--hypothesis-profile chance` makes others.
+settings.register_profile(
+    "chance", database=None, deadline=None, suppress_health_check=list(HealthCheck)
+)
+settings.register_profile("same", settings.get_profile("chance"), derandomize=True)
+settings.load_profile("same")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange import scxml
@@ -28,11 +28,7 @@ def test_engines_agree_about_models(agree: Callable[..., None]) -> None:
 
     @settings(
         max_examples=SYSTEMS,
-        derandomize=True,
-        database=None,
-        deadline=None,
         phases=[Phase.generate],
-        suppress_health_check=[HealthCheck.too_slow],
     )
     @given(systems())
     def run(system: System) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl import compiler
 from swarmdsl.compare.architecture import system_element
@@ -294,11 +294,7 @@ def test_every_rule_is_explained() -> None:
 
 @settings(
     max_examples=60,
-    derandomize=True,
-    database=None,
-    deadline=None,
     phases=[Phase.generate],
-    suppress_health_check=[HealthCheck.too_slow],
 )
 @given(systems(), systems())
 def test_any_two(before: System, after: System) -> None:

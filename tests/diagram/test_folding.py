@@ -101,7 +101,7 @@ def test_a_picture_says_what_can_be_folded() -> None:
     assert {id_ for id_, fold in folds.items() if fold == "open"} == {"Round", "Round.Eyes.Alert"}
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
 def test_pictures_with_what_is_folded_are_laid_out_well(seed: int, direction: object) -> None:
     machine = machines(seed)

@@ -169,7 +169,7 @@ def machines(seed: int) -> Diagram:
     return Diagram("statechart", "Machine", frame, edges)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
 def test_pictures_of_random_machines(seed: int, direction: Direction) -> None:
     check(lay_out(machines(seed), direction))

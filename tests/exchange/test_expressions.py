@@ -35,7 +35,7 @@ from swarmdsl.translate import Dialect, python_literal, translate
 
 PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
 ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})
-QUICK = settings(max_examples=200, deadline=None, database=None, derandomize=True)
+QUICK = settings(max_examples=200)
 
 REPORT = Named("test", "Report")
 

@@ -16,7 +16,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
@@ -238,14 +238,7 @@ def check_models_made_by_chance(build: Build, twin: type[Twin], number: int) -> 
     """Check so many of them."""
     ran: Counter[str] = Counter()
 
-    @settings(
-        max_examples=number,
-        derandomize=True,
-        database=None,
-        deadline=None,
-        phases=[Phase.generate],
-        suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
-    )
+    @settings(max_examples=number, phases=[Phase.generate])
     @given(systems())
     def compare_all(system: System) -> None:
         system = apart(for_ros(system))

@@ -9,7 +9,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from swarmdsl import compiler
@@ -144,7 +144,7 @@ def mutated(text: str, random: Random, comments: float) -> str:
     return "".join(pieces) + random.choice(("", "\n", "\n\n", " "))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=60)
 @given(
     st.sampled_from(sorted(MODELS)), st.randoms(use_true_random=False), st.sampled_from((0, 0.3))
 )
@@ -154,7 +154,7 @@ def test_any_white_space(name, random, comments):
     check_layout(text)
 
 
-@settings(max_examples=12, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=12)
 @given(st.sampled_from(WHOLE), st.randoms(use_true_random=False), st.sampled_from((0, 0.1)))
 def test_any_white_space_keeps_the_meaning(compile_text, text, random, comments):
     text = mutated(text, random, comments)

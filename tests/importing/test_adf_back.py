@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
@@ -141,11 +141,7 @@ def test_examples(model: Path, tmp_path: Path) -> None:
 @pytest.mark.filterwarnings("ignore:Gen")
 @settings(
     max_examples=100,
-    derandomize=True,
-    database=None,
-    deadline=None,
     phases=[Phase.generate],  # shrinking would take minutes
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 # Names that a package of another model cannot have.
 @given(systems().filter(lambda s: bool(s.functions) and s.name not in ("my-model", "event")))

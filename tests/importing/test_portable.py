@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, Phase, assume, given, settings
+from hypothesis import Phase, assume, given, settings
 
 from swarmdsl import compiler
 from swarmdsl.diagnostics import Diagnostics
@@ -281,11 +281,7 @@ def compiles(system: System, folder: Path) -> bool:
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
     max_examples=120,
-    derandomize=True,
-    database=None,
-    deadline=None,
     phases=[Phase.generate],  # shrinking would take minutes
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 @given(systems().filter(lambda system: bool(system.machines)))
 def test_whatever_a_system_is_made_of(tmp_path: Path, system: System) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from swarmdsl.diagnostics import Diagnostics
@@ -185,11 +185,7 @@ def of_all(model: Model) -> dict[object, list[str]]:
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
     max_examples=60,
-    derandomize=True,
-    database=None,
-    deadline=None,
     phases=[Phase.generate],
-    suppress_health_check=list(HealthCheck),
 )
 @given(st.data())
 def test_an_update_keeps_all_else(data: st.DataObject) -> None:

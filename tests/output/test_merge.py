@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from swarmdsl.output.merge import first_difference, merge
@@ -54,7 +54,6 @@ def test_what_both_sides_change_is_a_conflict(
     assert (merged.text, merged.conflicts) == (None, (lines,))
 
 
-@settings(deadline=None)
 @given(TEXTS, TEXTS)
 def test_one_side_alone_decides(base: bytes, changed: bytes) -> None:
     assert merge(base, base, changed).text == changed
@@ -62,7 +61,6 @@ def test_one_side_alone_decides(base: bytes, changed: bytes) -> None:
     assert merge(base, changed, changed).text == changed
 
 
-@settings(deadline=None)
 @given(TEXTS, TEXTS, st.sets(st.integers(0, 8), max_size=3))
 def test_no_line_of_the_user_is_lost(base: bytes, generated: bytes, places: set[int]) -> None:
     lines = base.splitlines(keepends=True)

@@ -14,7 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from unittest.mock import patch
 
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from swarmdsl import compiler
@@ -141,12 +141,7 @@ def killed(after: int | None) -> Iterator[None]:
             yield
 
 
-@settings(
-    max_examples=15,
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
-)
+@settings(max_examples=15)
 @given(st.lists(STEP, min_size=2, max_size=4))
 def test_no_line_of_the_user_is_lost(
     steps: list[tuple[Elements, list[Edit], bool, int | None]],

@@ -53,6 +53,7 @@ class Refused:
 def parse(text: str) -> Expected | Refused:
     """What textX and Lark make of a text."""
     source = Source("model.swarm", text)
+    usual = sys.getrecursionlimit()
     sys.setrecursionlimit(20_000)  # textX takes some thirty frames a level
     try:
         made = _metamodel().model_from_str(text)
@@ -63,6 +64,8 @@ def parse(text: str) -> Expected | Refused:
             for rule in rules
         }
         return Refused(error.__cause__.position, expected)
+    finally:
+        sys.setrecursionlimit(usual)
     if isinstance(made, str):  # textX makes no model of nothing
         return Expected(Model(Span(source, 0, 0), None, [], [], []))
     conversion = _Conversion(source)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl.ir import System
 from swarmdsl.printer.system import normalized
@@ -17,11 +17,7 @@ from .systems import systems
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
     max_examples=400,
-    derandomize=True,
-    database=None,
-    deadline=None,
     phases=[Phase.generate],  # shrinking would take minutes
-    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 @given(systems())
 def test_the_text_of_a_system_means_that_system(tmp_path: Path, system: System) -> None:

@@ -14,7 +14,7 @@ from swarmdsl.runtime.table import members
 from .world import StillWorld
 
 EVENTS = ("a", "b", "c")
-QUICK = settings(max_examples=300, deadline=None, database=None, derandomize=True)
+QUICK = settings(max_examples=300)
 
 
 class Maker:

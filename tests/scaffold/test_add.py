@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
 from swarmdsl import compiler
@@ -375,9 +375,7 @@ def _is_insertion(before: bytes, after: bytes) -> bool:
 )
 @settings(
     max_examples=10,
-    deadline=None,
     phases=[Phase.explicit, Phase.reuse, Phase.generate],  # to shrink takes minutes
-    suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 def test_random_things_in_random_models(example, added, ends, tmp_path_factory) -> None:
     folder = tmp_path_factory.mktemp("model")

@@ -19,7 +19,7 @@ from swarmdsl.translate import translate
 from ..exchange.test_expressions import ECMASCRIPT, EXPRESSIONS, defined_value
 from ..runtime.world import StillWorld
 
-QUICK = settings(max_examples=200, deadline=None, database=None, derandomize=True)
+QUICK = settings(max_examples=200)
 DATA: dict[str, Any] = {
     "n": 3,
     "x": -2.5,

@@ -19,7 +19,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, Phase, given, settings
+from hypothesis import Phase, given, settings
 
 from swarmdsl import compiler, ir
 from swarmdsl.cli import run
@@ -395,11 +395,7 @@ def test_models_made_by_chance(build: Build, clock: Any) -> None:
 
     @settings(
         max_examples=SYSTEMS,
-        derandomize=True,
-        database=None,
-        deadline=None,
         phases=[Phase.generate],
-        suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture],
     )
     @given(systems())
     def compare_all(system: System) -> None:
