@@ -6,8 +6,10 @@ from collections.abc import Callable, Iterator
 
 from lxml import etree
 
+from swarmdsl.diagram.readme import insides
 from swarmdsl.exchange.xml import Places, add_comment, document
 from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
 from swarmdsl.ros_package import manifest
 
 from .bringup import Bringup, Robot
@@ -17,7 +19,9 @@ Fill = Callable[..., str]
 _PARAMS = "$(find {package})/param/{name}.yaml"
 
 
-def bringup_files(made: Bringup, options: Options, fill: Fill) -> Iterator[OutputFile]:
+def bringup_files(
+    made: Bringup, system: System, options: Options, fill: Fill
+) -> Iterator[OutputFile]:
     """All files of the package; `fill` fills in a template."""
     root, ros2 = made.package, options.ros == 2
     depends = [("exec_depend", name) for name in made.depends]
@@ -26,15 +30,19 @@ def bringup_files(made: Bringup, options: Options, fill: Fill) -> Iterator[Outpu
         depends = [("buildtool_depend", "ament_cmake"), *tools, *depends]
     else:
         depends = [("buildtool_depend", "catkin"), ("exec_depend", "roslaunch"), *depends]
+    summary = f"Starts the components of {_listed(made)}."
     text = manifest(
         root,
-        f"Starts the components of {_listed(made)}.",
+        summary,
         depends,
         options,
         format_=3 if ros2 else 2,
         build_type="ament_cmake" if ros2 else "",
     )
     yield OutputFile(f"{root}/package.xml", text)
+    members = [robot.member for robot in made.robots]
+    values = {"summary": summary, "pictures": insides(system, members), "ros2": ros2}
+    yield OutputFile(f"{root}/README.md", fill("bringup.md", bringup=made, **values))
     folder = "config" if ros2 else "param"
     folders = ["launch", *([folder] if made.has_values else [])]
     text = fill(f"ros{options.ros}/bringup.cmake", bringup=made, folders=folders)

@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.generator import OutputFile, fits
 from swarmdsl.interface_files import file_name
 from swarmdsl.interface_packages import InterfacePackage, definitions
@@ -25,6 +25,7 @@ from .languages import language
 from .nodes import TARGET, Node, nodes
 from .options import Options
 from .packages import generation, packages
+from .readme import tables
 from .view import NodeView, node_view
 
 _KINDS = {"msg": "message", "srv": "service", "action": "action"}
@@ -84,7 +85,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     for package in made.interfaces:
         files += _interface_files(package, options, report)
     if robots is not None:
-        files += bringup_files(robots, options, _fill)
+        files += bringup_files(robots, system, options, _fill)
     return files
 
 
@@ -106,6 +107,7 @@ def _node_files(
         "refused": f"{node.model} is not implemented",
         "refused_literal": json.dumps(f"{node.model} is not implemented"),
         "doc": docstring("\n".join(view.doc)),
+        "tables": tables(node, view),
         "options": options,
         "depends": depends.build,
         "run_depends": depends.run,
@@ -117,6 +119,9 @@ def _node_files(
         **{f"{variant}/{name}": path for name, path in _FILES[variant].items()},
         **{f"ros{options.ros}/{name}": path for name, path in _SHARED[options.ros].items()},
     }
+    own = [path.removeprefix("!") for path in templates.values() if path.startswith("!")]
+    values["own"] = listed([path.replace("{}", node.package) for path in own], "and")
+    templates["README.md"] = "README.md"
     if view.settings:
         for name, path in _SETTINGS[options.ros].items():
             templates[f"ros{options.ros}/{name}"] = path

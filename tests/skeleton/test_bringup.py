@@ -45,6 +45,20 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Callable[[int], Path]:
     return built
 
 
+@pytest.mark.parametrize(
+    ("ros", "command"), [("1", "roslaunch"), ("2", "ros2 launch")], ids=["ros1", "ros2"]
+)
+def test_the_readme_draws_the_robots(ros: str, command: str, emit: Emit) -> None:
+    files, _ = emit(MODEL, ros=ros)
+    text = files["lab_bringup/README.md"].text
+
+    assert f"| `{command} lab_bringup uav.launch" in text
+    assert "`left` (camera), `right` (camera)" in text
+    drawn = text.partition("## Member `Uav`\n\n```mermaid\n")[2].partition("```")[0]
+    assert all(f"  {part}[" in drawn for part in PARTS)
+    assert '  left -->|"image' in drawn
+
+
 def test_a_launch_file_for_ros1(emit: Emit) -> None:
     files, complaints = emit(MODEL)
     assert complaints == []

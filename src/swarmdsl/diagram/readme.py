@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagram.composition import composition
 from swarmdsl.diagram.graph import Diagram
+from swarmdsl.diagram.internal import internal
 from swarmdsl.diagram.mermaid import mermaid
 from swarmdsl.diagram.statechart import statechart
 from swarmdsl.ir import StateMachine, System
@@ -29,6 +30,20 @@ def pictures(system: System, machines: Sequence[StateMachine]) -> tuple[Picture,
     What is too large for Mermaid is left out.
     """
     return tuple(_drawn(system, machines))
+
+
+def insides(system: System, members: Sequence[str]) -> tuple[Picture, ...]:
+    """Some members, each with its parts and what connects them.
+
+    What is too large for Mermaid is left out.
+    """
+    components = {component.name: component for component in system.components}
+    shown = (member for member in system.members if member.name in members)
+    return tuple(
+        picture
+        for member in shown
+        for picture in _picture(f"Member `{member.name}`", internal(member, components))
+    )
 
 
 def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture]:

@@ -1,0 +1,58 @@
+"""What the README of a package says of its node: what others use of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.dataclass import dataclass
+
+from .nodes import Node, Topic
+from .view import NodeView
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of a README, a row of cells each; there are some."""
+
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
+    """What others use of a node: servers, topics and ROS parameters."""
+    found = (
+        Table(
+            "Servers that it has",
+            ("name", "type", ""),
+            tuple(
+                (_code(each.name), _code(f"{each.type} ({each.paradigm})"), _cell(each.doc))
+                for each in node.servers
+            ),
+        ),
+        Table("Topics that it hears", ("name", "type", ""), tuple(_topics(node.inputs))),
+        Table("Topics that it sends on", ("name", "type", ""), tuple(_topics(node.outputs))),
+        Table(
+            "ROS parameters",
+            ("name", "type", "default", ""),
+            tuple(
+                (_code(each.name), each.said, _code(each.yaml), _cell(setting.doc))
+                for each, setting in zip(view.settings, node.settings, strict=True)
+            ),
+        ),
+    )
+    return tuple(table for table in found if table.rows)
+
+
+def _topics(topics: tuple[Topic, ...]) -> Iterator[tuple[str, ...]]:
+    for each in topics:
+        yield _code(each.topic), _code(str(each.type)), _cell(each.doc)
+
+
+def _code(text: str) -> str:
+    return f"`{_cell(text)}`" if text else ""
+
+
+def _cell(text: str) -> str:
+    """Text in one cell of a table."""
+    return " ".join(text.split()).replace("|", "\\|")
