@@ -344,7 +344,7 @@ class Host:
                 'configuration': line['configuration'],
                 'final': self._instance.final,
             }
-            self._state.publish(String(data=json.dumps(state, ensure_ascii=False)))
+            self._state.publish(String(data=as_json(state)))
         places = ', '.join(each.origin for each in taken if each.origin)
         where = ', '.join(line['configuration'])
         what = line['event'] or 'start'

@@ -11,6 +11,7 @@ from .engine import Event
 from .values import SECOND, to_json
 
 _DEPTH = 10
+_OF_ROS, _OF_BRIDGE = 'std_msgs/Header', 'swarmros/EventHeader'
 _ECHO = 2 * SECOND
 """How long an event of the node itself is waited for on its topic, in nanoseconds."""
 
@@ -43,12 +44,14 @@ class Topics:
         self._clock = clock
         self._hear = hear
         self._publishers = {}
+        self._headers = {}
         self._subscriptions = []
         self._echoes = {}
         around = swarm.rstrip('/')
         for topic in topics:
             name = f'{around}/{topic.name}' if topic.swarm else topic.name
             if topic.sent:
+                self._headers[topic.event] = _headers(topic.interface)
                 self._publishers[topic.event] = [
                     self._publisher(topic, each, group) for each in (name, topic.local) if each
                 ]
@@ -75,15 +78,13 @@ class Topics:
             publisher.publish(event.data)
 
     def _sign(self, message, name):
-        for field, kind in message.get_fields_and_field_types().items():
-            if kind == 'std_msgs/Header':
-                header = getattr(message, field)
-                if header.stamp == Time():
-                    header.stamp = self._node.get_clock().now().to_msg()
-            elif kind == 'swarmros/EventHeader':
-                header = getattr(message, field)
+        for field, kind in self._headers[name]:
+            header = getattr(message, field)
+            if kind == _OF_BRIDGE:
                 header.name = header.name or name
                 header.node = header.node or self._member
+            elif header.stamp == Time():
+                header.stamp = self._node.get_clock().now().to_msg()
 
     def release(self):
         """Let go of all topics."""
@@ -121,6 +122,12 @@ class Topics:
                 waited.remove(each)
                 return True
         return False
+
+
+def _headers(interface):
+    """Return the fields of a message in which is said when it was sent and by whom."""
+    fields = interface.get_fields_and_field_types().items()
+    return [(field, kind) for field, kind in fields if kind in (_OF_ROS, _OF_BRIDGE)]
 
 
 def _qos(topic):

@@ -87,6 +87,5 @@ class Trace(Observer):
             self._line[key].append(name)
 
 
-def as_json(line):
-    """Return a line for programs."""
-    return json.dumps(line, ensure_ascii=False)
+as_json = json.JSONEncoder(ensure_ascii=False).encode
+"""Return a line for programs."""

@@ -96,8 +96,9 @@ def to_json(value):
     """Return what is in a message as plain data."""
     if isinstance(value, (Duration, Time)):
         return value.sec * SECOND + value.nanosec
-    if hasattr(value, 'get_fields_and_field_types'):
-        return {name: to_json(getattr(value, name)) for name in value.get_fields_and_field_types()}
+    fields = getattr(value, 'get_fields_and_field_types', None)
+    if fields is not None:
+        return {name: to_json(getattr(value, name)) for name in fields()}
     if isinstance(value, bytes):
         return value[0] if len(value) == 1 else list(value)
     if hasattr(value, 'tolist'):
