@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from swarmdsl.diagram.graph import Diagram, Edge, Node
-from swarmdsl.diagram.layout import Box, Picture, lay_out
+from swarmdsl.diagram.layout import Box, Picture, lay_out, layering
 from swarmdsl.diagram.layout.cycles import backward
 from swarmdsl.diagram.layout.simplex import Constraint, minimized
 from swarmdsl.diagram.measure import width, wrapped
@@ -173,6 +173,33 @@ def machines(seed: int) -> Diagram:
 @given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
 def test_pictures_of_random_machines(seed: int, direction: Direction) -> None:
     check(lay_out(machines(seed), direction))
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(0, 2**32), st.sampled_from(DIRECTIONS))
+def test_pictures_with_lanes_beside_all_else(seed: int, direction: Direction) -> None:
+    """As in very large ones."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(layering, "_MOST_PASSED", -1)
+        patch.setattr(layering, "_NEAR", 0)
+        check(lay_out(machines(seed), direction))
+
+
+def test_far_transitions_of_a_large_machine_share_lanes() -> None:
+    count, far = 500, 60
+    states = tuple(Node(f"s{number}", "state", f"S{number}") for number in range(count))
+    edges = [Edge(f"e{n}", "transition", f"s{n}", f"s{n + 1}", ("Next",)) for n in range(count - 1)]
+    for number in range(far):
+        low, high = number, count - 1 - number
+        edges.append(Edge(f"f{number}", "transition", f"s{low}", f"s{high}", ("Far",)))
+    for number in range(2 * far, count - 2 * far, 10):
+        edges.append(Edge(f"g{number}", "transition", f"s{number + 7}", f"s{number}"))
+    frame = Node("", "frame", "Machine", "statemachine", nodes=states)
+    picture = lay_out(Diagram("statechart", "Machine", frame, tuple(edges)), "down")
+    check(picture)
+    rights = [max(x for x, _ in line.points) for line in picture.lines]
+    assert len(set(rights[count - 1 : count - 1 + far])) == far, "they would lie on each other"
+    assert len(set(rights[count - 1 + far :])) == 1, "these do not meet"
 
 
 @given(st.data())

@@ -8,6 +8,11 @@ from itertools import pairwise
 from swarmdsl.diagram.layout.level import Cell, End, Layers, Link, Segment, Side, Vertex
 from swarmdsl.diagram.layout.simplex import minimized
 
+_MOST_PASSED = 20_000
+"""Layers that links pass: where it is more, far ones have lanes, as nobody can follow them."""
+_NEAR = 4
+"""Layers that a link passes which has no lane then."""
+
 
 def make_layers(cells: Sequence[Cell], links: Sequence[Link], pitch: int) -> Layers:
     """Put each cell in a layer so that links are short; those with a label have a layer for it.
@@ -22,10 +27,11 @@ def make_layers(cells: Sequence[Cell], links: Sequence[Link], pitch: int) -> Lay
     layers: list[list[Vertex]] = [[] for _ in range(max(ranks, default=-1) + 1)]
     for vertex in vertices:
         layers[vertex.layer].append(vertex)
-    segments: list[Segment] = []
+    made = Layers(layers, [], vertices, [])
+    passed = sum(abs(ranks[link.source] - ranks[link.target]) for link in links)
     for number, link in enumerate(links):
-        segments += _segments(number, link, vertices, layers, pitch)
-    return Layers(layers, segments, vertices)
+        made.segments += _segments(number, link, made, pitch, passed > _MOST_PASSED)
+    return made
 
 
 def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
@@ -60,14 +66,21 @@ def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
 
 
 def _segments(
-    number: int, link: Link, vertices: list[Vertex], layers: list[list[Vertex]], pitch: int
+    number: int, link: Link, layers: Layers, pitch: int, with_lanes: bool
 ) -> list[Segment]:
-    """The way of a link, from its source to its target, with a vertex in each layer between."""
-    source, target = vertices[link.source], vertices[link.target]
+    """The way of a link, from its source to its target, with a vertex in each layer between.
+
+    With lanes, a far one has a lane beside them for all but the one with its label.
+    """
+    source, target = layers.cells[link.source], layers.cells[link.target]
     step = -1 if link.flipped else 1
     out: Side = "first" if link.flipped else "last"
     into: Side = "last" if link.flipped else "first"
     passed = list(range(source.layer + step, target.layer, step))
+    aside: list[int] = []
+    if with_lanes and len(passed) > _NEAR:
+        labels = link.label is not None
+        passed, aside = passed[:labels], passed[labels:]
     # Where it must leave on the side that faces away, it first goes round the cell.
     leaves_back = link.source_side not in (None, out)
     enters_back = link.target_side not in (None, into)
@@ -75,7 +88,7 @@ def _segments(
         passed = [source.layer]
     else:
         passed = [*[source.layer] * leaves_back, *passed, *[target.layer] * enters_back]
-    way = []
+    way: list[Vertex] = []
     for at, layer in enumerate(passed):
         # Next to the source one sees whose label it is.
         if link.label is not None and at == leaves_back:
@@ -83,8 +96,14 @@ def _segments(
             vertex = Vertex(length, breadth + pitch, layer, link=number, is_label=True)
         else:
             vertex = Vertex(0, 0, layer, link=number)
-        layers[layer].append(vertex)
+        layers.layers[layer].append(vertex)
         way.append(vertex)
+    if aside:
+        lane = Vertex(0, 0, min(aside), link=number, beyond=len(aside) - 1)
+        # After all that is in a layer.
+        lane.order = len(layers.cells) + _MOST_PASSED + number
+        layers.lanes.append(lane)
+        way.insert(len(way) - enters_back, lane)
     stops = [source, *way, target]
     segments = []
     for at, (one, other) in enumerate(pairwise(stops)):
@@ -93,7 +112,7 @@ def _segments(
             leaving = entering = _other(out)
         elif enters_back and at == len(stops) - 2:
             leaving = entering = _other(into)
-        gap = one.layer + (leaving == "last")
+        gap = one.layer_at(leaving) + (leaving == "last")
         segments.append(Segment(gap, number, _end(one, leaving), _end(other, entering)))
     segments[0].start.at = link.source_at
     segments[-1].end.at = link.target_at

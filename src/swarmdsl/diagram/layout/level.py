@@ -68,7 +68,8 @@ class Placement:
 class Vertex:
     """A cell, or where a link passes a layer: its number is that of one of them.
 
-    `line` is where the link does, from the corner; there may be room for its label.
+    `line` is where the link does, from the corner; there may be room for its label. A lane, on
+    which a link passes more layers, is beside them all; so many follow `beyond` the first.
     """
 
     length: int
@@ -80,6 +81,11 @@ class Vertex:
     is_label: bool = False
     across: int = 0
     order: int = 0
+    beyond: int | None = None
+
+    def layer_at(self, side: Side) -> int:
+        """The layer that it has on a side."""
+        return self.layer + (self.beyond or 0) * (side == "last")
 
 
 @dataclass
@@ -114,11 +120,17 @@ class Segment:
         """Whether it goes back to the layer that it comes from."""
         return self.start.side == self.end.side
 
+    @property
+    def is_aside(self) -> bool:
+        """Whether it leads to a lane or from it."""
+        return self.start.vertex.beyond is not None or self.end.vertex.beyond is not None
+
 
 @dataclass
 class Layers:
-    """The vertices of each layer in their order, and the segments between layers."""
+    """The vertices of each layer in their order, the segments between layers, and the lanes."""
 
     layers: list[list[Vertex]]
     segments: list[Segment]
     cells: list[Vertex]
+    lanes: list[Vertex]

@@ -27,7 +27,7 @@ def order(layers: Layers) -> None:
     before: Neighbours = {}
     after: Neighbours = {}
     for segment in layers.segments:
-        if segment.turns:
+        if segment.turns or segment.is_aside:
             continue
         upper, lower = segment.start, segment.end
         if upper.side == "first":

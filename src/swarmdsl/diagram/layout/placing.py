@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Sequence
+from heapq import heappop, heappush
 from itertools import pairwise
 from statistics import median_low
 
@@ -39,6 +40,7 @@ def place(
     lines = _lines(layers)
     fixed = {id(end) for side in sides for end in side.fixed()}
     _minimize(layers, lines, fixed)
+    _put_lanes(layers)
     for _ in range(2):
         # The second time, ends follow those of other cells that have moved.
         for ends in sides:
@@ -56,6 +58,8 @@ def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]
     count = len(lines)
     for segment in layers.segments:
         start, end = segment.start, segment.end
+        if segment.is_aside:
+            continue
         if number[id(start.vertex)] == number[id(end.vertex)]:
             continue
         offset = _of_line(end) - _of_line(start)
@@ -71,6 +75,22 @@ def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]
     for layer in layers.layers:
         for vertex in layer:
             vertex.across -= least
+
+
+def _put_lanes(layers: Layers) -> None:
+    """Place the lanes beside all else, two at one place where they are far from each other."""
+    across = max((v.across + v.breadth for layer in layers.layers for v in layer), default=0)
+    taken: list[tuple[int, int]] = []  # a heap of the layers up to which places are, and these
+    free: list[int] = []
+    places = 0
+    for lane in sorted(layers.lanes, key=lambda each: (each.layer, each.beyond)):
+        # What leads to one and from another is in gaps of their own.
+        while taken and taken[0][0] + 1 < lane.layer:
+            heappush(free, heappop(taken)[1])
+        places += not free
+        place = heappop(free) if free else places
+        heappush(taken, (lane.layer_at("last"), place))
+        lane.across = across + place * LINE_GAP
 
 
 def _of_line(end: End) -> int:
@@ -120,7 +140,7 @@ def _lines(layers: Layers) -> list[list[Vertex]]:
     gaps: dict[int, list[tuple[Vertex, Vertex]]] = {}
     for segment in layers.segments:
         upper, lower = segment.start.vertex, segment.end.vertex
-        if segment.turns or upper.cell is not None or lower.cell is not None:
+        if segment.turns or upper.cell is not None or lower.cell is not None or segment.is_aside:
             continue
         if upper.layer > lower.layer:
             upper, lower = lower, upper

@@ -197,8 +197,9 @@ def _routes(
             vertex = end.vertex
             if vertex.cell is None:
                 # It goes on through the layer.
-                along = placed.starts[vertex.layer]
-                along += placed.lengths[vertex.layer] if end.side == "last" else 0
+                layer = vertex.layer_at(end.side)
+                along = placed.starts[layer]
+                along += placed.lengths[layer] if end.side == "last" else 0
             else:
                 along = placed.cell(cells[vertex.cell], vertex.layer, vertex.length)
                 along += vertex.length if end.side == "last" else 0
