@@ -10,6 +10,8 @@ BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
 EXTENSION_READY := $(EXTENSION)/node_modules/.package-lock.json
 VSIX_DIR := dist
+# More for vsce, which packages the extension.
+VSCE :=
 ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
@@ -81,7 +83,7 @@ vsix: $(READY) $(EXTENSION_READY) ## Package the VS Code extension, with a serve
 	mkdir -p $(VSIX_DIR)
 	$(BIN)/python $(EXTENSION)/bundle/make.py
 	cd $(EXTENSION) && TZ=UTC SOURCE_DATE_EPOCH=$(SOURCE_DATE_EPOCH) \
-		npm run package -- --out $(abspath $(VSIX_DIR))/
+		npm run package -- --out $(abspath $(VSIX_DIR))/ $(VSCE)
 
 clean: ## Remove what was built, except .venv.
 	rm -rf build dist out .mypy_cache .ruff_cache .pytest_cache .hypothesis

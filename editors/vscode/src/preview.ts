@@ -39,10 +39,11 @@ export class Preview implements vscode.Disposable {
       vscode.workspace.onDidChangeTextDocument(({ document }) => this.follow(document)),
       vscode.window.onDidChangeActiveTextEditor((each) => each && this.follow(each.document)),
       vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.point(textEditor)),
-      // Also where a file was changed that is not shown.
+      // Also where a file was changed that is not shown, or not even open.
       vscode.languages.onDidChangeDiagnostics(
         ({ uris }) => uris.some(({ path }) => path.endsWith(".swarm")) && this.later(),
       ),
+      server.onFiles(() => this.later()),
       server.onChange(({ kind }) => kind === "running" && this.later()),
     );
   }

@@ -19,6 +19,9 @@ export type Status =
 export class Server implements vscode.Disposable {
   private readonly changed = new vscode.EventEmitter<Status>();
   readonly onChange = this.changed.event;
+  private readonly told = new vscode.EventEmitter<void>();
+  /** The server was told that files have changed on disk. */
+  readonly onFiles = this.told.event;
   private client: LanguageClient | undefined;
   private launch: Launch | undefined;
   // One start or stop at a time, in the order in which they were asked for.
@@ -74,6 +77,7 @@ export class Server implements vscode.Disposable {
 
   dispose(): void {
     this.changed.dispose();
+    this.told.dispose();
   }
 
   stop(): Promise<void> {
@@ -119,6 +123,14 @@ export class Server implements vscode.Disposable {
         // Those that the server may name above declarations.
         initializationOptions: {
           commands: ["swarmdsl.references", "swarmdsl.preview", "swarmdsl.simulate"],
+        },
+        middleware: {
+          workspace: {
+            didChangeWatchedFile: async (event, next) => {
+              await next(event);
+              this.told.fire();
+            },
+          },
         },
       },
     );

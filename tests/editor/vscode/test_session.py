@@ -186,6 +186,13 @@ def test_the_preview_follows_the_text_and_leads_to_it(
     window.saved("behaviours.swarm", lambda now: "state Travel {" in now)
     photograph(window, pytestconfig, tmp_path, "preview")
 
+    # A file that is not open is written by something else, and is right before and after.
+    page.locator("#which").select_option("SearchAndRescue.composition")
+    expect(picture).to_contain_text("1..5")
+    changed = text(window, "sar.swarm").replace("Rover[1..5]", "Rover[1..6]")
+    (window.folder / "sar.swarm").write_text(changed, encoding="utf-8")
+    expect(picture).to_contain_text("1..6")
+
 
 def test_blocks_in_markdown_have_colours(window: Window) -> None:
     window.open("NOTES.md")
