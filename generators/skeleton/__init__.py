@@ -1,10 +1,24 @@
 """Packages for what is modelled and not written yet: functions and components as ROS nodes."""
 
-from swarmdsl.generator import Generator
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.generator import Generator, OutputFile
+from swarmdsl.ir import System
 
 from .mapping import MAPPING
 from .options import Options
-from .render import emit
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterable[OutputFile]:
+    """The files of the packages."""
+    # Imported here because whoever checks the options of a project needs no more than these.
+    from .render import emit
+
+    return emit(system, options, report)
+
 
 generator = Generator(
     target="skeleton",

@@ -56,6 +56,11 @@ def target_names() -> list[str]:
     return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
 
 
+def has(name: str) -> bool:
+    """Whether there is a target of that name."""
+    return name in BUILT_IN or name in _third_party()
+
+
 def similar_target(name: str) -> str:
     """Which targets may be meant by a name that none has."""
     if name.lower() in ROS_1:

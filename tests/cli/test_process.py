@@ -56,6 +56,13 @@ def test_only_what_is_needed_is_imported(arguments, allowed, tmp_path, monkeypat
     assert imported(arguments) <= allowed
 
 
+def test_a_project_file_and_options_in_it_cost_little_to_read(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("swarm.toml").write_text("[project]\nname = 'p'\n[targets.smach]\nsimulation = true\n")
+    Path("model.swarm").write_text("package p\n")
+    assert imported(["check"]) == set()
+
+
 def imported(arguments):
     """What is slow to import and was imported by a command."""
     code = (

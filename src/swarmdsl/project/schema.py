@@ -103,8 +103,7 @@ class _Reader:
     def _targets(self) -> Iterator[tuple[str, dict[str, str]]]:
         for target in self._table("targets"):
             keys: Keys = ("targets", target)
-            known = plugins.target_names()
-            if target not in known:
+            if not plugins.has(target):
                 place = self._document.places[keys].key
                 hint = plugins.similar_target(target)
                 self._report.report("unknown-target", place, name=target, help=hint)

@@ -1,18 +1,17 @@
 """TOML to values, each with its place in the text.
 
 tomli reads the values and finds what is wrong with the text, but does not keep places. So
-the text is parsed a second time for these alone, when tomli has accepted it: the grammar
-here tells apart no more than it needs to.
+the text is read a second time for these alone, when tomli has accepted it; no more is told
+apart here than has to be.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import cache
+import re
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import tomli
-from lark import Lark, Token, Tree
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics
@@ -21,24 +20,16 @@ from swarmdsl.source import Source, Span
 Keys = tuple[str | int, ...]
 """The way from the top of a document to a value: names of keys, positions in arrays."""
 
-_GRAMMAR = r"""
-start: (table | tables | pair)*
-table: "[" key "]"
-tables: "[[" key "]]"
-pair: key "=" _value
-key: (BARE | BASIC | LITERAL) ("." (BARE | BASIC | LITERAL))*
-_value: BASIC | LITERAL | BASIC_LINES | LITERAL_LINES | SCALAR | array | inline_table
-array: "[" [_value ("," _value)* ","?] "]"
-inline_table: "{" [pair ("," pair)* ","?] "}"
-
-BARE: /[A-Za-z0-9_-]+/
-BASIC: /"(\\.|[^"\\\n])*"/
-LITERAL: /'[^'\n]*'/
-BASIC_LINES.1: /\"{3}(\\[\s\S]|[^\\])*?\"{3,5}(?!\")/
-LITERAL_LINES.1: /'''[\s\S]*?'{3,5}(?!')/
-SCALAR: /\d{4}-\d\d-\d\d \d\d:[\d:.]+([zZ]|[+-][\d:]+)?|[^\s,\[\]{}#"'=]+/
-%ignore /[ \t\n]+|#[^\n]*/
-"""
+_BETWEEN = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
+_WORD_OF_KEY = re.compile(r"""[A-Za-z0-9_-]+|"(?:\\.|[^"\\\n])*"|'[^'\n]*'""")
+_WORD_OF_VALUE = re.compile(
+    r"""
+    "{3}(?:\\[\s\S]|[^\\])*?"{3,5}(?!") | '{3}[\s\S]*?'{3,5}(?!')
+    | "(?:\\.|[^"\\\n])*" | '[^'\n]*'
+    | \d{4}-\d\d-\d\d[ ]\d\d:[\d:.]+(?:[zZ]|[+-][\d:]+)? | [^\s,\[\]{}\#"'=]+
+    """,
+    re.VERBOSE,
+)
 
 # How tomli begins to say that something is given twice, or inside of what is closed.
 _OVERWRITING = ("cannot overwrite", "cannot declare", "cannot mutate", "duplicate inline table")
@@ -75,105 +66,129 @@ def parse_toml(source: Source, report: Diagnostics) -> Document | None:
             reason = f"`{place.text}` overwrites what is given before it"
         report.report("bad-toml", place, path=source.name, reason=reason)
         return None
-    return Document(source, values, _Places(source).find())
+    return Document(source, values, _Places(source, len(source.text)).find())
 
 
 def _last_key(source: Source, end: int) -> Span:
     """The key of the pair, or of the header but for its brackets, that ends at `end`."""
-    parser = _parser().parse_interactive(source.text[:end])
-    tokens = list(parser.exhaust_lexer())
-    last = len(tokens) - 1
-    depth = 0
-    for at in reversed(range(len(tokens))):
-        depth += (tokens[at] in ("]", "}")) - (tokens[at] in ("[", "[[", "{"))
-        if depth < 0:
-            break
-        if tokens[at] == "=" and depth == 0:
-            last = at - 1
-            break
-    first = last
-    while first > 1 and tokens[first - 1] == ".":
-        first -= 2
-    begin, stop = tokens[first].start_pos, tokens[last].end_pos
-    assert begin is not None
-    assert stop is not None
-    return Span(source, begin, stop)
+    reader = _Places(source, end)
+    with suppress(_Over):
+        reader.find()
+    return reader.last_key
 
 
-@cache
-def _parser() -> Lark:
-    return Lark(_GRAMMAR, parser="lalr", propagate_positions=True, maybe_placeholders=False)
+class _Over(Exception):  # noqa: N818 - no error
+    """The text is over in the middle of something."""
 
 
 class _Places:
-    def __init__(self, source: Source) -> None:
+    """Reads a text that TOML allows, as far as `end`."""
+
+    def __init__(self, source: Source, end: int) -> None:
         self._source = source
+        self._end = end
+        self._at = 0
+        self._stop = 0
+        """Where the last word ended."""
         self._places: dict[Keys, Place] = {}
         self._tables: dict[Keys, int] = {}
         """How many tables there are so far in each array of tables."""
+        self.last_key = Span(source, end, end)
+        """The key of what ended last."""
 
     def find(self) -> dict[Keys, Place]:
+        """The places of all keys and items. Raises _Over."""
         above: Keys = ()
-        for statement in _parser().parse(self._source.text).children:
-            assert isinstance(statement, Tree)
-            if statement.data == "pair":
-                self._pair(statement, above)
-                continue
-            above = self._header(statement)
+        self._skip()
+        while self._at < self._end:
+            if self._take("["):
+                above = self._header(many=self._take("["))
+            else:
+                self._pair(above)
         return self._places
 
-    def _header(self, header: Tree[Token]) -> Keys:
-        (key,) = header.children
+    def _header(self, many: bool) -> Keys:
         keys: Keys = ()
-        *_, last = parts = list(_parts(key))
+        *_, last = parts = self._key()
         for part in parts:
             keys = (*keys, _name(part))
             self._add(keys, part, part)
-            if part is last and header.data == "tables":
+            if part is last and many:
                 self._tables[keys] = self._tables.get(keys, 0) + 1
             if keys in self._tables:
                 keys = (*keys, self._tables[keys] - 1)
                 self._add(keys, part, part)
+        self.last_key = _whole(parts)
+        while self._take("]"):
+            pass
         return keys
 
-    def _pair(self, pair: Tree[Token], keys: Keys) -> None:
-        key, value = pair.children
-        for part in _parts(key):
+    def _pair(self, keys: Keys) -> None:
+        parts = self._key()
+        self._take("=")
+        new = []
+        for part in parts:
             keys = (*keys, _name(part))
-            self._add(keys, part, value)
-        self._value(value, keys)
+            if keys not in self._places:
+                new.append(keys)
+                self._add(keys, part, part)
+        value = self._value(keys)
+        for known in new:
+            self._places[known] = self._places[known]._replace(value=value)
+        self.last_key = _whole(parts)
 
-    def _value(self, value: Token | Tree[Token], keys: Keys) -> None:
-        if isinstance(value, Token):
-            return
-        for number, child in enumerate(value.children):
-            if value.data == "array":
-                self._add((*keys, number), child, child)
-                self._value(child, (*keys, number))
-            else:
-                assert isinstance(child, Tree)
-                self._pair(child, keys)
-
-    def _add(self, keys: Keys, key: Token | Tree[Token], value: Token | Tree[Token]) -> None:
-        self._places.setdefault(keys, Place(self._span(key), self._span(value)))
-
-    def _span(self, node: Token | Tree[Token]) -> Span:
-        if isinstance(node, Token):
-            start, end = node.start_pos, node.end_pos
+    def _value(self, keys: Keys) -> Span:
+        start = self._at
+        if self._take("["):
+            number = 0
+            while not self._take("]"):
+                place = self._value((*keys, number))
+                self._add((*keys, number), place, place)
+                number += 1
+                self._take(",")
+        elif self._take("{"):
+            while not self._take("}"):
+                self._pair(keys)
+                self._take(",")
         else:
-            start, end = node.meta.start_pos, node.meta.end_pos
-        assert start is not None
-        assert end is not None
-        return Span(self._source, start, end)
+            return self._word(_WORD_OF_VALUE)
+        return Span(self._source, start, self._stop)
+
+    def _key(self) -> list[Span]:
+        parts = [self._word(_WORD_OF_KEY)]
+        while self._take("."):
+            parts.append(self._word(_WORD_OF_KEY))
+        return parts
+
+    def _add(self, keys: Keys, key: Span, value: Span) -> None:
+        self._places.setdefault(keys, Place(key, value))
+
+    def _word(self, kind: re.Pattern[str]) -> Span:
+        word = kind.match(self._source.text, self._at, self._end)
+        if word is None:
+            raise _Over
+        self._at = self._stop = word.end()
+        self._skip()
+        return Span(self._source, word.start(), word.end())
+
+    def _take(self, mark: str) -> bool:
+        if not self._source.text.startswith(mark, self._at, self._end):
+            return False
+        self._at += 1
+        self._stop = self._at
+        self._skip()
+        return True
+
+    def _skip(self) -> None:
+        between = _BETWEEN.match(self._source.text, self._at, self._end)
+        assert between is not None
+        self._at = between.end()
 
 
-def _parts(key: Token | Tree[Token]) -> Iterator[Token]:
-    assert isinstance(key, Tree)
-    for part in key.children:
-        assert isinstance(part, Token)
-        yield part
+def _whole(parts: list[Span]) -> Span:
+    return Span(parts[0].source, parts[0].start, parts[-1].end)
 
 
-def _name(part: Token) -> str:
+def _name(part: Span) -> str:
     """The name that a part of a key stands for, which may be quoted."""
-    return next(iter(tomli.loads(f"{part} = 0")))
+    return part.text if part.text[0] not in "\"'" else next(iter(tomli.loads(f"{part.text} = 0")))
