@@ -1,60 +1,15 @@
-"""What becomes of each construct of a model, for `swarmc targets yasmin`.
-
-What stands between backticks is found in the generated module of YASMIN, or in the chart, the
-table of the machine that its engine runs.
-"""
+"""What becomes of each construct of a model, for `swarmc targets yasmin`."""
 
 from __future__ import annotations
 
 from swarmdsl.generator import Mapped, Support
 
-_EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
+from ..following.mapping import mapping
 
-MAPPING = tuple(
-    Mapped(*each)
-    for each in (
-        ("state with an action", _EXACT, "an `ActionState`"),
-        ("state with a service", _EXACT, "a `ServiceState`"),
-        ("state without activity", _EXACT, "a `State`"),
-        ("composite state, submachine", _EXACT, "a `StateMachine` in `add_state`"),
-        ("parallel state", _EXACT, "a `Concurrence` with a `StateMachine` a region"),
-        ("final state", _EXACT, "outcome of the `StateMachine`; inside, a `State` that waits"),
-        ("transition on an outcome", _EXACT, "outcome of the state, `'succeeded'`"),
-        ("transition on an event", _EMULATED, "outcome; the chart hears the event, `Topic(`"),
-        ("transition on a completion", _EMULATED, "outcome `'done'`; the chart has `'done.state.`"),
-        ("transition on a certain final state", _EMULATED, "outcome; the chart has `'final.`"),
-        ("transition after a time", _EMULATED, "outcome `'timeout'`; the chart has `send_after(`"),
-        ("transition without a trigger", _EMULATED, "outcome; the chart takes it at once"),
-        ("choice", _EMULATED, "a `State` that the chart leaves at once"),
-        ("guard", _EMULATED, "function of the chart, `guard=`"),
-        ("effect", _EMULATED, "function of the chart, `effect=`"),
-        ("transition with several triggers", _EMULATED, "an outcome for each, `'Go'`, `'Stop'`"),
-        (
-            "transition out of states",
-            _EMULATED,
-            "outcome of all inside, passed on: `'Stop': 'Stop'`",
-        ),
-        ("transition into a state", _EMULATED, "a `Junction` in which the machine begins"),
-        ("initial state inside a state", _EXACT, "`set_start_state('Deep')`"),
-        ("history", _EMULATED, "kept by the chart; a `Junction` leads to what it was"),
-        ("deep history", _EMULATED, "the same in all machines inside: `Kind.DEEP_HISTORY`"),
-        ("internal transition", _EMULATED, "outcome of the states inside"),
-        ("transition without a target", _EMULATED, "no outcome: `None`"),
-        ("entry, exit", _EMULATED, "functions of the chart: `entry=`, `exit=`"),
-        ("goal or request", _EXACT, "function of the chart, `goal=`"),
-        ("callback", _EXACT, "`callbacks.`, called by the chart"),
-        ("stored result or response", _EXACT, "function of the chart, `finalize=`"),
-        ("variable", _EXACT, "key of the blackboard, `self.n`"),
-        ("param", _EXACT, "ROS parameter, `Parameter(`, and key of the blackboard"),
-        ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
-        ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
-        (
-            "transition from deep inside to a deep history around",
-            _REJECTED,
-            "how far it leads is known too late (SW0903)",
-        ),
-        ("param that is a message", _REJECTED, "is no ROS parameter (SW0903)"),
-        ("state called `canceled`", _REJECTED, "machines end with that outcome (SW0905)"),
-        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
-    )
+_CANCELED = "machines end with that outcome (SW0905)"
+
+MAPPING = mapping(
+    "set_start_state('Deep')",
+    "blackboard",
+    own=[Mapped("state called `canceled`", Support.REJECTED, _CANCELED)],
 )

@@ -53,6 +53,18 @@ def test_managed_nodes_pass(
     assert lint([package]) == []
 
 
+@pytest.mark.parametrize("options", [{"target": "yasmin"}, {"target": "smach", "ros": "2"}])
+def test_machines_in_libraries_pass(
+    lint: Callable[[list[Path]], list[str]],
+    variant: Callable[..., Path],
+    options: dict[str, str],
+) -> None:
+    package = variant("tests/ros2/models", **options)
+    modules = [*package.rglob("*_fsm.py"), *package.rglob("*_smach.py")]
+    modules += [package / package.name / f"{each}.py" for each in ("following", "runner")]
+    assert lint(modules) == []
+
+
 def test_the_linters_work(lint: Callable[[list[Path]], list[str]], tmp_path: Path) -> None:
     (tmp_path / "bad.py").write_text('import sys\nimport os\n\n\ndef f(id):\n    """does"""\n')
     found = "\n".join(lint([tmp_path]))
