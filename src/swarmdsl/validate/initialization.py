@@ -32,13 +32,14 @@ def check_initialization(machine: StateMachine, context: Context, *, reused: boo
     variables = _unset(machine, context)
     if not variables or _has_unknown(machine) or not all_resolved(machine):
         return
-    start = Ways(context.outline(machine)).start
+    ways = Ways(context.outline(machine))
     settable = {
         variable: not reused and _has_literals(variable.type.type, context)
         for variable in variables
     }
-    for read, way in _early_reads(start, settable):
+    for read, way in _early_reads(ways.start, settable):
         _report(read, way, settable[read.variable], context)
+    ways.forget()
 
 
 def _has_unknown(machine: StateMachine) -> bool:

@@ -77,6 +77,14 @@ class Ways:
         for vertex in self._active:
             self._leave(vertex)
 
+    def forget(self) -> None:
+        """Take the points apart: as they lead to each other, none would be freed without that."""
+        ahead = [self.start, *self._active.values()]
+        while ahead:
+            point = ahead.pop()
+            ahead += point.leads_to
+            point.leads_to = []
+
     def _leave(self, vertex: Vertex) -> None:
         """Add what follows from being in a state, and the ways out of it."""
         here = self._active[vertex]

@@ -34,7 +34,7 @@ class Unit:
     file: File
     parser: ReportingParser
     levels: Levels
-    uses: frozenset[Unit] = _NONE
+    uses: tuple[Unit, ...] = ()
     users: frozenset[Unit] | set[Unit] = _NONE
     runs: frozenset[StateMachine] = _NONE
 
@@ -63,7 +63,7 @@ class Unit:
         """Remember which other units this one uses now."""
         for unit in self.uses:
             unit.users -= {self}
-        self.uses = frozenset(unit for unit in units if unit is not self) or _NONE
+        self.uses = tuple({unit for unit in units if unit is not self})
         for unit in self.uses:
             if not unit.users:
                 unit.users = set()
