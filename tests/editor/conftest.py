@@ -118,17 +118,22 @@ def packages(npm: Npm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
 
 
 @pytest.fixture(scope="session")
-def tokenize(npm: Npm) -> Callable[[str], list[Token]]:
+def tokenize(npm: Npm) -> Iterator[Callable[[str], list[Token]]]:
     """Tokenise a text with the TextMate grammar, by the library that VS Code uses."""
+    with subprocess.Popen(
+        ["node", EXTENSION / "tests" / "tokenize.js"],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    ) as process:
+        stdin, stdout = process.stdin, process.stdout
+        assert stdin is not None
+        assert stdout is not None
 
-    def run(text: str) -> list[Token]:
-        result = subprocess.run(
-            ["node", EXTENSION / "tests" / "tokenize.js"],
-            input=text,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        return [tuple(token) for token in json.loads(result.stdout)]
+        def run(text: str) -> list[Token]:
+            stdin.write(json.dumps(text) + "\n")
+            stdin.flush()
+            return [tuple(token) for token in json.loads(stdout.readline())]
 
-    return run
+        yield run
+        stdin.close()

@@ -1,9 +1,11 @@
-// Reads a .swarm text on standard input and prints its tokens as a JSON list of
-// [line, first column, column after it, scopes]; lines and columns count from 0.
+// Reads .swarm texts on standard input, a JSON string on each line, and answers each with its
+// tokens as a JSON list of [line, first column, column after it, scopes]; lines and columns count
+// from 0.
 "use strict";
 
 const fs = require("node:fs");
 const path = require("node:path");
+const readline = require("node:readline");
 const oniguruma = require("vscode-oniguruma");
 const textmate = require("vscode-textmate");
 
@@ -30,7 +32,8 @@ function tokenize(grammar, text) {
   });
 }
 
-loadGrammar().then((grammar) => {
-  const tokens = tokenize(grammar, fs.readFileSync(0, "utf8"));
-  process.stdout.write(JSON.stringify(tokens));
+loadGrammar().then(async (grammar) => {
+  for await (const line of readline.createInterface({ input: process.stdin })) {
+    process.stdout.write(`${JSON.stringify(tokenize(grammar, JSON.parse(line)))}\n`);
+  }
 });
