@@ -20,16 +20,20 @@ from pygls.exceptions import JsonRpcException, JsonRpcInternalError
 from pygls.lsp.server import LanguageServer
 
 from swarmdsl import __version__
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.parse import parse
 from swarmdsl.server import (
     editing_answers,
     lifecycle,
     navigation_answers,
     preview_answers,
     reading_answers,
+    support,
 )
 from swarmdsl.server.conversation import Conversation
 from swarmdsl.server.session import Session
 from swarmdsl.server.streams import Incoming, Outgoing
+from swarmdsl.source import Source
 
 REQUESTS = {
     **reading_answers.REQUESTS,
@@ -69,6 +73,7 @@ class Server(LanguageServer):
         self._outgoing = outgoing
         self._duration = 0.0
         self._messages = 0
+        self._prepared = False
         self.protocol.set_writer(outgoing)
         for name, answer in {**lifecycle.NOTIFICATIONS, **REQUESTS}.items():
             self.feature(name, _OPTIONS.get(name))(partial(answer, self.session))
@@ -92,7 +97,7 @@ class Server(LanguageServer):
                 self._tell()
                 return True
             if self._messages:
-                self._tidy()
+                self._rest()
                 return True
             return self._client_lives()
         if message is None:
@@ -118,6 +123,19 @@ class Server(LanguageServer):
         except Exception as error:
             self.report_server_error(error)
         self._duration = time.perf_counter() - start
+
+    def _rest(self) -> None:
+        """Do what nobody should wait for."""
+        try:
+            if not self._prepared:
+                self._prepared = True
+                support.prepare()
+                parse(
+                    Source("", "event"), Diagnostics()
+                )  # what reads mistakes comes with the first
+        except Exception as error:
+            self.report_server_error(error)
+        self._tidy()
 
     def _tidy(self) -> None:
         self._messages = 0

@@ -31,6 +31,12 @@ def support(node: Node) -> Iterator[str]:
                 yield f"`{target}`: {mapped.support.value}, {mapped.means}"
 
 
+def prepare() -> None:
+    """Import the targets, for which whoever asks first would have to wait."""
+    for target in plugins.default_names():
+        _mapping(target)
+
+
 @cache
 def _mapping(target: str) -> tuple[Mapped, ...]:
     generator = plugins.load(target)

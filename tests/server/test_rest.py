@@ -1,0 +1,61 @@
+"""What the server does while nobody asks for anything."""
+
+import gc
+import io
+import json
+import os
+import threading
+
+import pytest
+
+from swarmdsl.server import service, support
+from swarmdsl.server.streams import Incoming, Outgoing
+
+INITIALIZE = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}
+
+
+@pytest.fixture
+def collected(monkeypatch):
+    """An event for each time that garbage is looked for."""
+    event = threading.Event()
+    monkeypatch.setattr(gc, "collect", lambda *_: event.set() or 0)
+    return event
+
+
+def run(*messages, until):
+    """Serve messages until something happens; return what the server has sent."""
+    reader, writer = os.pipe()
+    out = io.BytesIO()
+    server = service.Server(Outgoing(out))
+    with os.fdopen(reader, "rb") as incoming, os.fdopen(writer, "wb", buffering=0) as client:
+        serving = threading.Thread(target=server.serve, args=(Incoming(incoming),))
+        serving.start()
+        for message in messages:
+            content = json.dumps(message).encode()
+            client.write(b"Content-Length: %d\r\n\r\n%s" % (len(content), content))
+        happened = until.wait(20)
+        client.close()
+        serving.join(20)
+    assert happened
+    return out.getvalue().decode()
+
+
+def test_it_gets_ready_for_the_next_request(collected, monkeypatch):
+    done = []
+    monkeypatch.setattr(support, "prepare", lambda: done.append("targets"))
+    monkeypatch.setattr(service, "parse", lambda source, report: done.append(source.text))
+    run(INITIALIZE, until=collected)
+    assert done == ["targets", "event"]
+
+
+def test_what_fails_then_is_told(collected, monkeypatch, capsys):
+    monkeypatch.setattr(support, "prepare", lambda: 1 / 0)
+    assert "internal error: division by zero" in run(INITIALIZE, until=collected)
+    assert "ZeroDivisionError" in capsys.readouterr().err
+
+
+def test_without_a_rest_garbage_is_looked_for_after_many_messages(collected, monkeypatch):
+    monkeypatch.setattr(service, "_MOST_MESSAGES", 3)
+    monkeypatch.setattr(service, "_REST", 60)
+    ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
+    run(INITIALIZE, ask, ask, until=collected)
