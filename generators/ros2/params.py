@@ -11,6 +11,9 @@ from swarmdsl.python_source import Call
 
 from .names import TARGET
 
+_GREATEST = 2**63 - 1
+"""What a whole number in a parameter of ROS 2 may be."""
+
 
 def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, Call]]:
     """How each param of a machine is declared."""
@@ -27,6 +30,8 @@ def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, 
             value = constant(given, known)
             if value is None:
                 _unsupported("a param whose value is not known in advance", param, report)
+            elif isinstance(value, int) and value > _GREATEST:
+                _unsupported(f"a param of {value}, more than a parameter holds", param, report)
             arguments.append(fitted(param, value))
         doc = " ".join(param.doc.split())
         keywords = (("doc", doc),) if doc else ()

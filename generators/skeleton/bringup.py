@@ -10,7 +10,7 @@ from swarmdsl.exchange.constants import constant, params_by_name
 from swarmdsl.exchange.nodes import bringup_package, has_node
 from swarmdsl.exchange.wiring import Remaps, Wiring, check_wiring, wiring
 from swarmdsl.ir import Part, System
-from swarmdsl.naming import is_ros_package_name, snake_case
+from swarmdsl.naming import incoming_topic, is_ros_package_name, snake_case
 from swarmdsl.python_source import comment_lines, file_name
 from swarmdsl.source import Span
 
@@ -67,7 +67,7 @@ class Bringup:
         return any(robot.has_values for robot in self.robots)
 
 
-def bringup(system: System, made: Packages, report: Diagnostics) -> Bringup | None:
+def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Bringup | None:
     """The package for nodes that are written; None where no member has a part with a node.
 
     It is there even for none of them, as launch files of behaviours start it with theirs.
@@ -81,6 +81,8 @@ def bringup(system: System, made: Packages, report: Diagnostics) -> Bringup | No
             continue
         wired = wiring(member, system)
         check_wiring(wired, TARGET, report)
+        if ros == 2:
+            _check_crossing(wired, system, report)
         started = tuple(
             _started(part, written[part.component], wired)
             for part in parts
@@ -95,6 +97,28 @@ def bringup(system: System, made: Packages, report: Diagnostics) -> Bringup | No
     packages.update((node.package, node.origin) for node, _ in made.nodes)
     _check_name(name, system.origin, packages, report)
     return Bringup(name, _header(system), tuple(robots))
+
+
+def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
+    """Tell which ports are on topics of swarm events, which no bridge takes over in ROS 2."""
+    between = {event.topic for event in system.events if event.swarm}
+    heard = incoming_topic("", swarm=True)
+    for (part, _), port in wired.ports.items():
+        if part is None:
+            continue
+        topic = wired.topic(part, port)
+        others = "hear" if port.direction != "in" and topic in between else ""
+        if port.direction != "out" and topic.startswith(heard):
+            others = "send"
+        if others:
+            report.report(
+                "no-place",
+                port.origin,
+                target=TARGET,
+                what=f"a port between robots, `{part}.{port.name}` on `{topic}`",
+                notes=(f"in ROS 2 it is a topic of the robot: what others {others} is elsewhere",),
+                help="let a behaviour send and hear what goes from robot to robot",
+            )
 
 
 def _started(part: Part, node: Node, wired: Wiring) -> Started:

@@ -76,7 +76,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
     """The files of the packages of nodes, and of those of interfaces."""
     found = nodes(system, options, report)
     made = packages(system, found, options, report)
-    robots = bringup(system, made, report)
+    robots = bringup(system, made, options.ros, report)
     if report.has_errors or not found:
         return []
     files: list[OutputFile] = []

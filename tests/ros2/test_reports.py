@@ -109,6 +109,12 @@ statemachine Work {
             "event.header",
         ),
         (
+            MACHINE.replace("initial", "param big : uint64 = 9223372036854775808\n  initial", 1),
+            "unsupported-construct",
+            "a param of 9223372036854775808, more than a parameter holds",
+            "",
+        ),
+        (
             'swarm event Loud : std_msgs/Empty on "~/loud"\n'
             + MACHINE.replace("state A { do go", "state A { on Loud -> B  do go"),
             "bad-identifier",

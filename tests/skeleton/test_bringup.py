@@ -100,6 +100,30 @@ def test_only_what_is_written_is_started(emit: Emit) -> None:
     assert "PARTS = [\n]" in files["lab_bringup/launch/uav.launch.py"].text
 
 
+BETWEEN = """
+swarm event Found : std_msgs/Empty
+sensor Camera { out seen : std_msgs/Empty on "found" }
+controller Pilot { in seen : std_msgs/Empty  in told : std_msgs/Empty on "bridge/events/found" }
+member Uav {
+  behavior Wait
+  eye   : Camera
+  pilot : Pilot
+  connect eye.seen -> pilot.seen
+}
+"""
+
+
+def test_what_no_bridge_takes_to_other_robots(emit: Emit) -> None:
+    _, complaints = emit(BETWEEN + REST, ros="2")
+    said = [(each.name, each.message) for each in complaints]
+    port = "target `skeleton` has no place for a port between robots, `{}` on `{}`".format
+    assert said == [
+        ("no-place", port("eye.seen", "found")),
+        ("no-place", port("pilot.told", "bridge/events/found")),
+    ]
+    assert emit(BETWEEN + REST)[1] == []
+
+
 TIED = """
 sensor Camera { out image : bool }
 controller Stereo { in left : bool  in right : bool  out seen : bool on "left" }
