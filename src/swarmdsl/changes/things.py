@@ -14,8 +14,8 @@ from swarmdsl.changes.add import Place, declaration, part_of, transition, unless
 from swarmdsl.changes.add import state as state_at
 from swarmdsl.importing.update.merging import commented
 from swarmdsl.naming import snake_case
-from swarmdsl.project.command_line import UsageError
 from swarmdsl.syntax import Member, Swarm
+from swarmdsl.usage import UsageError
 
 Given = Mapping[str, Any]
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from swarmdsl.dataclass import dataclass
 from swarmdsl.importing.update.merging import commented
 from swarmdsl.naming import snake_case
-from swarmdsl.project.command_line import UsageError
+from swarmdsl.usage import UsageError
 
 _PORT = re.compile(r"(\w+)\s*:\s*([^@]+?)\s*(?:@\s*(\S+))?")
 _PARAM = re.compile(r"(\w+)\s*:\s*([^=]+(?:<=[^=]*)?)\s*(?:=(?!=)\s*(.+))?")

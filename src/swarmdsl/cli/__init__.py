@@ -114,7 +114,7 @@ def _run_plainly(arguments: Sequence[str]) -> int | None:
     if not arguments or arguments[0] not in PLAIN:
         return None
     from swarmdsl.cli.parameters import read
-    from swarmdsl.project.command_line import UsageError
+    from swarmdsl.usage import UsageError
 
     name, *words = arguments
     module = import_module(f"{__name__}.{name}")

@@ -270,8 +270,8 @@ def _run(kind: str, given: dict[str, Any]) -> int:
     from swarmdsl.changes.add import add as added
     from swarmdsl.changes.things import THINGS
     from swarmdsl.cli.outcome import exit_code
-    from swarmdsl.project.command_line import UsageError
     from swarmdsl.render import render
+    from swarmdsl.usage import UsageError
 
     try:
         places = THINGS[kind](given)

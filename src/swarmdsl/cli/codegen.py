@@ -9,7 +9,8 @@ import click
 from swarmdsl.cli import options
 from swarmdsl.cli.writing import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
 from swarmdsl.diagnostics import Level
-from swarmdsl.project.command_line import UsageError, named_levels
+from swarmdsl.project.command_line import named_levels
+from swarmdsl.usage import UsageError
 
 _FILE = options.PLACE
 

@@ -13,7 +13,7 @@ import click
 from swarmdsl import __version__
 from swarmdsl.cli import COMMANDS, PLAIN, options
 from swarmdsl.cli.outcome import INTERRUPTED, OK
-from swarmdsl.project.command_line import UsageError
+from swarmdsl.usage import UsageError
 
 
 class _Commands(click.Group):

@@ -6,11 +6,11 @@ import signal
 import sys
 from typing import TYPE_CHECKING, TextIO
 
-from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
 from swarmdsl.render import render, summary
 
 if TYPE_CHECKING:
     from swarmdsl.compiler import Result
+    from swarmdsl.diagnostics import Diagnostic, Diagnostics
 
 OK, ERRORS, USAGE, INTERNAL = range(4)
 # As a shell reports it for a program that a signal ended.
@@ -45,6 +45,8 @@ def briefly(result: Result, format_: str, stream: TextIO) -> str:
 
 def exit_code(report: Diagnostics) -> int:
     """0 without errors, 2 where all of them are on the command line, 1 for others."""
+    from swarmdsl.diagnostics import Severity
+
     errors = [found for found in report if found.severity is Severity.ERROR]
     if not errors:
         return OK

@@ -15,8 +15,8 @@ from swarmdsl.compiler import Result
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.project import places
-from swarmdsl.project.command_line import UsageError
 from swarmdsl.project.settings import FILE_NAME, Settings
+from swarmdsl.usage import UsageError
 from swarmdsl.workspace import Workspace
 
 _PAUSE = 0.2

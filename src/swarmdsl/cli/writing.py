@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from swarmdsl.cli.outcome import ERRORS, OK, conclude
 from swarmdsl.cli.parameters import Option
 from swarmdsl.dataclass import dataclass
-from swarmdsl.project.command_line import UsageError
+from swarmdsl.usage import UsageError
 
 if TYPE_CHECKING:
     from swarmdsl.compiler import Result

@@ -15,13 +15,10 @@ from swarmdsl.project import find_settings
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import COMMAND_LINE, Source, Span
+from swarmdsl.usage import UsageError
 
 if TYPE_CHECKING:
     from swarmdsl.emit import Request
-
-
-class UsageError(Exception):
-    """What is asked for on the command line cannot be meant; nothing has been done yet."""
 
 
 def run_settings(

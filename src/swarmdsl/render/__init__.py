@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from importlib import import_module
-from typing import TextIO
+from typing import TYPE_CHECKING, TextIO
 
-from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
+if TYPE_CHECKING:
+    from swarmdsl.diagnostics import Diagnostic, Diagnostics
 
 _MODULES = {
     "text": "text",
@@ -26,6 +27,8 @@ def render(found: Iterable[Diagnostic], format_: str, stream: TextIO) -> None:
 
 def summary(report: Diagnostics, files: int) -> str:
     """All in all: "2 errors, 1 warning in 3 files"."""
+    from swarmdsl.diagnostics import Severity
+
     counts = [
         counted(number, severity.value)
         for severity in Severity
