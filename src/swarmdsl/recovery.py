@@ -30,6 +30,10 @@ Parser = Callable[[Source], Model | Failure]
 """Parses a whole source; of the failures, that furthest on."""
 
 _ERRORS_PER_DECLARATION = 50
+# Characters: what is longer is no statement that could be mended, and so much may be read to
+# mend those of a declaration, so that nobody waits for seconds.
+_LONGEST_MENDED = 4_000
+_MOST_READ = 2_000_000
 # Where one of these could stand, nothing is missing before it.
 _COMPLETE = frozenset({"`}`", "EOF"})
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
@@ -49,6 +53,7 @@ class _Recovery:
         self._parser = parser
         self._report = report
         self._parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
+        self._read = 0
 
     def parse(self) -> Parsed:
         """Parse what can be read of the text."""
@@ -83,7 +88,8 @@ class _Recovery:
             statement = _blamed(draft.text, at, result.expected)
             span = draft.origins[statement.start], draft.origins[statement.header]
             mended = None
-            if span[0] not in failed:
+            short = statement.header - statement.start <= _LONGEST_MENDED
+            if span[0] not in failed and short and self._read < _MOST_READ:
                 mended = mend(draft, statement, self._failure)
             failed.add(span[0])
             if not any(span[0] <= place <= span[1] for place in known):
@@ -104,6 +110,7 @@ class _Recovery:
         return parsed
 
     def _failure(self, text: str) -> Failure | None:
+        self._read += len(text)
         result = self._parser(Source(self._source.name, text))
         return result if isinstance(result, Failure) else None
 

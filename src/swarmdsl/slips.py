@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.comments import starts_line
 from swarmdsl.suggest import closest
 from swarmdsl.syntax_advice import strange_character
 
@@ -45,55 +44,6 @@ _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
     (r"\((?![ \t]*\d+[ \t]*\))([^()\n]*)\)(?=[ \t]*(?:/|->))", frozenset({"`[`"}), r"[\1]"),
     (r"\((\d+(?:[ \t]*\.\.[ \t]*[\d*]+)?|\*)\)(?![ \t]*->)", frozenset({"`[`"}), r"[\1]"),
 )
-# Words of other languages, and how that is said in this one.
-_FOREIGN = {
-    "if": "a guard stands in square brackets: `on event [x < 3] -> Target`",
-    "when": "a transition begins with `on`, and a guard stands in square brackets",
-    "goto": "write `->` before the target",
-    "then": "write `->` before the target",
-    "transition": "a transition is written `on event [guard] / effect -> Target`, in its source",
-    "from": 'an import is written `import "file.swarm"` or `import package.*`',
-    "include": 'an import is written `import "file.swarm"`',
-    "using": "an import is written `import package.*`",
-    "class": "what a robot is made of is a `member`, its parts are `sensor`, `actuator`, ...",
-    "robot": "a kind of robot is a `member`",
-    "node": "a part of a robot is a `sensor`, `actuator`, `controller` or `virtual` component",
-    "fsm": "a state machine begins with `statemachine`",
-    "machine": "a state machine begins with `statemachine`",
-    "topic": 'a topic belongs to an event or a port: `event Low : pkg/Type on "topic"`',
-    "<": "this is not XML: a state is written `state Name { on event -> Target }`",
-    "?": "there is no conditional value: use two transitions with guards",
-    "$": "a name has ASCII letters, digits and `_`, and starts with no digit",
-}
-
-
-_ANYWHERE = ("if", "goto", "then", "?", "$")
-
-
-def foreign(expected: set[str], text: str, at: int) -> str | None:
-    """How to say here what the word at an offset says in other languages; None if unknown."""
-    begins = starts_line(text, at)
-    if text[at] == "{" and "`(`" in expected:
-        return "arguments stand in parentheses"
-    if text[at] == "=" and "`:`" in expected:
-        return "a type stands before the value: `name : type = value`"
-    if text[:at].rstrip().endswith(","):
-        return "delete the `,` before it"
-    if number := re.compile(r"\d+(?:_\d+)+\b").match(text, at):
-        return f"write `{number[0].replace('_', '')}`"
-    if re.compile(r"0[xXbB]").match(text, at):
-        return "numbers are decimal"
-    if begins and "`state`" in expected and re.compile(r"[A-Za-z_]\w*\s*\{").match(text, at):
-        return "a state begins with `state`"
-    if begins and re.compile(r"[A-Za-z_]\w*[ \t]*-+>").match(text, at):
-        if "`on`" in expected:
-            return "a transition begins with `on`"
-        return "a transition stands in its source state: `on event -> Target`"
-    found = re.compile(r"#?[ \t]*([A-Za-z]+)|\S").match(text, at)
-    if found is None:
-        return None
-    word = found[1] if found[1] and (found[0][0] != "#" or found[1] == "include") else found[0]
-    return _FOREIGN.get(word) if begins or word in _ANYWHERE else None
 
 
 def replacement(expected: frozenset[str], text: str, at: int) -> tuple[int, int, str] | None:

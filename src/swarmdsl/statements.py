@@ -51,13 +51,23 @@ _DECLARES = _words(
 class Statement:
     """Offsets of a statement: of its start, of the `{` of its block or else its end, its end.
 
-    `around` are the headers of the blocks that it is in, outermost first.
+    `inside` is the statement whose block it is in.
     """
 
     start: int
     header: int
     end: int
-    around: tuple[tuple[int, int], ...]
+    inside: _Open | None = None
+
+    @property
+    def around(self) -> tuple[tuple[int, int], ...]:
+        """The headers of the blocks that it is in, outermost first."""
+        found = []
+        block = self.inside
+        while block is not None:
+            found.append((block.start, block.brace + 1))
+            block = block.inside
+        return tuple(reversed(found))
 
 
 @dataclass(slots=True)
@@ -67,6 +77,7 @@ class _Open:
     brace: int = -1
     brackets: int = 0
     word: str = ""
+    inside: _Open | None = None
 
 
 def statement_at(text: str, at: int) -> Statement:
@@ -79,7 +90,7 @@ def statement_at(text: str, at: int) -> Statement:
             last = one
         elif not one.around or one.around[0][0] > at:
             break  # all that follow begin further on
-    return last or Statement(0, len(text), len(text), ())
+    return last or Statement(0, len(text), len(text))
 
 
 def statements_at(text: str, places: Iterable[int]) -> Iterator[Statement]:
@@ -106,8 +117,7 @@ def _statements(text: str) -> Iterator[Statement]:
 
     def finished(current: _Open, end: int) -> Statement:
         header = current.brace if current.brace >= 0 else end
-        around = tuple((one.start, one.brace + 1) for one in opened)
-        return Statement(current.start, header, end, around)
+        return Statement(current.start, header, end, opened[-1] if opened else None)
 
     for token in _TOKEN.finditer(text):
         if token.lastgroup == "comment":
@@ -123,6 +133,7 @@ def _statements(text: str) -> Iterator[Statement]:
             if current is None:
                 current = _Open(at, column)
             current.brace = at
+            current.inside = opened[-1] if opened else None
             opened.append(current)
             current = None
         elif word == "}":
@@ -141,8 +152,9 @@ def _statements(text: str) -> Iterator[Statement]:
         last, last_end = word, token.end()
     if current is not None:
         yield finished(current, last_end)
+    end = len(text.rstrip())
     while opened:
-        yield finished(opened.pop(), len(text.rstrip()))
+        yield finished(opened.pop(), end)
 
 
 def _begins(

@@ -5,22 +5,12 @@ from __future__ import annotations
 import re
 import unicodedata
 
+from swarmdsl.habits import mark
 from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.suggest import closest
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
-_COMMENTS = "a comment starts with `//`"
 SIZES = "write `[]` for any number of elements, `[4]` for as many, `[<=4]` for at most as many"
-# What other languages write, and what is written here.
-_OTHERWISE = {
-    ";": "no `;` is needed: a line break ends a statement",
-    ",": "no `,` is needed here",
-    "&": "write `and`",
-    "|": "write `or`",
-    "!": "write `not`",
-    "'": "texts stand in double quotes",
-    "#": _COMMENTS,
-}
 _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # How like a keyword a word must be: `Start` is not meant to be `state`.
@@ -44,7 +34,7 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
     if token == "=" and "`]`" in expected:
         return "write `==` to compare"
     if token == "-" and text.startswith("--", at):
-        return _COMMENTS
+        return mark("#")
     if token == "-" and joined and last[0].isalpha():
         return _NAMES
     if "a name" in expected and re.fullmatch(r"\w+", token) and not _NAME.fullmatch(token):
@@ -61,8 +51,8 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
         return "the units of time are `us`, `ms`, `s`, `min` and `h`"
     if token in "})]" and "`struct`" in expected:
         return "nothing is open here that it could close"
-    if token in _OTHERWISE:
-        return _OTHERWISE[token]
+    if said := mark(token):
+        return said
     # A keyword with a slip in it was taken for the name of a part or field.
     slip, meant = (last, keywords()) if "`:`" in expected else (token, _literals(expected))
     keyword = closest(slip, meant, _SLIP)

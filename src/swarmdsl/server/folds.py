@@ -10,7 +10,9 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.server.code import found_in
 from swarmdsl.source import Source
 
-_TOKEN = re.compile(r'"(?:[^"\\\n]|\\[^\n])*"|//[^\n]*|/\*|[{}]|^[ \t]*import\b', re.MULTILINE)
+_TOKEN = re.compile(
+    r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?|//[^\n]*|/\*|[{}]|^[ \t]*import\b', re.MULTILINE
+)
 
 
 @dataclass(frozen=True)

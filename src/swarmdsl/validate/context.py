@@ -18,6 +18,7 @@ from swarmdsl.source import Span
 from swarmdsl.syntax import (
     Branch,
     Declaration,
+    EnumType,
     EventTrigger,
     Expression,
     ImportRos,
@@ -200,7 +201,12 @@ def make_context(project: Project, report: Diagnostics, known: Known | None = No
     """Gather the interfaces of all files; `known` is what earlier checks have left."""
     damaged: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
-        ((file, node) for file, node in project.declarations() if node not in damaged),
+        # Of a damaged enum one still knows that it is one.
+        (
+            (file, node)
+            for file, node in project.declarations()
+            if node not in damaged or isinstance(node, EnumType)
+        ),
         read_packages(project),
     )
     return Context(report, interfaces, Typing(interfaces, report), damaged, known or Known())
