@@ -14,6 +14,7 @@ _SERVER = 'the name of the server comes first: `"cmd/name" : package/Type`'
 _FIELD = r"each value stands behind the name of what it is for: `name = \1`"
 _POWER = "there is no power: multiply, `x * x`"
 _MULTIPLICITY = "write `[3]`, `[1..5]`, `[2..*]` or `[*]`"
+_BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
 
 # A line with a mark (@) where the parser stops, what the parser must expect there (anything, if
 # nothing is said), and what to do. The first that fits counts.
@@ -40,6 +41,13 @@ _HABITS = (
     ),
     (r"(?:^ *|\bon +)@timeout\b", "", "a delay is written `after 5 s -> Target`"),
     (r"\bon timeout *@[\d(]", "", "a delay is written `after 5 s -> Target`"),
+    (r"\bon +[\w., ]*@: *-+>", "", "delete the `:`"),
+    (r"\bon [\w., ]+@enter +(\w+)", "", r"write `-> \1`"),
+    (
+        rf"{_BEFORE_EFFECTS}/ *(?:[^/]*, *)?[\w.]+(?:\([^()]*\))? *@ *(?:$|->|,)",
+        "`=`",
+        "an effect is `name = value` or `send Event`: what takes time is what a state does",
+    ),
     (r"/ *@\{", "", "effects stand without braces, with `,` between them"),
     (r"/ *\w[^\[\]>]*@; *\w", "", "effects stand with `,` between them"),
     (
@@ -52,7 +60,10 @@ _HABITS = (
         "",
         "an effect starts no activity: lead to a state that has `do`",
     ),
+    (r"/ *[^/]*= *[\w.]+ +@(\w+) *=(?!=)", "`,`", r"write `,` before `\1`"),
+    (r"^ *@every\b", "", "a time that comes again: `after 5 s` leads back to the state it is in"),
     # activities
+    (r"\bdo *@/ *([\w.]+)", "", r"write `do \1`"),
     (
         r"\bdo ([\w.]+) +@(\w+) *=",
         "",
@@ -77,6 +88,25 @@ _HABITS = (
         "elements of arrays cannot be used: of an array, expressions have only `len`",
     ),
     # states
+    (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
+    (
+        r"^ *@(\w+) *-+> *\[\*\]",
+        "",
+        r"the end is a state, too: write `final Done`, and in `\1` a transition to it",
+    ),
+    (
+        r"^ *@states? *[:{]|^ *states *@: *(?:$|\{)",
+        "",
+        "states stand one by one: `state Name { ... }`",
+    ),
+    (r"^ *@state +machine\b", "", "write `statemachine`"),
+    (r"\binitial +enter +@(\w+)", "", r"write `initial \1`"),
+    (r"\binitial *@[:=] *[\"']?(\w+)", "", r"write `initial \1`"),
+    (
+        r"^ *@(?!(?:on|do|entry|exit|after)\b)([A-Za-z]\w*) *: *(?:$|\{)",
+        "`state`",
+        r"write `state \1 { ... }`",
+    ),
     (r"\bfinal @state +(\w+)", "", r"write `final \1`"),
     (r"\binitial @state +(\w+)", "", r"write `initial \1`, and the state beside it"),
     (r"\bparallel @(?!state\b)(\w+)", "`state`", r"write `parallel state \1`"),
@@ -94,6 +124,54 @@ _HABITS = (
         r"^ *@const\b",
         "",
         "a constant is a declaration of its own, outside of all others",
+    ),
+    (
+        r"^ *const +@\w+ *:",
+        "`:`",
+        "a constant is a declaration of its own, outside of all others",
+    ),
+    (
+        r"^ *@#define +(\w+)",
+        "",
+        r"a constant is declared with its type: `const \1 : type = value`",
+    ),
+    (
+        r"^ *@(?:void|int|float|double|bool|auto|char|string|def|fn|func)\b[^()]*\(",
+        "",
+        "this is no program: what a robot can do is a `function`, its behaviour a `statemachine`",
+    ),
+    (r"\} *@default +\w+", "", "a variable says what it begins with: `var x : Mode = Mode.IDLE`"),
+    (r"^ *@(?:swarm|member) *:|^ *(?:swarm|member) *@:", "", "a block stands in `{` and `}`"),
+    # types
+    (
+        r"^ *(\w+) *@\[(\w*)\] *: *([\w./]+)",
+        "`:`",
+        r"the size stands behind the type: `\1 : \3[\2]`",
+    ),
+    (
+        r": *(?:std::)?(?:list|vector|Vec|sequence|array|Array|List)@<([\w./]+)>",
+        "",
+        r"write `\1[]`",
+    ),
+    (
+        r": *(?:std::)?(?:map|dict|Map|Dict|HashMap|unordered_map|Record)@[<\[]",
+        "",
+        "there are no maps: declare a struct for an entry, and use an array of it",
+    ),
+    (
+        r": *[\w./]+@\?|^ *\w+@\? *:",
+        "",
+        "no field is optional: add one that says whether it is there",
+    ),
+    (
+        r"^ *[a-z]\w* *: *(?:[a-z][\w.]*|\w+/[\w/]+)(?:\[[^]]*\])* *@= *[^=]",
+        "`[`",
+        "a field has no value of its own: who sends it says what is in it",
+    ),
+    (
+        r"\bparam +(\w+) *: *@(-?[\d.]+|\"[^\"]*\"|true|false)",
+        "a type",
+        r"a type stands before the value: `param \1 : type = \2`",
     ),
     (
         r"^ *@var\b",
@@ -115,7 +193,17 @@ _HABITS = (
         "",
         "say what it carries: `: std_msgs/Empty` if it is nothing",
     ),
-    (r"\bevent +(\w+) *@\{", "", r"an event carries a message: `event \1 : package/Name`"),
+    (
+        r"\bfunction +(\w+) *@\(",
+        "",
+        r"a function says how it is asked for: `function \1 : abstraction { ... }`",
+    ),
+    (
+        r"^ *(in|out) +@(\w+) *:",
+        "a text in double quotes",
+        r'a function names the topic: `\1 "\2" : package/Type`',
+    ),
+    (r"\bevent +(\w+) *@[{(]", "", r"an event carries a message: `event \1 : package/Name`"),
     (r"\bevent +@swarm\b", "", "write `swarm event`"),
     (
         r"\b(?:event|in|out|inout) +\w+ *: *[\w./]+ +@(?:\w+ *|= *)?(\"[^\"]*\")",
@@ -134,6 +222,27 @@ _HABITS = (
     (r": *[A-Z][\w.]*@\[", "`{`", "a part is one component: declare a part for each"),
     (r": *[A-Z][\w.]*@\(", "`{`", "values of params stand in braces: `{ name = value }`"),
     (r"\bconnect +[\w.]+ +@(?:to|with|and)\b", "", "write `->`"),
+    (
+        r"\bconnect +([\w.]+) *@<-+ *([\w.]+)",
+        "",
+        r"the arrow leads from what is sent: `connect \2 -> \1`",
+    ),
+    (r"^ *instance +@(\w+) *:", "`:`", r"write `\1 : ...` without `instance`"),
+    (
+        r"^ *connections? *(?:\w+ *)?@(?:\w+ *)?\{",
+        "",
+        "connectors stand in the member, one by one: `connect a.b -> c.d`",
+    ),
+    (
+        r"^ *@(?:publish\w*|pub|advertise\w*|(?:a?sync +)?output(?: +port)?) +(\w+)",
+        "`out`",
+        r"write `out \1`",
+    ),
+    (
+        r"^ *@(?:subscri\w*|sub|(?:(?:a?sync|guarded) +)?input(?: +port)?) +(\w+)",
+        "`in`",
+        r"write `in \1`",
+    ),
     (r"^ *\w+@\.\w+ *->", "", "a connector begins with `connect`"),
     # swarms
     (
@@ -166,6 +275,16 @@ _WORDS = {
     "class": "what a robot is made of is a `member`, its parts are `sensor`, `actuator`, ...",
     "robot": "a kind of robot is a `member`",
     "node": "a part of a robot is a `sensor`, `actuator`, `controller` or `virtual` component",
+    "component": "a component is a `sensor`, `actuator`, `controller` or `virtual`",
+    "namespace": "a file begins with `package name`",
+    "module": "a file begins with `package name`",
+    "model": "data is a `struct`, what is sent on its own a `message`",
+    "typedef": "write `struct Name { ... }`, or `type Name = other`",
+    "interface": "what a robot can do is a `function name : abstraction { ... }`",
+    "op": "what a robot can do is a `function name : abstraction { ... }`",
+    "signal": "what a machine waits for is an `event`",
+    "topology": "which parts a robot has is said in a `member`",
+    "@": "there are no annotations: documentation stands in `///` comments",
     "fsm": "a state machine begins with `statemachine`",
     "machine": "a state machine begins with `statemachine`",
     "topic": 'a topic belongs to an event or a port: `event Low : pkg/Type on "topic"`',
@@ -173,6 +292,8 @@ _WORDS = {
     "?": "there is no conditional value: use two transitions with guards",
     "$": "a name has ASCII letters, digits and `_`, and starts with no digit",
 }
+# A transition without the word it begins with.
+_TRANSITION = re.compile(r"[A-Za-z_]\w*[ \t]*(?:-+>|/[ \t]*-+>|\[[^]\n]*\][ \t]*(?:/|-+>))")
 # These also inside a statement.
 _ANYWHERE = ("if", "goto", "then", "?", "$")
 # Marks of other languages, and what is written here.
@@ -218,7 +339,7 @@ def foreign(expected: set[str], text: str, at: int) -> str | None:
         return "numbers are decimal"
     if begins and "`state`" in expected and re.compile(r"[A-Za-z_]\w*\s*\{").match(text, at):
         return "a state begins with `state`"
-    if begins and re.compile(r"[A-Za-z_]\w*[ \t]*-+>").match(text, at):
+    if begins and _TRANSITION.match(text, at):
         if "`on`" in expected:
             return "a transition begins with `on`"
         return "a transition stands in its source state: `on event -> Target`"

@@ -181,9 +181,14 @@ class _Scanner:
         found: list[tuple[int, int]] = []
         first: re.Match[str] | None = None
         middle: re.Match[str] | None = None
+        left: list[re.Match[str]] = []
+        begun: list[re.Match[str]] = []
         for mark in marks:
+            begun.append(mark)
             if mark[0].startswith("<"):
                 first, middle = mark, None
+                left += begun[:-1]
+                begun = [mark]
             elif first is not None and middle is None and mark[0][0] in "=|":
                 middle = mark
             elif first is not None and middle is not None and mark[0].startswith(">"):
@@ -202,7 +207,20 @@ class _Scanner:
                 self._found.append((middle.start(), ends))
                 found += (first.span(), (middle.start(), mark.end()))
                 first = middle = None
-        return found
+                begun = []
+            elif first is None:
+                left += begun
+                begun = []
+        for mark in (*left, *begun):
+            self._fault(
+                "syntax-error",
+                *mark.span(),
+                Repair(*mark.span(), " " * len(mark[0])),
+                message="this is left of a merge",
+                help="delete it, and keep what is right of what stands on either side",
+            )
+            found.append(mark.span())
+        return sorted(found)
 
 
 def _without(text: str, pieces: Iterable[tuple[int, int]]) -> str:

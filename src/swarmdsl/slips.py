@@ -1,4 +1,4 @@
-"""What is likely meant by text that the language does not have: what to put in its place."""
+"""What to put in the place of text that the language does not have, to read on behind it."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ _INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
     ("||", frozenset(), "or"),
     ("<>", frozenset(), "!="),
     ("=", frozenset({"`]`"}), "=="),
+    (": ->", frozenset({"`->`"}), "->"),
     (":", frozenset({"`->`"}), "->"),
     (":", frozenset({"`=`"}), "="),
     ("!", _VALUE, "not "),
@@ -33,6 +34,10 @@ _INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
 # The same for what has many forms; the place is anywhere in it.
 _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
     (r"(?<=\w)::(?=\w)", frozenset(), "/"),
+    (r"\bstate[ \t]+machine\b", frozenset({"`statemachine`"}), "statemachine"),
+    (r"(?<![^\n])([ \t]*)(\w+\.\w+)(?=[ \t]*->)", frozenset({"`:`"}), r"\1connect \2"),
+    (r"\benter(?=[ \t]+[A-Za-z_])", frozenset({"`->`"}), "->"),
+    (r"(?<=\binitial )enter[ \t]+(\w+)", frozenset(), r"\1"),
     (r"(?<![=!<>:])=(?=[ \t]*[A-Za-z]\w*/)", frozenset({"`:`"}), ":"),
     (r"(?<![\w.])(\d+)\.(?![\d.])", frozenset(), r"\1.0"),
     (r"(?<=[\w*])-(?=[\w*])", frozenset({"`..`"}), ".."),

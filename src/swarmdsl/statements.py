@@ -34,7 +34,7 @@ _NOT_AFTER = {
 _GOES_ON = _words("-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or extends gives { on")
 # What a keyword cannot begin a statement after: it stands there as a name, or belongs to it.
 _LEAD = _words(
-    "-> => = : . , ( [ - / swarm endless extends initial do on send by struct enum type const "
+    "< -> => = : . , ( [ - / swarm endless extends initial do on send by struct enum type const "
     "message service action event function sensor actuator controller virtual member statemachine "
     "environment fitness optimize state region choice history final var param connect behavior "
     "in out inout operation package import"

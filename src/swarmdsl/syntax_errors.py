@@ -56,6 +56,8 @@ _IMPLIED = {
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
 # What goes on behind something that could as well be complete.
 _GOES_ON = {f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends")}
+# The same for what belongs to the line above.
+_ABOVE = {f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..")}
 _COLON = re.compile(r"[ \t]*:")
 _MOST_SHOWN = 8
 
@@ -92,8 +94,9 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
         words = words - {"a name"} | {"a type"}
     inside = before is not None and before[0] not in "{}" and not new_line
     complete = found is not None and inside and _may_begin_anew(words)
+    anew = found is not None and new_line and _may_begin_anew(words)
     # What looks like what is expected, and is not: an array whose size is none.
-    expected = _grouped(words - {f"`{text[at : at + 1]}`"}, complete=complete)
+    expected = _grouped(words - {f"`{text[at : at + 1]}`"}, complete=complete, anew=anew)
 
     def place(token: re.Match[str]) -> Span:
         start = draft.origins[token.start()]
@@ -153,11 +156,12 @@ def _words(expected: Iterable[str]) -> set[str]:
     return {TERMINALS.get(terminal, terminal) for terminal in expected}
 
 
-def _grouped(words: set[str], *, complete: bool) -> list[str]:
+def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:
     """The same in few words, the most general ones last.
 
     Where what stands before is `complete`, and what stands here on its line, what could begin
-    behind it is called the end of the line.
+    behind it is called the end of the line. Where a line begins `anew`, nobody means to go on
+    with what stands above it.
     """
     general = []
     for phrase, members in _GROUPS.items():
@@ -168,6 +172,12 @@ def _grouped(words: set[str], *, complete: bool) -> list[str]:
     for phrase in (*general, "a value"):
         if phrase in words or phrase in general:
             words = words - _IMPLIED.get(phrase, set())
+    if "`=`" in words:
+        words = words - {"`(`"}  # nothing is assigned to a call
+    if anew and general:
+        words = words - _ABOVE
+        if not {"an item of a state", "`else`"} & {*general, *words}:
+            words = words - {"`[`"}  # no guard begins here
     if complete:
         words = words & _GOES_ON
         general = ["the end of the line"]

@@ -9,12 +9,13 @@ from types import FrameType
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl import compiler, swarm_parser
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.parse import parse
 from swarmdsl.render import FORMATS, render
 from swarmdsl.scan import scan
 from swarmdsl.source import Source
+from swarmdsl.statements import statement_at
 
 HEAD = "package p\nevent Go : std_msgs/Empty\nevent Num : std_msgs/Int32\n"
 FEW = 60
@@ -117,6 +118,14 @@ BROKEN: dict[str, tuple[Callable[[Source, Diagnostics], object], Callable[[int],
         scan,
         lambda count: repeated("state A\n  do b\n}", count),
     ),
+    "blocks in each other": (
+        lambda source, _: statement_at(source.text, len(source.text)).around,
+        lambda count: "state S { " * 20 * count,
+    ),
+    "merges that stopped": (
+        scan,
+        lambda count: repeated("<<<<<<< a\n=======\n>>>>>>> b\n>>>>>>> c\n=======", count),
+    ),
     "brackets closed by others": (
         parse,
         lambda count: "struct S {\n" + repeated("a<i> : int32[3)", count) + "}\n",
@@ -165,6 +174,23 @@ def test_twice_the_wrong_brackets_are_twice_the_work(name: str) -> None:
         source = Source("model.swarm", text(count))
         works.append(work(lambda: read(source, Diagnostics())))  # noqa: B023
     assert works[-1] < 2.4 * works[-2], works
+
+
+def test_a_long_line_of_mistakes_is_not_read_thousands_of_times(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    text = HEAD + "-> " * 2_000
+    read = []
+
+    def counted(source: Source, docs: dict[int, str], limit: int) -> object:
+        read.append(len(source.text))
+        return generated(source, docs, limit)
+
+    generated = swarm_parser.parse
+    monkeypatch.setattr(swarm_parser, "parse", counted)
+    parse(Source("model.swarm", text), Diagnostics())
+
+    assert sum(read) < 20 * len(text)
 
 
 @pytest.mark.parametrize("kind", FORMATS)
