@@ -32,6 +32,7 @@ _HABITS = (
         "events come one after the other: wait for the second one in a state of its own",
     ),
     (r"\bon +@(entry|exit)\b", "", r"write `\1 / ...` without `on`"),
+    (r"(?:^|\{) *@-> *([\w.]+)", "", r"write `on done -> \1`: the state is left when it is done"),
     (r"\bon +@after\b", "", "write `after` without `on`"),
     (r"\b(entry|exit) *@:", "", r"write `\1 / ...`"),
     (
@@ -245,6 +246,11 @@ _HABITS = (
     ),
     (r"^ *\w+@\.\w+ *->", "", "a connector begins with `connect`"),
     # swarms
+    (
+        r"^ *([A-Z]\w*) *@\[ *([^\]\n]*)\]",
+        "`:`",
+        r"what they are called comes first: `name : \1[\2]`",
+    ),
     (
         r"(?:^ *|: *)@(\d+) *[x*]? *([A-Z]\w*)",
         "",

@@ -27,6 +27,7 @@ from swarmdsl.syntax import (
     EnumType,
     Environment,
     Event,
+    EventTrigger,
     Expression,
     Fitness,
     FitnessInput,
@@ -40,6 +41,7 @@ from swarmdsl.syntax import (
     Part,
     Port,
     PortRef,
+    Ref,
     Role,
     State,
     StateMachine,
@@ -57,6 +59,12 @@ _TOP_LEVEL: dict[str, type[Any]] = {
 }
 
 K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
+# What the ends of an activity are called elsewhere: in SMACH, in YASMIN, in behaviour trees.
+_OTHER_OUTCOMES = {
+    **dict.fromkeys(("success", "succeed", "finished", "complete", "completed", "ok"), "succeeded"),
+    **dict.fromkeys(("failure", "failed", "fail", "error"), "aborted"),
+    **dict.fromkeys(("preempt", "cancel", "canceled", "cancelled"), "preempted"),
+}
 
 
 def link(project: Project, report: Diagnostics) -> None:
@@ -138,7 +146,19 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
             instead: dict[type[Node], str] = {}
             if isinstance(node, Part):
                 instead[StateMachine] = f"write `behavior {ref.name}`"
+            if isinstance(node, EventTrigger) and _reports_outcome(ref, scope, report):
+                continue
             ref.target = scope.resolve(ref.name, ref.span, kind, report, instead=instead)
+
+
+def _reports_outcome(ref: Ref[Event], scope: FileScope, report: Diagnostics) -> bool:
+    """Report what other tools call an end of an activity."""
+    outcome = _OTHER_OUTCOMES.get(ref.name.lower())
+    if outcome is None or ref.name in scope.lost or scope.find(ref.name):
+        return False
+    help_ = f"where an activity ends so, write `{outcome}`"
+    report.report("unresolved-name", ref.span, kind="event", name=ref.name, help=help_)
+    return True
 
 
 def _params_of_members(

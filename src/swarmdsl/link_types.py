@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from swarmdsl.diagnostics import Diagnostics, Label
+from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.ir.types import PRIMITIVES, Array, Named, Primitive, Type
 from swarmdsl.load import File, Project
 from swarmdsl.scopes import FileScope
@@ -144,10 +144,30 @@ class TypeLinker:
                 help=f"write `{package}/{name}` for an interface of ROS",
             )
             return None
+        if self._reports_package(ref, scope):
+            return None
         found = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
         if found is None or isinstance(found, AliasType):
             return found
         return interface_name(self._homes[found], found.name)
+
+    def _reports_package(self, ref: TypeRef, scope: FileScope) -> bool:
+        """Report the name of an interface that ROS comes with, without its package."""
+        name = ref.name
+        if name.lower() in PRIMITIVES or name in scope.lost or scope.find(name):
+            return False
+        if not self._report.wants_hint("unresolved-name"):
+            return False
+        if any(declared.name == name for declared in self._homes):
+            return False
+        # Reading these takes a while, and most models are right.
+        from swarmdsl.ros import standard
+
+        meant = [f"{each}/{name}" for each in standard.packages() if name in standard.names(each)]
+        if meant:
+            help_ = f"write {listed(meant)}"
+            self._report.report("unresolved-name", ref.span, kind="type", name=name, help=help_)
+        return bool(meant)
 
     def _in_array(self, element: Type | None, ref: TypeRef) -> Type | None:
         """The type of a reference whose name, without the brackets behind it, means `element`."""

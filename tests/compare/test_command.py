@@ -62,6 +62,15 @@ def test_exit_codes(models: tuple[str, str], capsys: pytest.CaptureFixture[str])
     assert "give two models" in capsys.readouterr().err
 
 
+def test_a_revision_in_the_place_of_a_model(
+    repository: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["diff", "v1", "models"]) == 2
+    assert "write `swarmc diff --against v1 models`" in capsys.readouterr().err
+    assert run(["diff", "v2", "models"]) == 2
+    assert "no such file: `v2`" in capsys.readouterr().err
+
+
 def test_a_new_transition_has_its_target(
     models: tuple[str, str], capsys: pytest.CaptureFixture[str]
 ) -> None:

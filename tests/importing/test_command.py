@@ -62,6 +62,30 @@ statemachine Door {
     assert "1 warning in 1 file" in err
 
 
+def test_a_new_file_is_named(
+    door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model = tmp_path / "door.swarm"
+    assert run(["import", "scxml", str(door), "-o", str(model)]) == 0
+    out, err = capsys.readouterr()
+    assert (out, err.splitlines()[-2:]) == ("", ["1 warning in 1 file", f"{model} is written"])
+    assert run(["import", "scxml", str(door), "-o", str(model)]) == 0
+    assert capsys.readouterr().err.endswith(f"{model} is up to date\n")
+    assert run(["import", "scxml", str(door), "-o", str(tmp_path / "b.swarm"), "--dry-run"]) == 1
+    assert "written" not in capsys.readouterr().err
+
+
+def test_files_of_the_other_format(
+    door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    functions = tmp_path / "uav.json"
+    functions.write_text('{"functions": []}', encoding="utf-8")
+    assert run(["import", "scxml", str(functions)]) == 1
+    assert "it looks like JSON: `swarmc import adf` or `amf` reads that" in capsys.readouterr().err
+    assert run(["import", "adf", str(door)]) == 1
+    assert "it looks like XML: `swarmc import scxml` reads that" in capsys.readouterr().err
+
+
 def test_a_file_is_never_overwritten(
     door: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

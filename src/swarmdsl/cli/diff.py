@@ -91,7 +91,7 @@ def diff(
     from swarmdsl.compare import report
     from swarmdsl.compare.comparison import compare
     from swarmdsl.compare.revisions import against as revision
-    from swarmdsl.compare.revisions import named
+    from swarmdsl.compare.revisions import is_revision, named
 
     if not models and against is not None:
         models = (".",)
@@ -99,6 +99,10 @@ def diff(
         raise click.UsageError("give two models, or one and `--against`")
     if allow and not breaking:
         raise click.UsageError("`--allow` goes with `--breaking`")
+    first, last = models[0], Path(models[-1])
+    if against is None and not Path(first).exists() and is_revision(first, last):
+        way = f"write `swarmc diff --against {first} {last}`"
+        raise click.UsageError(f"`{first}` is no file but a revision of git: {way}")
     after = named(models[-1])
     before = named(models[0]) if against is None else revision(against, Path(models[0]))
     with ExitStack() as stack:

@@ -128,7 +128,10 @@ def _run(
         for layout in imported.layouts:
             click.echo(layout.diff(), nl=False)
     click.echo(summary(imported.report, imported.files), err=True)
-    if not imported.report.has_errors and not imported.is_new and not imported.layouts:
-        click.echo(f"{out} is up to date", err=True)
+    if not imported.report.has_errors and not dry_run and out is not None:
+        if imported.is_new:
+            click.echo(f"{out} is written", err=True)
+        elif not imported.layouts:
+            click.echo(f"{out} is up to date", err=True)
     changes = dry_run and any(layout.changed for layout in imported.layouts)
     return exit_code(imported.report) or (ERRORS if changes else 0)

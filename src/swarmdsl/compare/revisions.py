@@ -47,6 +47,12 @@ def named(text: str) -> Path | Revision:
     return Revision(revision, path)
 
 
+def is_revision(text: str, beside: Path) -> bool:
+    """Whether git, in the repository of a path, knows a revision of that name."""
+    git = _Git(beside, Diagnostics())
+    return git.line("rev-parse", "--verify", "--quiet", f"{text}^{{commit}}") is not None
+
+
 def take_out(wanted: Revision, folder: Path, report: Diagnostics) -> Path | None:
     """Put the models of a revision into a folder; return where the path is in it.
 

@@ -78,7 +78,9 @@ def read_json(source: Source, report: Diagnostics) -> Any:
     def refuse(reason: str, start: int = 0, length: int = 1) -> None:
         start = min(start, len(text))
         place = Span(source, start, min(start + length, len(text)))
-        report.report("not-json", place, reason=reason)
+        is_xml = text.lstrip().startswith("<")
+        help_ = "it looks like XML: `swarmc import scxml` reads that" if is_xml else None
+        report.report("not-json", place, reason=reason, help=help_)
 
     try:
         content = json.loads(text, object_pairs_hook=fields, parse_constant=_refuse)

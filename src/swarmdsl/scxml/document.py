@@ -109,7 +109,9 @@ def parse(
     except expat.ExpatError as error:
         start = min(_characters(source.text, parser.ErrorByteIndex), len(source.text))
         place = Span(source, start, min(start + 1, len(source.text)))
-        report.report("not-xml", place, reason=expat.ErrorString(error.code))
+        is_json = source.text.lstrip()[:1] in ("{", "[")
+        help_ = "it looks like JSON: `swarmc import adf` or `amf` reads that" if is_json else None
+        report.report("not-xml", place, reason=expat.ErrorString(error.code), help=help_)
         return None
     assert builder.root is not None
     document = Document(source, builder.root)
