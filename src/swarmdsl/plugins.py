@@ -134,4 +134,7 @@ def _fault(name: str, found: object) -> str | None:
             return f"its option `{option}` is neither `str`, `bool` nor `int`"
         if "default" not in about:
             return f"its option `{option}` has no default"
+        other = about.get("metadata", {}).get("only", "").partition("=")[0]
+        if other and other not in types:
+            return f"its option `{option}` counts only with an option `{other}`, which is not there"
     return None

@@ -101,6 +101,7 @@ def _as_json(generator: Generator) -> dict[str, Any]:
                 "default": option.default,
                 "choices": list(option.choices),
                 "help": option.help,
+                **({"counts_only_with": option.only} if option.only else {}),
             }
             for option in options_of(generator).values()
         ],

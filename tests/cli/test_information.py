@@ -31,6 +31,18 @@ def test_a_target_that_has_to_be_asked_for_says_so(swarmc):
     assert "asked for" not in swarmc("targets", "adf").out
 
 
+def test_what_depends_on_an_option(swarmc):
+    page = swarmc("targets", "smach").out
+    assert "takes `true` or `false`; default: false; counts only with `ros=2`" in page
+    _, for_ros_1, for_ros_2 = page.split("what becomes of the constructs of a model")
+    assert for_ros_2.startswith(" with `smach.ros=2`\n")
+    assert "`On(events.`" in for_ros_1
+    (found,) = json.loads(swarmc("targets", "smach", "--format", "json").out)
+    options = {each["name"]: each.get("counts_only_with") for each in found["options"]}
+    assert (options["package"], options["lifecycle"]) == (None, "ros=2")
+    assert found["mapping_with"]["ros=2"][0]["construct"] == "state with an action"
+
+
 def test_targets_as_json(swarmc):
     found = json.loads(swarmc("targets", "--format", "json").out)
     assert [one["name"] for one in found][: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)

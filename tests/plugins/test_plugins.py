@@ -55,6 +55,12 @@ def test_no_such_target():
             + GOOD.format(target="x").replace("[])", "[], options_type=O)"),
             "option `a` has no default",
         ),
+        (
+            "from dataclasses import dataclass\nfrom swarmdsl.generator import option\n"
+            "@dataclass\nclass O:\n  a: int = option(1, '', only='b=2')\n"
+            + GOOD.format(target="x").replace("[])", "[], options_type=O)"),
+            "option `a` counts only with an option `b`, which is not there",
+        ),
     ],
 )
 def test_a_broken_generator_harms_no_other(built_in, install, roster, source, reason):

@@ -45,6 +45,14 @@ def test_an_option_is_shown_where_it_stands(
     assert run([*command, "--option", "smach.ros=2"]) == 0
 
 
+def test_skeletons_of_ros_1_beside_it_mean_nothing_for_it(tmp_path: Path) -> None:
+    """What is true of a package for ROS 1 where they are built is not asked for here."""
+    model = tmp_path / "lab.swarm"
+    model.write_text(HEADER + MACHINE, encoding="utf-8")
+    targets = ["--target", "smach", "--target", "skeleton", "--option", "smach.ros=2"]
+    assert run(["build", str(model), *targets, "-o", str(tmp_path / "out")]) == 0
+
+
 @pytest.mark.parametrize(
     ("machine", "name"),
     [
