@@ -5,7 +5,9 @@ from __future__ import annotations
 import ast
 import builtins
 import re
+from collections.abc import Iterator
 from functools import cache
+from inspect import cleandoc
 from pathlib import Path
 
 from swarmdsl import runtime
@@ -35,7 +37,7 @@ def engine_source() -> str:
         for node in tree.body:
             if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module is not None:
                 imports.setdefault(node.module, set()).update(name.name for name in node.names)
-            for inner in ast.walk(node):
+            for inner in _statements(node):
                 _suit(inner, lines)
             if _is_left_out(node):
                 end = node.end_lineno or node.lineno
@@ -63,7 +65,14 @@ def _is_left_out(node: ast.stmt) -> bool:
     return isinstance(node, (ast.Import, ast.ImportFrom))
 
 
-def _suit(node: ast.AST, lines: list[str]) -> None:
+def _statements(node: ast.stmt) -> Iterator[ast.stmt]:
+    """A statement and those in its body; nothing else of it is looked at."""
+    yield node
+    for inner in getattr(node, "body", ()):
+        yield from _statements(inner)
+
+
+def _suit(node: ast.stmt, lines: list[str]) -> None:
     """Make what linters want otherwise to what they take, in the lines of a module.
 
     To them the docstring of a function is an order, so others become comments.
@@ -72,10 +81,10 @@ def _suit(node: ast.AST, lines: list[str]) -> None:
         if node.col_offset and hasattr(builtins, node.target.id):
             lines[node.lineno - 1] += "  # noqa: A003"
     elif isinstance(node, ast.FunctionDef):
-        doc, first = ast.get_docstring(node), node.body[0]
+        doc, first = ast.get_docstring(node, clean=False), node.body[0]
         if doc is not None and doc.partition(" ")[0] in _NOUNS:
             indent = " " * first.col_offset
-            said = [f"{indent}# {line}".rstrip() for line in doc.splitlines()]
+            said = [f"{indent}# {line}".rstrip() for line in cleandoc(doc).splitlines()]
             body = [] if len(node.body) > 1 else [f"{indent}pass"]
             lines[first.lineno - 1] = "\n".join([*said, *body])
             for number in range(first.lineno, first.end_lineno or 0):

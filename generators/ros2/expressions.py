@@ -7,10 +7,10 @@ is what the model does not know of a message.
 from __future__ import annotations
 
 import keyword
+from functools import cache
 
 from swarmdsl.bounds import bound_of
 from swarmdsl.dataclass import replace
-from swarmdsl.dataclass import replace as with_names
 from swarmdsl.ir import (
     Array,
     Binary,
@@ -45,8 +45,7 @@ def python_expression(expression: Expression, imports: Imports, data: str = DATA
             imports.module("math")
         if isinstance(part, Call) and part.function == _GET:
             imports.own("values", _GET)
-    name = f"{data}.{{}}".format
-    return translate(made, with_names(_DIALECT, variable=name, param=name))
+    return translate(made, _dialect(data))
 
 
 def stored(expression: Expression, wanted: Type, imports: Imports, data: str = DATA) -> str:
@@ -119,12 +118,18 @@ def _literal(literal: Literal) -> str:
     return python_literal(literal)
 
 
+@cache
+def _dialect(data: str) -> Dialect:
+    """Python, where `data` has variables and params."""
+    name = f"{data}.{{}}".format
+    return Dialect(
+        literal=_literal,
+        variable=name,
+        param=name,
+        event=f"{EVENT}.data",
+        operators={},
+        functions={"sqrt": "math.sqrt"},
+    )
+
+
 _GET = "get"
-_DIALECT = Dialect(
-    literal=_literal,
-    variable=str,
-    param=str,
-    event=f"{EVENT}.data",
-    operators={},
-    functions={"sqrt": "math.sqrt"},
-)
