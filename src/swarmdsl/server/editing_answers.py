@@ -189,14 +189,3 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_RENAME: _rename,
     lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
 }
-OPTIONS: Mapping[str, Any] = {
-    lsp.TEXT_DOCUMENT_COMPLETION: lsp.CompletionOptions(
-        trigger_characters=[".", ">", ":", "[", "(", ",", "/"]
-    ),
-    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: lsp.SignatureHelpOptions(
-        trigger_characters=["(", ","], retrigger_characters=["="]
-    ),
-    lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
-        code_action_kinds=[lsp.CodeActionKind.QuickFix]
-    ),
-}

@@ -17,7 +17,6 @@ from swarmdsl.server.painting import changes
 from swarmdsl.server.positions import Position
 from swarmdsl.server.selections import selections
 from swarmdsl.server.session import Session
-from swarmdsl.server.tokens import MODIFIERS, TYPES
 from swarmdsl.server.words import SYMBOL_KINDS
 from swarmdsl.source import Span
 from swarmdsl.workspace.occurrences import occurrence_at, occurrences_of, owners
@@ -200,9 +199,4 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_DOCUMENT_LINK: _links,
     lsp.TEXT_DOCUMENT_CODE_LENS: _lenses,
     lsp.CODE_LENS_RESOLVE: _resolve_lens,
-}
-OPTIONS: Mapping[str, Any] = {
-    lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: lsp.SemanticTokensLegend(
-        token_types=TYPES, token_modifiers=MODIFIERS
-    )
 }

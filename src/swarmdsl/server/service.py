@@ -22,26 +22,13 @@ from pygls.lsp.server import LanguageServer
 from swarmdsl import __version__
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.parse import parse
-from swarmdsl.server import (
-    editing_answers,
-    lifecycle,
-    navigation_answers,
-    preview_answers,
-    reading_answers,
-    support,
-)
+from swarmdsl.server import lifecycle
 from swarmdsl.server.conversation import Conversation
+from swarmdsl.server.features import FEATURES, answer, requests
 from swarmdsl.server.session import Session
 from swarmdsl.server.streams import Incoming, Outgoing
 from swarmdsl.source import Source
 
-REQUESTS = {
-    **reading_answers.REQUESTS,
-    **navigation_answers.REQUESTS,
-    **editing_answers.REQUESTS,
-    **preview_answers.REQUESTS,
-}
-_OPTIONS = {**reading_answers.OPTIONS, **editing_answers.OPTIONS}
 # Between two looks at whether the process that started the server is still there, in seconds.
 _LOOK = 5.0
 # Garbage is looked for when nothing was asked for that many seconds, or after that many messages:
@@ -75,8 +62,11 @@ class Server(LanguageServer):
         self._messages = 0
         self._prepared = False
         self.protocol.set_writer(outgoing)
-        for name, answer in {**lifecycle.NOTIFICATIONS, **REQUESTS}.items():
-            self.feature(name, _OPTIONS.get(name))(partial(answer, self.session))
+        for name, hear in lifecycle.NOTIFICATIONS.items():
+            self.feature(name)(partial(hear, self.session))
+        for module, features in FEATURES.items():
+            for name, options in features.items():
+                self.feature(name, options)(partial(answer, module, name, self.session))
 
     def serve(self, incoming: Incoming) -> int:
         """Answer until the client says so, or is gone; return the exit code."""
@@ -129,7 +119,11 @@ class Server(LanguageServer):
         try:
             if not self._prepared:
                 self._prepared = True
+                from swarmdsl.server import support
+
                 support.prepare()
+                for module in FEATURES:
+                    requests(module)
                 parse(
                     Source("", "event"), Diagnostics()
                 )  # what reads mistakes comes with the first

@@ -1,0 +1,28 @@
+"""What the server consists of when it has started."""
+
+import subprocess
+import sys
+
+import pytest
+
+from swarmdsl.server.features import FEATURES, requests
+
+STARTED = """
+import sys
+from swarmdsl.server.service import Server
+Server(None)
+print(*sys.modules)
+"""
+
+
+@pytest.mark.parametrize("module", FEATURES)
+def test_a_module_answers_what_is_said_of_it(module):
+    assert requests(module).keys() == FEATURES[module].keys()
+
+
+def test_what_answers_is_imported_later():
+    ran = subprocess.run([sys.executable, "-c", STARTED], capture_output=True, text=True)
+    modules = ran.stdout.split()
+    assert "swarmdsl.server.session" in modules
+    late = {*(f"swarmdsl.server.{module}" for module in FEATURES), "swarmdsl.format", "click"}
+    assert late.isdisjoint(modules)
