@@ -105,7 +105,7 @@ class Typing:
         found = self.infer(tree)
         if fits(found, wanted):
             value = self.folding.value(tree)
-            if value is not None:
+            if value is not None and len(self.report) == before:
                 self._check_size(tree, value, wanted)
         else:
             help_ = None
