@@ -35,6 +35,7 @@ class Libraries:
         self._folders = folders
         self._report = report
         self._look = look
+        self._packages: dict[Path, set[str]] = {}
 
     def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
         """The files of a package; reported when no library has it."""
@@ -81,12 +82,7 @@ class Libraries:
     def _advice(self, statement: ImportLibrary, package: str, nearby: Path) -> str | None:
         if not package:
             return f"write `import {statement.name}.*` for all that a package declares"
-        names = {
-            ".".join(path.relative_to(library).with_suffix("").parts[:2])
-            for library in self._search_path(nearby)
-            for depth in ("", "*/", "*/*/")
-            for path in library.glob(f"{depth}*{SUFFIX}")
-        }
+        names = self._names(nearby)
         library, _, last = package.partition(".")
         inside = {
             name[len(library) + 1 :]: name for name in names if name.startswith(f"{library}.")
@@ -97,6 +93,17 @@ class Libraries:
         if close is None:
             return f"`{library}` has {listed(sorted(inside.values()), 'and')}"
         return f"did you mean `{inside[close]}`?"
+
+    def _names(self, nearby: Path) -> set[str]:
+        """All packages there are, which are looked for once, however many are missing."""
+        if nearby not in self._packages:
+            self._packages[nearby] = {
+                ".".join(path.relative_to(library).with_suffix("").parts[:2])
+                for library in self._search_path(nearby)
+                for depth in ("", "*/", "*/*/")
+                for path in library.glob(f"{depth}*{SUFFIX}")
+            }
+        return self._packages[nearby]
 
 
 def installed_folders(report: Diagnostics) -> list[Path]:

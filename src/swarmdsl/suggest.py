@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from heapq import nlargest
 from itertools import pairwise
 
@@ -28,8 +29,9 @@ def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | Non
     return by_lower[close[0]] if close else None
 
 
-def _pairs(word: str) -> set[tuple[str, str]]:
-    return set(pairwise(word))
+@lru_cache(maxsize=1 << 14)
+def _pairs(word: str) -> frozenset[tuple[str, str]]:
+    return frozenset(pairwise(word))
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str | None:
