@@ -22,6 +22,10 @@ class Staging:
     def __init__(self) -> None:
         self._staged: dict[Path, Path] = {}
         self._folders: list[Path] = []
+        self._there: set[Path] = set()
+        # No other program has such names, and no other staging.
+        self._mark = os.urandom(8).hex()
+        self._given = 0
 
     def add(
         self, path: Path, content: bytes, executable: bool = False, mode: int | None = None
@@ -55,14 +59,20 @@ class Staging:
 
     def beside(self, path: Path) -> Path:
         """Where the content of a file is until it is moved in place."""
-        return self._staged.setdefault(path, path.with_name(f".swarmc-{os.urandom(8).hex()}.tmp"))
+        if path not in self._staged:
+            self._given += 1
+            self._staged[path] = path.with_name(f".swarmc-{self._mark}-{self._given}.tmp")
+        return self._staged[path]
 
     def make_folder(self, folder: Path) -> None:
         """Make a folder, and those above it, where they are missing."""
+        if folder in self._there:
+            return
         missing = list(takewhile(lambda above: not above.exists(), (folder, *folder.parents)))
         for above in reversed(missing):
             above.mkdir(exist_ok=True)
             self._folders.append(above)
+        self._there.add(folder)
 
     def __enter__(self) -> Staging:
         return self
