@@ -7,8 +7,8 @@ import time
 
 import pytest
 
+from swarmdsl.server.features import FEATURES
 from swarmdsl.server.models import Models
-from swarmdsl.server.service import REQUESTS
 
 from .model import MODEL, ROVER
 from .test_process import SERVER, answer, message
@@ -89,7 +89,7 @@ def test_params_of_other_shapes(raw, tmp_path):
     raw.open(path, MODEL)
     document = {"uri": path.as_uri()}
     far = {"line": 10**9, "character": -5}
-    for method in REQUESTS:
+    for method in (name for features in FEATURES.values() for name in features):
         for params in (
             None,
             [],
