@@ -19,7 +19,7 @@ SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 .PHONY: demo help test test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
-	$(BIN)/swarmc build examples/search_and_rescue -o out
+	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
 	find out -type f | LC_ALL=C sort
 	$(BIN)/swarmc simulate examples/search_and_rescue \
 		--scenario examples/search_and_rescue/mission.toml --trace none --timeline out/mission.svg

@@ -177,6 +177,31 @@ def test_functions_are_found_in_adf_files(tmp_path: Path) -> None:
     assert "function lift : abstraction {" in out.read_text(encoding="utf-8")
 
 
+def test_fields_that_nothing_names_lead_to_a_description(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    scxml = tmp_path / "arm.xml"
+    scxml.write_text(
+        """<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="arm">
+  <state id="Lift">
+    <invoke type="ROS_ACTION"/>
+    <datamodel><data id="invoke"><rosaction>
+      <name>cmd/lift</name><action>arm_msgs/Lift</action>
+      <goal type="fixed"><param>2.5</param></goal><result type="empty"/>
+    </rosaction></data></datamodel>
+    <transition event="succeeded" target="End"/><transition event="aborted" target="End"/>
+  </state>
+  <final id="End"/>
+</scxml>
+""",
+        encoding="utf-8",
+    )
+    assert run(["import", "scxml", str(scxml)]) == 0
+    out, err = capsys.readouterr()
+    assert "do lift(value1 = 2.5)" in out
+    assert "= help: a description of the function says them: name its ADF file with `--adf`" in err
+
+
 def vertices(system: System) -> dict[str, object]:
     """What each state is and does, with the servers it asks instead of the names they go by."""
 

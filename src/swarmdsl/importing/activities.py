@@ -135,7 +135,8 @@ class Activities:
             names = [f"value{number}" for number in range(1, len(values) + 1)]
         if goal is None or any(name.startswith("value") for name in names):
             what = f"the names of the fields of `{call.type}` are not known"
-            self._assumed(call, what, ", ".join(f"`{name}`" for name in names))
+            help_ = "a description of the function says them: name its ADF file with `--adf`"
+            self._assumed(call, what, ", ".join(f"`{name}`" for name in names), help_)
         if None in values:
             what = ", ".join(call.goal_items)
             self._left_out(call, f"`{what}`", "it is code; a callback has to fill the goal")
@@ -177,8 +178,9 @@ class Activities:
     def _left_out(self, call: Call, what: str, reason: str) -> None:
         self.report.report("left-out", self.document.at(call.node), what=what, reason=reason)
 
-    def _assumed(self, call: Call, what: str, assumed: str) -> None:
-        self.report.report("assumed", self.document.at(call.node), what=what, assumed=assumed)
+    def _assumed(self, call: Call, what: str, assumed: str, way: str | None = None) -> None:
+        place = self.document.at(call.node)
+        self.report.report("assumed", place, what=what, assumed=assumed, help=way)
 
 
 def _part(described: Interface | None, names: tuple[str, str]) -> dict[str, Type] | None:
