@@ -314,6 +314,28 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
     assert wrong == []
 
 
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed")
+def test_where_robots_are_is_shown_also_if_it_is_known_before_the_diagrams(tmp_path: Path) -> None:
+    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
+    model.write_text(NESTED.replace("-> Home", "-> Hmoe"), encoding="utf-8")
+    trace.write_text(step("digger[0]", "Out.Dig"), encoding="utf-8")
+    options = ["--follow", str(trace)]
+    with served(model, *options) as browser, playwright.sync_playwright() as driver:
+        chromium = driver.chromium.launch(
+            executable_path=shutil.which("chromium"), args=["--no-sandbox"]
+        )
+        page = chromium.new_page()
+        page.goto(f"http://127.0.0.1:{browser.port}/")
+        expect = playwright.expect
+        expect.set_options(timeout=PATIENCE * 1000)
+        expect(page.locator("#state")).to_contain_text("mistake")
+        model.write_text(NESTED, encoding="utf-8")
+        expect(page.locator("#which")).to_have_value("Job.statechart")
+        expect(page.locator("#picture .node.lit")).to_have_attribute("data-id", "Out.Dig")
+        chromium.close()
+
+
 def test_only_the_page_opens_places_and_only_those_of_the_model(model: Path) -> None:
     address = "cool-editor://{file}?{line}"
     with served(model, "--editor", address) as browser:

@@ -17,6 +17,14 @@ from playwright.sync_api import expect
 
 from .window import Window
 
+# Transitions do not light up for long: one that has is noted.
+NOTE_TAKEN = """picture => {
+  const note = ({ target }) => {
+    if (target.matches(".taken")) picture.dataset.taken = target.dataset.id;
+  };
+  const watch = new MutationObserver((all) => all.forEach(note));
+  watch.observe(picture, { attributeFilter: ["class"], subtree: true });
+}"""
 PICTURES = Path(__file__).resolve().parents[3] / "docs" / "pictures"
 
 
@@ -245,6 +253,8 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         page = window.view()
         expect(page.locator("#which")).to_have_value("UavSearch.statechart")
         expect(page.locator("#picture .lit")).not_to_have_count(0)
+        page.locator("#picture").evaluate(NOTE_TAKEN)
+        expect(page.locator("#picture")).to_have_attribute("data-taken", re.compile("->"))
         window.command("Tasks: Terminate Task")
         window.choose("simulate")
     finally:

@@ -21,7 +21,7 @@ from playwright.sync_api import FrameLocator, Locator, Page, expect, sync_playwr
 from . import environment
 
 # Of what a page does, in milliseconds: machines that do other things besides are slow.
-PATIENCE = 60_000
+PATIENCE = 120_000
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
     "chat.disableAIFeatures": True,

@@ -12,6 +12,7 @@ export class Lights {
   #runs = {}; // by diagrams: [[ROLE, PREFIX OF ITS STATES], ...]
   #roles = new Set();
   #active = new Map(); // by members: their innermost active states
+  #isDeserted = true;
   #timers = new WeakMap(); // by transitions that are lit
 
   /** `changed` is called when the user has chosen somebody else. */
@@ -26,9 +27,8 @@ export class Lights {
     this.#roles = new Set(Object.values(runs).flatMap((each) => each.map(([role]) => role)));
   }
 
-  /** Move members; whether there were none before. */
+  /** Move members. */
   move(active) {
-    const isFirst = !this.#active.size;
     for (const [member, states] of Object.entries(active)) {
       if (states) {
         this.#active.set(member, states);
@@ -36,7 +36,14 @@ export class Lights {
         this.#active.delete(member);
       }
     }
-    return isFirst && this.#active.size > 0;
+    this.#isDeserted ||= !this.#active.size;
+  }
+
+  /** Whether members are there for the first time since there were none, and what they run is known. */
+  arrive() {
+    const isFirst = this.#isDeserted && this.#active.size > 0 && Object.keys(this.#runs).length > 0;
+    this.#isDeserted &&= !isFirst;
+    return isFirst;
   }
 
   /** A diagram in which somebody is; `diagram` itself if there is one in it. */

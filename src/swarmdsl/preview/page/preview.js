@@ -27,6 +27,7 @@ let titles = {};
 let drawn; // { id, svg }
 let shown = (!host.isInEditor && decodeURIComponent(location.hash.slice(1))) || (before.shown ?? "");
 let cursor;
+let wants = 0; // how often a picture was asked for
 let touched; // the node that was folded or unfolded, until there is a picture of it
 
 // ---- what is shown
@@ -52,7 +53,13 @@ function light() {
 
 /** Ask for the picture that is to be shown; what it may be instead is said by who draws it. */
 function want() {
-  void host.want(shown, folding.of(shown), receive);
+  const number = ++wants;
+  void host.want(shown, folding.of(shown), (message) => {
+    // The answer to an earlier one may take longer.
+    if (number === wants) {
+      receive(message);
+    }
+  });
 }
 
 function remember() {
@@ -76,13 +83,14 @@ function receive(message) {
     state.textContent = drawn ? `${mistakes}: this is how it was before` : mistakes;
   }
   if (message.active) {
-    const isFirst = lights.move(message.active);
-    const inhabited = isFirst ? lights.inhabited(shown) : shown;
-    if (inhabited === shown) {
-      light();
-    } else {
-      show(inhabited);
-    }
+    lights.move(message.active);
+  }
+  // Where members are may be told before the diagrams are.
+  const inhabited = lights.arrive() ? lights.inhabited(shown) : shown;
+  if (inhabited !== shown) {
+    show(inhabited);
+  } else if (message.active) {
+    light();
   }
   if (message.taken) {
     lights.flash(picture, shown, message.taken);
