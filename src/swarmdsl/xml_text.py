@@ -9,7 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 
 # What XML 1.0 does not allow anywhere, not even escaped.
-_ILLEGAL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_ILLEGAL = "[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]"
 # What a parser would take for markup, or for another blank (XML 1.0, 2.11 and 3.3.3).
 _IN_TEXT = str.maketrans({"&": "&amp;", "<": "&lt;", ">": "&gt;", "\r": "&#13;"})
 _IN_ATTRIBUTE = {**_IN_TEXT, **str.maketrans({'"': "&quot;", "\n": "&#10;", "\t": "&#9;"})}
@@ -47,7 +47,9 @@ def document(root: Element, declaration: str = '<?xml version="1.0" encoding="UT
 
 def legal(text: str) -> str:
     """The text with what XML cannot hold replaced."""
-    return _ILLEGAL.sub("\N{REPLACEMENT CHARACTER}", text)
+    if text.isprintable():
+        return text
+    return re.sub(_ILLEGAL, "\N{REPLACEMENT CHARACTER}", text)
 
 
 def comment_text(text: str) -> str:
