@@ -47,10 +47,11 @@ class Chart(engine.Observer):
         self._left = []
         self._is_leaving = False
         self._place(root)
-        for event in dict.fromkeys(event for state in self._states for event in state.heard()):
-            event.listen(self.receive)
         table = engine.Machine('machine', root.tables(), root.initial_path())
         self._instance = engine.Instance(table, self, data=root.userdata, observer=self)
+        # The last: from here on threads of rospy call.
+        for event in dict.fromkeys(event for state in self._states for event in state.heard()):
+            event.listen(self.receive)
 
     def _place(self, container):
         container.userdata = self._root.userdata
