@@ -15,7 +15,7 @@ from swarmdsl.source import Span
 from swarmdsl.workspace import Workspace
 
 ROOT = Path(__file__).resolve().parents[2]
-SEEDS = 20
+SEEDS = 10
 EDITS_A_MODEL = 20
 _SNIPPETS = (
     *("event Late : std_msgs/Empty\n", "swarm event Far : geo_msgs/Fix\n"),
@@ -192,7 +192,7 @@ def edits(folder: Path, dice: random.Random) -> Iterator[dict[Path, str | None]]
 @pytest.mark.parametrize("seed", range(SEEDS))
 def test_edits(seed: int, tmp_path: Path, pytestconfig: pytest.Config) -> None:
     dice = random.Random(seed)
-    wanted = pytestconfig.getoption("--mutants") * 5 // SEEDS
+    wanted = pytestconfig.getoption("--mutants") * 2 // SEEDS
     places = models()
     done = 0
     while done < wanted:
