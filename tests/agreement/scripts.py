@@ -157,8 +157,7 @@ class Subject:
     def walk(self, dice: random.Random) -> tuple[Step, ...]:
         """Things that happen by chance.
 
-        Up to where the machine would not come to rest, or an activity is aborted because its
-        goal has no value: to make it is the business of the host.
+        Up to where the machine would not come to rest, or something happens by itself.
         """
         model = Model(self)
         steps: tuple[Step, ...] = ()
@@ -245,8 +244,20 @@ class Model(Ours):
 
     @property
     def gave_up(self) -> bool:
-        """Whether an activity ended by itself in the last step."""
-        return any(name.startswith("do.") for name in self.watch.events[1:])
+        """Whether something happened by itself in the last step.
+
+        That is an activity that is aborted because its goal has no value, which is the business
+        of the host to make, or a delay of no time, which engines without time do not know.
+        """
+        return any(map(self._is_from_outside, self.watch.events[1:]))
+
+    @property
+    def went_on(self) -> bool:
+        """Whether a delay of no time has passed at the start."""
+        return any(map(self._is_from_outside, self.watch.events))
+
+    def _is_from_outside(self, event: str) -> bool:
+        return event.startswith("do.") or event in self.subject.timers
 
     @property
     def situation(self) -> Any:
