@@ -81,7 +81,7 @@ def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Dia
                         use.origin or transition.origin,
                         target=TARGET,
                         construct=construct,
-                        help="the message that ROS 2 has on the way holds `feedback` alone",
+                        help="of that message in ROS 2, a model can read `feedback` only",
                     )
 
 
