@@ -9,7 +9,6 @@ import re
 from pathlib import Path
 
 import pytest
-from jinja2 import Template
 
 from swarmdsl import compiler, plugins
 from swarmdsl.emit import Request
@@ -30,8 +29,6 @@ CASES = {
 def made(case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, str]:
     """Everything made of a case, as text by path."""
     monkeypatch.chdir(ROOT)
-    # Templates are plain: Jinja, which is slow to import, compiles them once.
-    monkeypatch.delattr(Template, "render")
     return make(CASES[case], tmp_path / "out")
 
 

@@ -2,16 +2,9 @@
 
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-from jinja2 import (
-    Environment,
-    FileSystemLoader,
-    TemplateAssertionError,
-    TemplateNotFound,
-    UndefinedError,
-)
+from jinja2 import Environment, TemplateError, TemplateNotFound, UndefinedError
 
 from swarmdsl.templates import Templates
 
@@ -47,7 +40,7 @@ def test_a_template_that_changed_is_compiled_anew(folder):
     assert len(kept(folder)) == 1
 
 
-@pytest.mark.parametrize("content", [b"", b"swarmdsl", b"\0" * 100])
+@pytest.mark.parametrize("content", [b"", b"j2", b"\0" * 100])
 def test_a_damaged_file_does_no_harm(folder, content):
     hello(folder)
     (file,) = kept(folder)
@@ -100,83 +93,11 @@ def test_a_template_that_is_not_there_is_an_error(folder):
         Templates(folder).fill("bye.j2")
 
 
-def test_a_filter_of_another_name_needs_another_compilation(folder):
+def test_a_filter_is_a_function_of_a_value(folder):
     (folder / "hello.j2").write_text("hello {{ name | loud }}\n", encoding="utf-8")
-    with pytest.raises(TemplateAssertionError):
+    with pytest.raises(TemplateError):
         hello(folder)
     loud = Templates(folder, loud=str.upper)
     assert loud.fill("hello.j2", name="you") == "hello YOU\n"
-    with pytest.raises(TemplateAssertionError):
+    with pytest.raises(TemplateError):
         hello(folder)
-
-
-VALUES = {
-    "words": ["one", "Two", "three"],
-    "numbers": (3, 1, 2),
-    "nothing": [],
-    "table": {"key": "value", "items": "hidden"},
-    "point": SimpleNamespace(x=1, y="a\n\nb", on=True),
-    "points": [SimpleNamespace(name="p", on=True), SimpleNamespace(name="q", on=False)],
-    "add": lambda a, b=1: a + b,
-}
-PLAIN = [
-    "{{ point.x }} {{ table.key }} {{ table['key'] }} {{ words[-1] }}",
-    "{% for word in words %}{{ loop.first }}{{ word }}{{ loop.last }} {% endfor %}",
-    "{% for word in nothing %}{{ loop.first }}{% else %}nothing{% endfor %}",
-    "{% for word in words if word != 'Two' %}{{ word }}{{ ', ' if not loop.last }}{% endfor %}",
-    "{% for a in words %}{% for b in numbers %}{{ loop.last }}{{ a ~ b }}{% endfor %}{% endfor %}",
-    "{% for key, value in table.items() %}{{ key }}={{ value }}{% endfor %}",
-    "{{ add(2) }} {{ add(2, b=3) }} {{ -point.x + 2 * 3 }} {{ words[0].upper() }}",
-    "{% set sum = add(1) %}{% set sum = sum + 1 %}{{ sum }}",
-    "{% macro twice() %}{{ words[0] }}{{ words[0] }}{% endmacro %}{{ twice() }} {{ twice() }}",
-    "{% include 'inner.j2' %}",
-    "{% set words = ['set'] %}{% include 'inner.j2' %}",
-    "{% for words in [['a'], ['b']] %}{% include 'inner.j2' %}{% endfor %}",
-    "{{ words | join('-') }} {{ numbers | join }} {{ numbers | sort }} {{ numbers | list }}",
-    "{{ points | selectattr('on') | map(attribute='name') | list }}",
-    "{{ points | rejectattr('on') | map(attribute='name') | join }}",
-    "  {{ point.y | indent }}|{{ '' | indent }}|{{ 'a' | indent }}|{{ 'a\n' | indent }}",
-    "{{ 'yes' if point.on }}{{ 'no' if not point.on }}{{ 'no' if not point.on else 'yes' }}",
-    "{% if words and not nothing or point.x < 0 %}{{ 1 < 2 <= 2 }}{% elif 1 %}{% endif %}",
-    "{{ words | repr }} {{ None }} {{ true }} {{ 1.5 }} {{ ('a', 1) }} {{ {'a': 1} }}",
-]
-# What the run time here does not know.
-OTHERS = [
-    "{% for word in words %}{{ loop.index }}{{ loop.cycle('a', 'b') }}{% endfor %}",
-    "{% macro say(word, end='!') %}{{ word }}{{ end }}{% endmacro %}{{ say('a', end=1) }}",
-    "{% set found = namespace(word='') %}{% set found.word = 'x' %}{{ found.word }}",
-    "{{ words | first }} {{ 'a b' | title }} {{ point['x'] }} {{ point.x is odd }}",
-    "{{ other is defined }} {% for nothing in words %}{% include 'inner.j2' %}{% endfor %}",
-    "{% from 'library.j2' import greet %}{{ greet('a') }}",
-    "{% for word in words recursive %}{{ word }}{% endfor %}",
-]
-
-
-@pytest.fixture
-def beside(folder):
-    (folder / "inner.j2").write_text("<{{ words | join(',') }}>", encoding="utf-8")
-    library = "{% macro greet(name) %}hello {{ name }}{% endmacro %}"
-    (folder / "library.j2").write_text(library, encoding="utf-8")
-    return folder
-
-
-def by_jinja(folder: Path, template: str) -> str:
-    environment = Environment(loader=FileSystemLoader(folder), trim_blocks=True, lstrip_blocks=True)
-    environment.filters["repr"] = repr
-    return environment.from_string(template).render(VALUES)
-
-
-@pytest.mark.parametrize("template", PLAIN)
-def test_a_plain_template_prints_what_jinja_prints(beside, template, monkeypatch):
-    (beside / "some.j2").write_text(template, encoding="utf-8")
-    wanted = by_jinja(beside, template)
-    assert Templates(beside).fill("some.j2", **VALUES) == wanted
-    # What was compiled is run without it.
-    monkeypatch.delattr(Environment, "compile")
-    assert Templates(beside).fill("some.j2", **VALUES) == wanted
-
-
-@pytest.mark.parametrize("template", OTHERS)
-def test_what_else_a_template_can_say_is_left_to_jinja(beside, template):
-    (beside / "some.j2").write_text(template, encoding="utf-8")
-    assert Templates(beside).fill("some.j2", **VALUES) == by_jinja(beside, template)
