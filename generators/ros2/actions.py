@@ -5,20 +5,23 @@ A topic of such messages, `fly/feedback` of `uav_msgs/FlyActionFeedback`, is a h
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.ir import (
     Action,
     Assignment,
+    Effect,
     Event,
+    Expression,
     FieldAccess,
     Message,
     Named,
     Send,
+    State,
     StateMachine,
     System,
-    Transition,
+    TimeTrigger,
 )
 from swarmdsl.ir.expressions import parts
 
@@ -71,30 +74,44 @@ def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
 def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Diagnostics) -> None:
     """Report what is read of feedback in ROS 1 only: its header and the status of its goal."""
     for state in machine.walk():
-        for transition in state.transitions:
-            for use in _fields_read(transition):
-                owner = use.base.type
-                if owner in made and str(owner).endswith(_FEEDBACK) and use.field != _IN_BOTH:
-                    construct = f"field `{use.field}` of `{owner}`"
-                    report.report(
-                        "unsupported-construct",
-                        use.origin or transition.origin,
-                        target=TARGET,
-                        construct=construct,
-                        help="of that message in ROS 2, a model can read `feedback` only",
-                    )
+        for use in _fields_read(state):
+            owner = use.base.type
+            if owner in made and str(owner).endswith(_FEEDBACK) and use.field != _IN_BOTH:
+                report.report(
+                    "unsupported-construct",
+                    use.origin or state.origin,
+                    target=TARGET,
+                    construct=f"field `{use.field}` of `{owner}`",
+                    help="of that message in ROS 2, a model can read `feedback` only",
+                )
 
 
-def _fields_read(transition: Transition) -> Iterator[FieldAccess]:
-    values = [transition.guard] if transition.guard is not None else []
-    for effect in transition.effects:
+def _fields_read(state: State) -> Iterator[FieldAccess]:
+    for value in _expressions(state):
+        yield from (part for part in parts(value) if isinstance(part, FieldAccess))
+
+
+def _expressions(state: State) -> Iterator[Expression]:
+    yield from _values(state.entry)
+    if state.activity is not None:
+        yield from (value for _, value in state.activity.arguments)
+    for transition in state.transitions:
+        for trigger in transition.triggers:
+            if isinstance(trigger, TimeTrigger):
+                yield trigger.delay
+        if transition.guard is not None:
+            yield transition.guard
+        yield from _values(transition.effects)
+    yield from _values(state.exit)
+
+
+def _values(effects: Iterable[Effect]) -> Iterator[Expression]:
+    for effect in effects:
         match effect:
             case Assignment(value=value):
-                values.append(value)
+                yield value
             case Send(arguments=arguments):
-                values += [value for _, value in arguments]
-    for value in values:
-        yield from (part for part in parts(value) if isinstance(part, FieldAccess))
+                yield from (value for _, value in arguments)
 
 
 def _unsupported(construct: str, event: Event, report: Diagnostics) -> None:

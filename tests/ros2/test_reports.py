@@ -132,6 +132,43 @@ def test_reports(reported: Reported, text: str, name: str, part: str, place: str
     assert found[0][2]
 
 
+@pytest.mark.parametrize(
+    "use",
+    [
+        "entry / number = last.header.seq",
+        "exit / number = last.header.seq",
+        "entry / send Far(x = last.header.seq)",
+        "do fly(x = last.header.seq)  on succeeded, aborted -> B",
+        "after last.header.seq * 1 s -> B",
+    ],
+)
+def test_what_feedback_has_in_ros_1_only_is_reported_wherever_it_is_read(
+    reported: Reported, use: str
+) -> None:
+    text = f"""
+      package lab
+      {ACTION}
+      message Step {{ x : float64 }}
+      event Far : Step
+      function fly : abstraction {{ action "fly" : Fly }}
+      statemachine Work {{
+        initial A
+        var last : lab/FlyActionFeedback
+        var number : uint32
+        state A {{
+          {use}
+          monitor "fly/feedback" : lab/FlyActionFeedback / last = event -> B
+        }}
+        final B
+      }}
+    """
+    found = reported(text)
+
+    assert [each[0] for each in found] == ["unsupported-construct"], found
+    assert "field `header` of `lab/FlyActionFeedback`" in found[0][1]
+    assert found[0][2] == "last.header"
+
+
 def test_what_is_used_of_a_package_that_is_written_is_described(reported: Reported) -> None:
     found = reported(HEAD + "event Done : other_msgs/Done\n" + MACHINE, interfaces="other_msgs")
 
