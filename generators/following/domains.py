@@ -65,7 +65,7 @@ class Domains:
         found = [self._move(each, state) for each in state.transitions]
         around = self.around(state)
         if around.kind is StateKind.PARALLEL:
-            for event, _, transition in inward(state, around, self._events):
+            for event, _, transition, _ in inward(state, around, self._events):
                 assert transition.target is not None
                 heard = [each for each in self._triggers(transition, around) if each[1] == event]
                 target, origin = transition.target, transition.origin

@@ -144,13 +144,17 @@ class Table:
 
     def _inward(self, region: State, around: State) -> Iterable[Call]:
         """The transitions of a parallel state that its region takes."""
-        for event, guard, transition in inward(region, around, self._events):
+        for event, guard, transition, number in inward(region, around, self._events):
             yield self._transition_call(
                 (event,) if event else (),
                 _targets(transition),
                 self._condition(around.id, guard)
                 + self._effect_of(around.id, transition)
-                + (("internal", True), ("origin", place(transition.origin))),
+                + (
+                    ("internal", True),
+                    ("origin", place(transition.origin)),
+                    ("around", number),
+                ),
             )
 
     def _transition_call(

@@ -105,7 +105,7 @@ class TransitionMaker:
         """The internal transitions of a parallel state that its region takes."""
         around = self.ways.around(region)
         timers = _timers(around)
-        for event, guard, transition in inward(region, around, self._events):
+        for event, guard, transition, _ in inward(region, around, self._events):
             assert transition.target is not None
             way = way_into(region.id, transition.target)
             for trigger in transition.triggers or (None,):

@@ -13,7 +13,11 @@ import pytest
 import yaml
 from lxml import etree
 
+import swarmdsl.runtime
 from swarmdsl.generator import OutputFile
+from swarmdsl.ir import System
+from swarmdsl.runtime import Machine
+from swarmdsl.simulate.table import table
 
 from .conftest import load_module
 
@@ -274,10 +278,44 @@ def test_whole_numbers_stay_in_their_types(generate: Generate) -> None:
     assert "machine.data.n = machine.data.m" in lines
 
 
+def test_traces_call_what_regions_take_as_a_simulation_does(
+    generate: Generate, compiled: Callable[[str], System]
+) -> None:
+    """Also where transitions of the state around them stand in one line."""
+    text = """
+      package lab
+      event Stop : std_msgs/Empty
+      event Halt : std_msgs/Empty
+      endless statemachine Work {
+        initial Both
+        parallel state Both { internal on Stop -> A1  internal on Halt -> B1
+          region A { initial A0 state A0 { on Halt -> A1 } state A1 { } }
+          region B { initial B0 state B0 { on Stop -> B1 } state B1 { } }
+        }
+      }
+    """
+    files = generate(text)
+    names = dict(vars(swarmdsl.runtime))
+    for module, wanted in (("host", "tree"), ("work", "STATES")):
+        made = ast.parse(files[f"lab_behavior/lab_behavior/{module}.py"].text)
+        made.body = [node for node in made.body if wanted in (_name(node), _assigned(node))]
+        exec(compile(made, module, "exec"), names)
+
+    def called(machine: Machine) -> list[list[str]]:
+        return [[machine.called(each) for each in s.transitions] for s in machine.states]
+
+    system = compiled(text)
+    found = called(Machine("Work", names["STATES"], ("Both",)))
+    assert found == called(table(system.machines[0], system))
+    assert ["Both->1"] in found
+
+
+def _assigned(node: ast.stmt) -> str:
+    return ast.unparse(node.targets[0]) if isinstance(node, ast.Assign) else ""
+
+
 def test_the_engine_is_whole(generate: Generate) -> None:
     """Each class and function of the engine is in the file, with the same code."""
-    import swarmdsl.runtime
-
     made = ast.parse(generate(MODEL)["lab_behavior/lab_behavior/engine.py"].text)
     found = {_name(node): _code(node) for node in made.body if _name(node)}
     folder = Path(swarmdsl.runtime.__file__).parent

@@ -62,6 +62,8 @@ class Transition(NamedTuple):
     internal: bool = False
     origin: object = None
     """Where it comes from, for a person who reads a trace."""
+    around: int | None = None
+    """What a region does for the parallel state around it: which transition of that one it is."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,16 +253,10 @@ class Machine:
     @cached_property
     def _called(self) -> dict[int, str]:
         called = {}
-        for state, parent in ((s, self.parents[n]) for n, s in enumerate(self.states)):
-            around = self.states[parent]
-            # What regions do for the state around them is a transition of that one.
-            shared = around.transitions if around.kind is Kind.PARALLEL else ()
-            origins = [each.origin for each in shared]
-            for number, each in enumerate(state.transitions):
-                is_shared = each.origin is not None and each.origin in origins
-                owner = around.id if is_shared else state.id
-                at = origins.index(each.origin) if is_shared else number
-                called[id(each)] = f"{owner}->{at}"
+        for state, parent in enumerate(self.parents):
+            for number, each in enumerate(self.states[state].transitions):
+                owner, at = (state, number) if each.around is None else (parent, each.around)
+                called[id(each)] = f"{self.states[owner].id}->{at}"
         return called
 
     def ancestors(self, number: int) -> Iterator[int]:

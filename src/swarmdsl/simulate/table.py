@@ -144,7 +144,7 @@ class _Maker:
 
     def inward(self, region: ir.State, around: ir.State) -> Iterable[Transition]:
         """The transitions of a parallel state that its region takes."""
-        for event, guard, transition in inward(region, around, self.events):
+        for event, guard, transition, number in inward(region, around, self.events):
             yield Transition(
                 (event,) if event else (),
                 _targets(transition),
@@ -152,6 +152,7 @@ class _Maker:
                 self.effects(transition.effects) if transition.effects else None,
                 internal=True,
                 origin=transition,
+                around=number,
             )
 
     def activity(self, state: ir.State, activity: ir.Activity) -> Activity:

@@ -25,8 +25,10 @@ def region_entered(transition: Transition, state: State) -> State | None:
 
 def inward(
     region: State, around: State, events: Events
-) -> Iterator[tuple[str, Expression | None, Transition]]:
-    """What such a region takes itself: the event, empty for none, the guard, the transition.
+) -> Iterator[tuple[str, Expression | None, Transition, int]]:
+    """What such a region takes itself: the event, empty for none, the guard, the transition, which.
+
+    The last is the number of the transition among those of the parallel state.
 
     A region takes its own before those of the parallel state: the earlier ones there must not
     be enabled.
@@ -41,7 +43,7 @@ def inward(
                 for earlier in around.transitions[:index]
                 if event in events.of_transition(earlier, around)
             ]
-            yield event, _all(refused, transition.guard), transition
+            yield event, _all(refused, transition.guard), transition, index
 
 
 def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:

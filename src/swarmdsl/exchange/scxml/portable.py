@@ -181,7 +181,7 @@ class _StateWriter:
         return any(each.exit for each in around)
 
     def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
-        for event, guard, transition in inward(region, around, self.events):
+        for event, guard, transition, _ in inward(region, around, self.events):
             events = [event] if event else []
             added = self._add_transition(element, events, guard, True, transition.target)
             self.places[added] = transition.origin
