@@ -155,10 +155,10 @@ def wheels() -> Iterator[str]:
 def checkout() -> Path | None:
     """The checkout that swarmdsl was installed from, as pip keeps it (PEP 610), if it is there."""
     try:
-        origin = distribution("swarmdsl").read_text("direct_url.json")
-    except PackageNotFoundError:
+        origin = json.loads(distribution("swarmdsl").read_text("direct_url.json") or "{}")
+        url = urlsplit(origin["url"])
+    except (PackageNotFoundError, OSError, ValueError, TypeError, KeyError, AttributeError):
         return None
-    url = urlsplit(json.loads(origin or "{}").get("url", ""))
     folder = Path(url2pathname(url.path))
     there = url.scheme == "file" and (folder / "tests" / "ros2" / "environment.py").is_file()
     return folder if there else None

@@ -225,6 +225,24 @@ lost = "cart[0]"
     assert (ran.code, "Go -> Busy.Drive" in ran.out) == (0, True), ran.err
 
 
+def test_a_scenario_that_more_than_one_swarm_can_have_is_told(swarmc, yard) -> None:
+    (yard / "yard.swarm").write_text(MODEL + SWARM + SWARM.replace("Yard", "Barn"))
+    (yard / "mission.toml").write_text("count.cart = 2\n")
+    ran = swarmc("rename", "Barn.cart", "van", "--format", "concise")
+
+    assert ran.code == 0
+    assert "mission.toml:1:7: warning[SW1506] `cart` stands here still" in ran.err
+    assert (yard / "mission.toml").read_text() == "count.cart = 2\n"
+
+
+def test_the_style_of_a_name_is_looked_at(swarmc, yard) -> None:
+    ran = swarmc("rename", "Cart.camera", "Front", "--format", "concise")
+
+    assert ran.code == 0
+    assert "warning[SW0206] part `Front` is not in snake_case" in ran.err
+    assert "SW0206" not in swarmc("rename", "Cart.Front", "front").err
+
+
 def test_what_stays_where_nothing_says_what_it_means(swarmc, yard) -> None:
     (yard / "yard.swarmtest.toml").write_text('[[test]]\nname = "x"\nsteps = [{ in = "Drive" }]\n')
     (yard / "other.toml").write_text('text = "Driver"\n')

@@ -110,7 +110,12 @@ export class Trace {
         Buffer.from(line, "latin1").toString("utf8"),
       );
       return Array.isArray(configuration)
-        ? { time: t, member: member ?? this.alone, configuration, taken: taken ?? [] }
+        ? {
+            time: typeof t === "number" ? t : 0,
+            member: member ?? this.alone,
+            configuration,
+            taken: Array.isArray(taken) ? taken : [],
+          }
         : undefined;
     } catch {
       return undefined; // no line of a trace

@@ -46,7 +46,8 @@ test("a trace is followed while it is written, and when it begins anew", async (
   await new Promise((resolve) => setTimeout(resolve, 300));
   await appendFile(path, line.subarray(line.indexOf(0xbc)));
   assert.deepEqual(await next(), { ü: ["Höhe", "Weite"] });
-  await appendFile(path, `no trace\n${step(null, "Busy")}`);
+  const odd = JSON.stringify({ t: "now", configuration: ["Idle"], taken: 5 });
+  await appendFile(path, `no trace\n${odd}\n${step(null, "Busy")}`);
   assert.deepEqual(await next(), { Alone: ["Busy"] });
 
   await writeFile(path, step("uav[0]", "Start"));

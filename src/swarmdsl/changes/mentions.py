@@ -8,7 +8,7 @@ the same keeps its name, and so do comments and texts.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Container, Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from swarmdsl.changes.rewriting import Change
@@ -37,7 +37,7 @@ class Mentions:
     """Where a file has a name: what is to change, and what means something else for sure."""
 
     changes: Sequence[Change] = ()
-    others: Container[int] = ()
+    others: frozenset[int] = frozenset()
 
 
 def mentions(
@@ -52,10 +52,13 @@ def mentions(
     if document is None or not document.values.keys() <= set(TABLES):
         return Mentions()
     pairs = zip(_subjects(before), _subjects(after), strict=True)
-    for reads, will_read in ((_scenario(was), _scenario(will_be)) for was, will_be in pairs):
-        if not reads(source).has_errors:
-            return _mentions(source, old, new, reads, will_read)
-    return Mentions()
+    found = [
+        _mentions(source, old, new, reads, _scenario(will_be))
+        for reads, will_be in ((_scenario(was), will_be) for was, will_be in pairs)
+        if not reads(source).has_errors
+    ]
+    # Nothing says of which swarm or state machine it is.
+    return found[0] if found and all(each == found[0] for each in found) else Mentions()
 
 
 def _mentions(source: Source, old: str, new: str, reads: Reading, will_read: Reading) -> Mentions:
@@ -73,7 +76,7 @@ def _mentions(source: Source, old: str, new: str, reads: Reading, will_read: Rea
     chosen -= found
     others = wrong(set(range(len(places)))) - already - chosen
     changes = [(*places[each], new) for each in sorted(chosen)]
-    return Mentions(changes, {places[each][0] for each in others})
+    return Mentions(changes, frozenset(places[each][0] for each in others))
 
 
 def _wrong(source: Source, places: list[tuple[int, int]], read: Reading) -> set[int]:

@@ -8,6 +8,7 @@ uses a quarter of them.
 from __future__ import annotations
 
 import threading
+from importlib.util import find_spec
 from types import MethodType
 from typing import Any
 
@@ -21,7 +22,12 @@ _known: dict[str, Any] = {}
 
 
 def load() -> None:
-    """Import `lsprotocol`, unless that has been done: then all its types are finished."""
+    """Import `lsprotocol`, unless that has been done: then all its types are finished.
+
+    So they are where another version of it has nothing that looks up names in annotations.
+    """
+    if find_spec("lsprotocol._hooks") is None:
+        return
     attrs.define = _defer  # type: ignore[assignment]
     try:
         from lsprotocol import types

@@ -124,9 +124,8 @@ class Server(LanguageServer):
                 support.prepare()
                 for module in FEATURES:
                     requests(module)
-                parse(
-                    Source("", "event"), Diagnostics()
-                )  # what reads mistakes comes with the first
+                # What reads mistakes is imported with the first one.
+                parse(Source("", "event"), Diagnostics())
         except Exception as error:
             self.report_server_error(error)
         self._tidy()
