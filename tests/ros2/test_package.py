@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import time
 from collections.abc import Callable
@@ -66,10 +67,10 @@ def test_colcon_builds_and_tests_it(ros: Any, variant: Variant, tmp_path: Path) 
 class Managed:
     """A managed node of the lab, and whoever manages it."""
 
-    def __init__(self, ros: Any, package: Path, **parameters: Any) -> None:
+    def __init__(self, ros: Any, package: Path, stopping: float = 0.2, **parameters: Any) -> None:
         ros.prefer(package)
         self.fakes = ros.fakes()
-        self.fakes.action(*WORK, "never", stopping=0.2)
+        self.fakes.action(*WORK, "never", stopping=stopping)
         self.fakes.service(*ASK)
         self.fakes.publisher("/go", "lab_msgs/msg/Order")
         self.node = ros.node("lab_behavior.lab", "/lab", **parameters)
@@ -120,6 +121,23 @@ def test_a_managed_node_may_start_itself(ros: Any, variant: Variant) -> None:
     managed.work(1)
     assert managed.node.terminate() == 0
     managed.fakes.wait("stopped", WORK[0])
+
+
+def test_a_managed_node_that_is_deactivated_while_it_ends(ros: Any, variant: Variant) -> None:
+    """It ends as soon as its server has stopped: nobody who waits for that is forgotten."""
+    package = variant("tests/ros2/models", lifecycle="true")
+    settings = {"lifecycle__autostart": True, "timeouts__cancel": 30.0}
+    managed = Managed(ros, package, stopping=2.0, **settings)
+    managed.node.wait_in("Idle")
+    managed.work(1)
+    managed.node.process.send_signal(signal.SIGTERM)
+    managed.node.wait_for("node.shutdown")
+    assert managed.change(DEACTIVATE)
+    managed.fakes.wait("stopped", WORK[0])
+    before = time.monotonic()
+
+    assert managed.node.exit_code() == 0
+    assert time.monotonic() - before < 15
 
 
 def test_callbacks_are_the_users(ros: Any, variant: Variant) -> None:

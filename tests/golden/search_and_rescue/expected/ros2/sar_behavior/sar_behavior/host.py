@@ -92,7 +92,7 @@ class Host:
         self._turn = Lock()
         self._calls = {}
         self._instance = None
-        self._then = None
+        self._waiting = []
         self._file = None
         self._is_configured = False
         self.cancel_timeout = self.server_timeout = 0
@@ -246,7 +246,6 @@ class Host:
     # ---- inside
 
     def _begin(self):
-        self._then = None
         data = self._behavior.data(self._values)
         zero = self._delays.now
         self._trace = Trace(self._member, lambda: self._delays.now - zero, self._tell)
@@ -265,14 +264,15 @@ class Host:
             self._trace.begin(self._instance, Event('node.shutdown'))
             self._instance.stop()
             self._trace.flush()
-        self._then = then
+        self._waiting.append(then)
         self._look_whether_idle()
 
     def _look_whether_idle(self):
-        """Tell whoever has ended the machine that all servers have stopped."""
-        if self._then is not None and not self._calls:
-            then, self._then = self._then, None
-            then()
+        """Tell all who have ended the machine that all servers have stopped."""
+        if not self._calls:
+            waiting, self._waiting = self._waiting, []
+            for then in waiting:
+                then()
 
     def _run(self, action):
         """Run an action to its end; whatever goes wrong in it ends the machine, not the node."""
