@@ -196,7 +196,10 @@ def test_standard_input_is_followed(
     ("name", "why"),
     [
         ("/sar/uav 0", "`/sar/uav 0` is no name in ROS"),
-        ("/sar", f"{sys.executable} has no rclpy"),
+        ("sar//uav", "`sar//uav` is no name in ROS"),
+        ("/é", "`/é` is no name in ROS"),
+        (f"{'rescue_' * 20}uav_0-x", f"`{'rescue_' * 20}uav_0-x` is no name in ROS"),
+        *((name, f"{sys.executable} has no rclpy") for name in ("/sar", "sar/uav_0/", "/", "")),
     ],
 )
 def test_nodes_that_cannot_be_followed(

@@ -84,5 +84,10 @@ def test_a_node_is_followed_while_it_runs(ros: Any) -> None:
         until(told, taken={"uav[0]": ["Mission.Idle->0"]})
     with previewed(ros, "/sar/uav_0/uav_search") as told:
         until(told, active={"uav[0]": ["Mission.TakeOff"]})
+        # The middleware takes a node that was killed for alive when the next one is there.
+        node.terminate(signal.SIGKILL)
+        node = ros.node("sar_behavior.uav_search", "/sar/uav_0", member="uav[0]")
+        until(told, active={"uav[0]": None})
+        until(told, active={"uav[0]": ["Mission.Idle"]})
         node.terminate()
         until(told, active={"uav[0]": None})

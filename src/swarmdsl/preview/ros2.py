@@ -19,7 +19,7 @@ from swarmdsl.simulate.trace_line import NAMES
 
 PREFIX = "ros2:"
 """What a node or a namespace is named with, beside files; alone, it stands for all nodes."""
-_NAME = re.compile(r"(/?[A-Za-z_]\w*)*/?")
+_NAME = re.compile(r"/?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*/?)?", re.ASCII)
 _TYPE = "std_msgs/msg/String"
 _LOOK = 0.5
 """Seconds between two looks at which nodes there are."""
@@ -103,20 +103,30 @@ class _Ears:
         self._all = qos.QoSProfile(depth=1000)
         self._last = qos.QoSProfile(depth=1, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
         self._heard: dict[str, tuple[_Robot, list[Any]]] = {}
+        self._publishers: dict[str, set[tuple[int, ...]]] = {}
+        """Those of what is heard, by their ids in the middleware."""
 
     def look(self) -> None:
         """Listen to nodes that have come, and forget those that are gone."""
         known = dict(self._node.get_topic_names_and_types())
         speaking = {
-            owner
+            owner: publishers
             for topic, types in known.items()
             for owner, _, last in [topic.rpartition("/")]
             if last == "transitions" and _TYPE in types and _TYPE in known.get(f"{owner}/state", ())
             if any(owner == name or owner.startswith(f"{name}/") for name in self._names)
             # A topic that is listened to is there without anybody who speaks.
-            if self._node.count_publishers(topic)
+            if (publishers := self._publishers_of(topic))
         }
-        for owner in sorted(speaking - self._heard.keys()):
+        for owner, before in self._publishers.items():
+            # A node that is killed stays in the graph for a while, also beside the next one.
+            if (now := speaking.get(owner)) and now <= before:
+                continue
+            robot, subscriptions = self._heard.pop(owner)
+            for each in subscriptions:
+                self._node.destroy_subscription(each)
+            robot.gone()
+        for owner in sorted(speaking.keys() - self._heard.keys()):
             # Of several machines alone, each is called as its node.
             robot = _Robot(Follower(owner, owner if self._heard else "", self._news, self._tell))
             listen = self._node.create_subscription
@@ -127,11 +137,11 @@ class _Ears:
                     listen(self._string, f"{owner}/state", robot.placed, self._last),
                 ],
             )
-        for owner in self._heard.keys() - speaking:
-            robot, subscriptions = self._heard.pop(owner)
-            for each in subscriptions:
-                self._node.destroy_subscription(each)
-            robot.gone()
+        self._publishers = speaking
+
+    def _publishers_of(self, topic: str) -> set[tuple[int, ...]]:
+        found = self._node.get_publishers_info_by_topic(topic)
+        return {tuple(each.endpoint_gid) for each in found}
 
 
 class _Robot:
