@@ -111,7 +111,10 @@ class Service(Server):
         tell(outcome, self.name)
         if outcome != "succeeded":
             raise rospy.ServiceException(outcome)
-        return filled(self._type._response_class(), fields)
+        response = self._type._response_class()
+        if hasattr(response, "success"):
+            response.success = True
+        return filled(response, fields)
 
 
 class Publisher:
