@@ -53,6 +53,13 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         ("variable", _EXACT, f"key of the {memory}, `self.n`"),
         ("param", _EXACT, f"ROS parameter, `Parameter(`, and key of the {memory}"),
         ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
+        ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
+        ("monitored topic", _EXACT, "heard by the chart: `Topic(` with `reliable=False`"),
+        (
+            "monitored feedback of an action",
+            _EXACT,
+            "heard on a hidden topic: `.Impl.FeedbackMessage` on `/_action/feedback`",
+        ),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
         (

@@ -8,7 +8,7 @@ from typing import Any
 
 from swarmdsl import plugins
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import Feature, Generator, Mapped
+from swarmdsl.generator import Feature, Generator, Mapped, Support
 from swarmdsl.options import options_of
 
 
@@ -62,9 +62,12 @@ def _page(generator: Generator) -> Iterator[str]:
             only = option.only and f"; counts only with `{option.only}`"
             yield f"    takes {option.takes}; default: {_shown(option.default)}{only}"
     missing = _cannot_express(generator)
-    yield "\ncannot express" if missing else "\ncan express every construct of state machines"
+    mappings = _mappings(generator)
+    refused = any(row.support is Support.REJECTED for rows in mappings.values() for row in rows)
+    but = ", but for what is rejected below" if refused else ""
+    yield "\ncannot express" if missing else f"\ncan express every construct of state machines{but}"
     yield from (f"  {construct}" for construct in missing)
-    for with_, mapping in _mappings(generator).items():
+    for with_, mapping in mappings.items():
         with_ = with_ and f" with `{generator.target}.{with_}`"
         yield f"\nwhat becomes of the constructs of a model{with_}"
         wide = max(len(each.construct) for each in mapping)

@@ -26,6 +26,12 @@ def test_one_target(swarmc):
     assert "--option scxml.NAME=VALUE" in ran.out
 
 
+@pytest.mark.parametrize("target", ["scxml", "ros2", "smach"])
+def test_what_a_table_rejects_is_not_said_to_be_expressed(swarmc, target):
+    page = swarmc("targets", target).out
+    assert ("but for what is rejected below\n" in page) == ("rejected  " in page)
+
+
 def test_a_target_that_has_to_be_asked_for_says_so(swarmc):
     assert "built where it is asked for: `--target amf`" in swarmc("targets", "amf").out
     assert "asked for" not in swarmc("targets", "adf").out

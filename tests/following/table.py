@@ -8,16 +8,19 @@ from collections.abc import Callable
 from swarmdsl.codes import CODES
 from swarmdsl.generator import Mapped, Support
 
-from ..smach.test_mapping import BOX, HEADER, PARTS
-from ..smach.test_mapping import MODELS as SAME
+from ..smach.test_mapping import BOX, FOR_ROS_2, HEADER, PARTS
 
+_ONE_ROW_HERE = (
+    *("constant goal or request", "goal or request of values"),
+    *("callback for a goal or request", "callback for a result or response"),
+)
 MODELS = {
-    **SAME,
+    **{construct: body for construct, body in FOR_ROS_2.items() if construct not in _ONE_ROW_HERE},
     "transition into a state": f"""
         state A {{ on Go -> Box.Deep  on Stop -> Box }}
         state Box {{ initial In {BOX} on Stop -> End }}""",
-    "goal or request": SAME["goal or request of values"],
-    "callback": SAME["callback for a result or response"],
+    "goal or request": FOR_ROS_2["goal or request of values"],
+    "callback": FOR_ROS_2["callback for a result or response"],
     "transition from deep inside to a deep history around": """
         state A {
           initial Box

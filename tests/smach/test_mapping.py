@@ -17,6 +17,7 @@ function move : abstraction { action "move" : Move }
 function ask  : abstraction { service "ask" : Ask }
 event Go   : Note
 event Stop : Note
+swarm event Call : Note
 """
 PARTS = """
 sensor Eye { out seen : Note  behavior Work }
@@ -118,6 +119,19 @@ MODELS = {
     "name that Python cannot have": """
         var lambda : int32
         state A { on Go [lambda > 1] -> End  on Stop / lambda = 2 }""",
+}
+FOR_ROS_2 = {
+    **MODELS,
+    "swarm event": "state A { on Call -> End }",
+    "monitored topic": 'state A { monitor "seen" : Note [event.level > 1] -> End }',
+    "monitored feedback of an action": """
+        var last : float64
+        state A {
+          do move(x = 1.0)
+          on succeeded, aborted -> End
+          monitor "move/feedback" : lab/MoveActionFeedback [event.feedback.x > last]
+            / last = event.feedback.x
+        }""",
 }
 
 

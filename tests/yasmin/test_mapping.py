@@ -12,6 +12,10 @@ TABLE = load("yasmin").mapping
 OWN = {"state called `canceled`": "state A { on Go -> canceled } state canceled { on Go -> End }"}
 
 
+def test_every_construct_has_a_row() -> None:
+    assert {each.construct for each in TABLE} == {*MODELS, *OWN}
+
+
 @pytest.mark.parametrize("number", range(len(TABLE)), ids=[each.construct for each in TABLE])
 def test_the_table_is_true(number: int, generate: Generate, reported: Reported) -> None:
     body = {**MODELS, **OWN}[TABLE[number].construct]
