@@ -76,17 +76,21 @@ class Host:
         self.told = Told(chart)
         self.model: Model | None = None
         self.failure: Exception | None = None
+        self._turn = threading.Lock()
 
     def begin_engine(self) -> None:
-        self.chart.begun()
-        self.model = Model(self.subject, self.told)
-        self.settle()
+        with self._turn:
+            if self.chart.is_wanted:
+                self.model = Model(self.subject, self.told)
+            self.chart.begun()
+            self.settle()
 
     def end_engine(self) -> None:
-        if self.model is not None and self.model.instance.running:
-            self.model.instance.stop()
-        self.settle()
-        self.chart.released()
+        with self._turn:
+            if self.model is not None and self.model.instance.running:
+                self.model.instance.stop()
+            self.settle()
+            self.chart.released()
 
     def take(self, step: Step) -> None:
         assert self.model is not None

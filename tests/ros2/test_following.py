@@ -85,6 +85,25 @@ Thread(target=preempt, daemon=True).start()
 print('came out with', outer.execute(), flush=True)
 os._exit(0)
 """
+# The machine is stopped when its library has begun, and its engine is about to.
+TOO_SOON = """
+import os
+import sys
+import rclpy
+from sar_behavior import runner
+from sar_behavior.uav_search{suffix} import build
+
+class Engine(runner.Engine):
+    def begin_engine(self):
+        {stop}
+        super().begin_engine()
+
+rclpy.init(args=sys.argv)
+runner.Engine = Engine
+search = build()
+print('came out with', {run}, flush=True)
+os._exit(0)
+"""
 
 
 @dataclass(frozen=True)
@@ -98,6 +117,8 @@ class Library:
     stand_in: tuple[Path, ...]
     real: str
     program: str
+    stop: str
+    run: str
 
 
 YASMIN = Library(
@@ -108,6 +129,8 @@ YASMIN = Library(
     (HERE.parent / "yasmin" / "stand_in",),
     "SWARMDSL_YASMIN_PATH",
     IN_YASMIN,
+    "search.cancel_state()",
+    "search()",
 )
 SMACH = Library(
     "SMACH",
@@ -117,6 +140,8 @@ SMACH = Library(
     (HERE.parent / "smach" / "stand_in", HERE / "smach_stand_in"),
     "SWARMDSL_SMACH_PATH",
     IN_SMACH,
+    "search.request_preempt()",
+    "search.execute()",
 )
 
 
@@ -224,3 +249,18 @@ def test_a_machine_in_a_program_of_somebody_else(
     output, _ = process.communicate(timeout=60)
     said = [line for line in output.splitlines() if not line.startswith("[")]  # logs, too
     assert said == ["altitude 3.5", "altitude 3.5", "came out with enough"]
+
+
+def test_a_machine_that_is_stopped_before_its_engine_has_begun(
+    robot: Callable[..., Any], library: Library, ros: Any, tmp_path: Path
+) -> None:
+    """It ends, and does nothing of what it would do when it begins."""
+    robot("examples/search_and_rescue", "", "")
+    program = tmp_path / "program.py"
+    text = TOO_SOON.format(suffix=library.suffix, stop=library.stop, run=library.run)
+    program.write_text(text, encoding="utf-8")
+    trace = tmp_path / "trace.jsonl"
+    process = ros.start(program, "--ros-args", "-p", f"trace.file:={trace}", stdout=subprocess.PIPE)
+    output, _ = process.communicate(timeout=30)
+    assert f"came out with {library.stopped}" in output.splitlines()
+    assert trace.read_text(encoding="utf-8") == ""

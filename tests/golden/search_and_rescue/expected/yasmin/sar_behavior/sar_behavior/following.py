@@ -62,7 +62,7 @@ class Chart:
             for transition, way in zip(state.transitions, ways[state.id], strict=True)
         }
         self._entries = entries
-        self._is_running = self._has_begun = self._is_canceling = False
+        self._is_running = self._has_begun = self._is_stopped = self._is_canceling = False
         self._event = None
         self._clear()
 
@@ -80,14 +80,12 @@ class Chart:
             begins = not self._is_running and not self._queues.get(path) and not self.is_closed
             if begins:
                 self._clear()
-                self._is_running, self._has_begun = True, False
+                self._is_running, self._has_begun, self._is_stopped = True, False, False
                 self.memory = memory
         if begins:
             if self.host is None:
                 self.host = self._make_host(self)
             self.host.begin_engine()
-            if self.is_closed:  # meanwhile
-                self.cancel()
         with self.changed:
             self.changed.wait_for(lambda: self._queues.get(path) or not self._is_running)
             if not self._queues.get(path):
@@ -104,14 +102,20 @@ class Chart:
 
     def cancel(self):
         """Let the engine leave all states; they are over when no server works any more."""
+        self._is_stopped = True
         if self.host is not None:
             self._is_canceling = True
             self.host.end_engine()
 
     # ---- what the host calls
 
+    @property
+    def is_wanted(self):
+        """Whether the engine is to begin: nobody has stopped the machine meanwhile."""
+        return not (self.is_closed or self._is_stopped)
+
     def begun(self):
-        """Take note that the engine has begun: from now on it says how long it runs."""
+        """Take note that the engine has begun or never will: now it says how long it runs."""
         self._has_begun = True
 
     def released(self):

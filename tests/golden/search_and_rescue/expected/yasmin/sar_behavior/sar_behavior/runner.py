@@ -126,7 +126,8 @@ class Engine(host.Host):
         self._node.executor.create_task(action)
 
     def _begin(self):
-        super()._begin()
+        if self._chart.is_wanted:
+            super()._begin()
         self._chart.begun()
 
     def _begin_activity(self, activation):
