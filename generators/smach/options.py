@@ -10,6 +10,8 @@ from .names import NAMES
 
 
 def _package_fault(name: str) -> str | None:
+    # For both, whatever `ros` is: a check of an option sees no other one, and only what it finds is
+    # shown where the option stands. A name that passes stays when a package moves to ROS 2.
     from ..ros2.names import NAMES as OF_ROS_2
 
     return NAMES.option_fault(name) or OF_ROS_2.option_fault(name)

@@ -6,7 +6,7 @@ import pytest
 
 from swarmdsl.plugins import load
 
-from ..following.table import MODELS, Generate, Reported, check_row
+from ..following.table import HEADER, MODELS, Generate, Reported, check_row
 
 TABLE = load("yasmin").mapping
 OWN = {"state called `canceled`": "state A { on Go -> canceled } state canceled { on Go -> End }"}
@@ -20,3 +20,10 @@ def test_every_construct_has_a_row() -> None:
 def test_the_table_is_true(number: int, generate: Generate, reported: Reported) -> None:
     body = {**MODELS, **OWN}[TABLE[number].construct]
     check_row(TABLE[number], body, "yasmin", "_fsm", generate, reported)
+
+
+def test_a_package_of_interfaces_that_would_hide_yasmin(reported: Reported) -> None:
+    machine = "statemachine Work { initial A state A { on Go -> End } final End }"
+    model = HEADER.replace("package lab", "package yasmin_ros") + machine
+    ((code, message, _),) = reported(model, package="lab")
+    assert (code, "YASMIN has it" in message) == ("bad-identifier", True)
