@@ -9,6 +9,7 @@ import threading
 from collections.abc import Iterator
 from pathlib import Path
 from queue import SimpleQueue
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -211,6 +212,16 @@ def test_nodes_that_cannot_be_followed(
     said = capsys.readouterr().err
     assert f"error[SW1012]: ROS 2 cannot be followed: {why}" in said
     assert "help: " in said
+
+
+def test_ros_2_without_its_usual_messages(tmp_path: Path, capsys: Any, monkeypatch: Any) -> None:
+    for name in ("rclpy", "rclpy.executors"):
+        there = SimpleNamespace(SingleThreadedExecutor=None)
+        monkeypatch.setitem(sys.modules, name, there)
+    monkeypatch.setitem(sys.modules, "std_msgs.msg", None)
+    (tmp_path / "yard.swarm").write_text(MODEL, encoding="utf-8")
+    assert run(["preview", str(tmp_path), "--follow", "ros2:"]) == 1
+    assert f"{sys.executable} has no std_msgs.msg" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

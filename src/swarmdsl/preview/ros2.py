@@ -51,9 +51,11 @@ def listening(
             )
     try:
         rclpy = import_module("rclpy")
+        make_executor = import_module("rclpy.executors").SingleThreadedExecutor
+        string = import_module("std_msgs.msg").String
     except ImportError as error:
         raise UnavailableError(
-            f"{sys.executable} has no rclpy: {error}",
+            f"{sys.executable} has no {error.name or 'rclpy'}: {error}",
             "source the setup file of ROS 2, as `. /opt/ros/DISTRO/setup.sh`, and run a swarmc "
             "that is installed for its Python",
         ) from error
@@ -67,10 +69,11 @@ def listening(
             start_parameter_services=False,
         )
     except Exception as error:
+        context.try_shutdown()
         raise UnavailableError(f"{error}".partition("\n")[0], "`ros2 doctor` says more") from error
-    executor = import_module("rclpy.executors").SingleThreadedExecutor(context=context)
+    executor = make_executor(context=context)
     executor.add_node(node)
-    ears = _Ears(rclpy, node, [f"/{name.strip('/')}".rstrip("/") for name in names], news, tell)
+    ears = _Ears(rclpy.qos, string, node, names, news, tell)
     node.create_timer(_LOOK, ears.look)
     thread = Thread(target=executor.spin, daemon=True)
     thread.start()
@@ -88,18 +91,18 @@ class _Ears:
 
     def __init__(
         self,
-        rclpy: Any,
+        qos: Any,
+        string: Any,
         node: Any,
         names: Sequence[str],
         news: News,
         tell: Callable[[Diagnostics], None],
     ) -> None:
         self._node = node
-        self._names = names
+        self._names = [f"/{name.strip('/')}".rstrip("/") for name in names]
         self._news = news
         self._tell = tell
-        self._string = import_module("std_msgs.msg").String
-        qos = rclpy.qos
+        self._string = string
         self._all = qos.QoSProfile(depth=1000)
         self._last = qos.QoSProfile(depth=1, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
         self._heard: dict[str, tuple[_Robot, list[Any]]] = {}
