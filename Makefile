@@ -69,6 +69,8 @@ bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/perfo
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
 	$(BIN)/pytest -q tests/front/test_mutations.py tests/front/test_pieces.py tests/peg tests/workspace --mutants $(MUTANTS)
+	$(BIN)/pytest -q tests/printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
+		--hypothesis-profile chance
 
 parser: $(READY) ## Make the parser from the grammar.
 	$(BIN)/python -m swarmdsl.peg
