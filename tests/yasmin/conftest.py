@@ -10,7 +10,7 @@ import functools
 import importlib.util
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -22,47 +22,28 @@ from swarmdsl.ir import System
 from swarmdsl.options import parse_options
 from swarmdsl.plugins import load
 
+from ..following.fixtures import Emit, generate, reported
 from ..following.generated import Builder, forget
+
+__all__ = ["generate", "reported"]  # fixtures
 
 # The modules of YASMIN, of the stand-in and of the real one: that can be imported only once.
 _LOADED: dict[bool, dict[str, ModuleType]] = {}
 STAND_IN = Path(__file__).parent / "stand_in"
 
 
-def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+@pytest.fixture
+def emit() -> Emit:
     """What the generator makes of a system, and what it reports."""
-    generator = load("yasmin")
-    report = Diagnostics()
-    chosen = parse_options(generator, options, report)
-    files = [] if report.has_errors else list(generator.emit(system, chosen, report))
-    return files, report
 
+    def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+        generator = load("yasmin")
+        report = Diagnostics()
+        chosen = parse_options(generator, options, report)
+        files = [] if report.has_errors else list(generator.emit(system, chosen, report))
+        return files, report
 
-@pytest.fixture
-def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, str]]:
-    """Generate from the text of a model; the texts by path in the package of the behaviour."""
-
-    def generate(text: str, **options: str) -> dict[str, str]:
-        files, report = emit(compiled(text), **options)
-        assert not list(report)
-        package = files[0].path.partition("/")[0] + "/"
-        return {file.path.removeprefix(package): file.text for file in files}
-
-    return generate
-
-
-@pytest.fixture
-def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
-    """What is reported about a model: name, message, the text it points at."""
-
-    def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
-        _, report = emit(compiled(text), **options)
-        return [
-            (found.name, found.message, found.primary.span.text if found.primary else "")
-            for found in report
-        ]
-
-    return reported
+    return emit
 
 
 @functools.cache
@@ -86,7 +67,7 @@ def yasmin_path(request: pytest.FixtureRequest) -> tuple[str, ...]:
 
 @pytest.fixture
 def build(
-    yasmin_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    yasmin_path: tuple[str, ...], emit: Emit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Builder]:
     """Generate a system and import the module of a machine; `chart` stands for the table."""
     for place in yasmin_path:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -13,47 +13,28 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.generator import OutputFile
 from swarmdsl.ir import System
 
+from ...following.fixtures import Emit, generate, reported
 from ...following.generated import Builder, forget
 from ..conftest import emit as emit_for
+
+__all__ = ["generate", "reported"]  # fixtures
 
 ROS = {"ros": "2"}
 
 
-def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+@pytest.fixture
+def emit() -> Emit:
     """What the generator makes of a system for ROS 2, and what it reports."""
-    return emit_for(system, **ROS, **options)
 
+    def emit(system: System, **options: str) -> tuple[list[OutputFile], Diagnostics]:
+        return emit_for(system, **ROS, **options)
 
-@pytest.fixture
-def generate(compiled: Callable[[str], System]) -> Callable[..., dict[str, str]]:
-    """Generate from the text of a model; the texts by path in the package of the behaviour."""
-
-    def generate(text: str, **options: str) -> dict[str, str]:
-        files, report = emit(compiled(text), **options)
-        assert not list(report)
-        package = files[0].path.partition("/")[0] + "/"
-        return {file.path.removeprefix(package): file.text for file in files}
-
-    return generate
-
-
-@pytest.fixture
-def reported(compiled: Callable[[str], System]) -> Callable[..., list[tuple[str, str, str]]]:
-    """What is reported about a model: name, message, the text it points at."""
-
-    def reported(text: str, **options: str) -> list[tuple[str, str, str]]:
-        _, report = emit(compiled(text), **options)
-        return [
-            (found.name, found.message, found.primary.span.text if found.primary else "")
-            for found in report
-        ]
-
-    return reported
+    return emit
 
 
 @pytest.fixture
 def build(
-    smach_path: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    smach_path: tuple[str, ...], emit: Emit, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[Builder]:
     """Generate a system and import the module of a machine; `chart` stands for the table."""
     for place in smach_path:
