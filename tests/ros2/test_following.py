@@ -104,6 +104,61 @@ search = build()
 print('came out with', {run}, flush=True)
 os._exit(0)
 """
+# The machine begins anew while the thread that runs it has not come to its end.
+ANEW = """
+import os
+import sys
+from threading import Thread
+import time
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.node import Node
+from sar_behavior.runner import Fsm, Host
+from sar_behavior.uav_search{suffix} import BEHAVIOR, CHART, build
+
+class Slow:
+    def __init__(self, search):
+        self.search = search
+
+    def execute(self, *memory):
+        print('begins', flush=True)
+        search = self.search
+        outcome = {run}
+        time.sleep(0.3)
+        print('has ended', flush=True)
+        return outcome
+
+    __call__ = execute
+
+class SlowHost(Host):
+    def configure(self):
+        super().configure()
+        self._machine = Slow(self._machine)
+
+def until_it_runs():
+    while host._instance is None or not host._instance.running:
+        time.sleep(0.01)
+
+rclpy.init(args=sys.argv)
+node = Node('uav_search')
+host = SlowHost(node, Fsm(BEHAVIOR, CHART, build), lambda failed: ends.append(failed))
+ends = []
+host.configure()
+executor = SingleThreadedExecutor()
+executor.add_node(node)
+Thread(target=executor.spin, daemon=True).start()
+host.begin()
+until_it_runs()
+for _ in range(2):
+    host.end()
+    host.begin()
+until_it_runs()
+host.end()
+while len(ends) < 3:
+    time.sleep(0.01)
+print(*ends, flush=True)
+os._exit(0)
+"""
 
 
 @dataclass(frozen=True)
@@ -264,3 +319,16 @@ def test_a_machine_that_is_stopped_before_its_engine_has_begun(
     output, _ = process.communicate(timeout=30)
     assert f"came out with {library.stopped}" in output.splitlines()
     assert trace.read_text(encoding="utf-8") == ""
+
+
+def test_a_machine_that_begins_anew_has_ended_before(
+    robot: Callable[..., Any], library: Library, ros: Any, tmp_path: Path
+) -> None:
+    """However fast a node is deactivated and activated, one thread at a time runs its machine."""
+    robot("examples/search_and_rescue", "", "")
+    program = tmp_path / "program.py"
+    program.write_text(ANEW.format(suffix=library.suffix, run=library.run), encoding="utf-8")
+    process = ros.start(program, stdout=subprocess.PIPE)
+    output, _ = process.communicate(timeout=30)
+    said = [line for line in output.splitlines() if not line.startswith("[")]
+    assert said == [*["begins", "has ended"] * 3, "False False False"]
