@@ -24,6 +24,7 @@ from swarmdsl.ir import (
     TimeTrigger,
 )
 from swarmdsl.ir.expressions import parts
+from swarmdsl.source import Span
 
 from .names import TARGET, type_name
 
@@ -72,18 +73,31 @@ def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
 
 
 def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Diagnostics) -> None:
-    """Report what is read of feedback in ROS 1 only: its header and the status of its goal."""
+    """Report what is used of feedback in ROS 1 only: its header and the status of its goal."""
+    kept = {each.name: each.type for each in machine.variables}
     for state in machine.walk():
-        for use in _fields_read(state):
-            owner = use.base.type
-            if owner in made and str(owner).endswith(_FEEDBACK) and use.field != _IN_BOTH:
+        read = ((use.base.type, use.field, use.origin) for use in _fields_read(state))
+        stored = ((kept.get(name), path[0], at) for name, path, at in _stored(state) if path)
+        for owner, field, origin in (*read, *stored):
+            if owner in made and str(owner).endswith(_FEEDBACK) and field != _IN_BOTH:
                 report.report(
                     "unsupported-construct",
-                    use.origin or state.origin,
+                    origin or state.origin,
                     target=TARGET,
-                    construct=f"field `{use.field}` of `{owner}`",
-                    help="of that message in ROS 2, a model can read `feedback` only",
+                    construct=f"field `{field}` of `{owner}`",
+                    help="of that message in ROS 2, a model can use `feedback` only",
                 )
+
+
+def _stored(state: State) -> Iterator[tuple[str, tuple[str, ...], Span | None]]:
+    """The variables that are assigned to, with the path below each, and where."""
+    effects = [*state.entry, *state.exit, *(e for each in state.transitions for e in each.effects)]
+    for effect in effects:
+        if isinstance(effect, Assignment):
+            yield effect.variable, effect.path, effect.origin
+    if state.activity is not None:
+        for result in state.activity.results:
+            yield result.variable, result.path, result.origin
 
 
 def _fields_read(state: State) -> Iterator[FieldAccess]:
