@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from swarmdsl.habits import mark
+from swarmdsl.foreign_words import mark
 from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.suggest import closest
 

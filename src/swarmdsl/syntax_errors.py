@@ -8,7 +8,8 @@ from collections.abc import Iterable
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.draft import Draft
-from swarmdsl.habits import foreign, habit
+from swarmdsl.foreign_words import foreign
+from swarmdsl.habits import habit
 from swarmdsl.late import noticed_late
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax_advice import advice, keywords, strange_character
