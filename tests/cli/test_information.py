@@ -75,6 +75,28 @@ def test_an_unknown_command(swarmc):
     assert "`swarmc --help` lists all" in swarmc("fly").err
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("build --tagret ros2", "there is no option `--tagret`: did you mean `--target`?"),
+        ("check --target ros2", "no option `--target` here: `swarmc build` has `--target`"),
+        ("check --fly", "there is no option `--fly`\n"),
+        ("build --format jsn", "'sarif': did you mean `json`?"),
+        ("build --format poetry", "'sarif'."),
+        ("new x -t rso2", "did you mean `ros2`?"),
+        ("add functoin count", "there is no command `functoin`: did you mean `function`?"),
+        ("import fly", "`swarmc import --help` lists all"),
+        ("build -t ros2 --option distro=x", "TARGET.NAME=VALUE: write `ros2.distro=x`"),
+        ("build -t ros2 --option smach.x=1", "`smach` is not built: add `--target smach`"),
+        ("build -t ros2 --option rso2.x=1", "`rso2` is not built: did you mean `ros2`?"),
+    ],
+)
+def test_a_word_of_the_command_line_that_means_nothing(swarmc, words, said):
+    ran = swarmc(*words.split())
+    assert (ran.code, ran.out) == (2, "")
+    assert said in ran.err
+
+
 def test_a_model_whose_ending_is_misspelt(swarmc, tmp_path):
     (tmp_path / "patrol.swarm").touch()
     ran = swarmc("check", str(tmp_path / "patrol.swarn"))

@@ -138,7 +138,8 @@ def bars(svg: str) -> list[tuple[str, float, float]]:
 
 
 def test_the_timeline(simulate: Simulate) -> None:
-    simulate(SWARM, "--timeline", "a.svg", scenario=SCENARIO)
+    ran = simulate(SWARM, "--timeline", "a.svg", "--trace-file", "run.jsonl", scenario=SCENARIO)
+    assert ran.err.endswith("\n\nwritten: run.jsonl, a.svg\n")
     simulate(SWARM, "--timeline", "b.svg", scenario=SCENARIO)
     svg = Path("a.svg").read_text(encoding="utf-8")
 

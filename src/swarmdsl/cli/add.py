@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from swarmdsl.cli import options
+from swarmdsl.cli.words import Choice, Group
 
 _FILE = click.Path(path_type=Path)
 _name = click.argument("name")
@@ -77,7 +78,9 @@ def _common(command: Callable[..., Any]) -> Callable[..., Any]:
 
 
 @click.group(
-    "add", epilog="Example: swarmc add event BatteryLow sensor_msgs/BatteryState --on battery"
+    "add",
+    cls=Group,
+    epilog="Example: swarmc add event BatteryLow sensor_msgs/BatteryState --on battery",
 )
 @options.debug
 def add() -> None:
@@ -94,7 +97,7 @@ def add() -> None:
 @_name
 @click.option(
     "--kind",
-    type=click.Choice(("sensor", "actuator", "controller", "virtual")),
+    type=Choice(("sensor", "actuator", "controller", "virtual")),
     default="sensor",
     show_default=True,
     help="What it is.",
@@ -160,7 +163,7 @@ def member(**given: Any) -> int:
 @_name
 @click.option(
     "--category",
-    type=click.Choice(("abstraction", "swarm")),
+    type=Choice(("abstraction", "swarm")),
     default="abstraction",
     show_default=True,
     help="What it is about: the robot, or the swarm.",

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
+from swarmdsl.cli.words import Choice
 from swarmdsl.cli.writing import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
 from swarmdsl.diagnostics import Level
 from swarmdsl.project.command_line import named_levels
@@ -19,7 +20,7 @@ _FILE = options.PLACE
 @click.option(
     "--env",
     "-e",
-    type=click.Choice(["ROS"], case_sensitive=False),
+    type=Choice(["ROS"], case_sensitive=False),
     default="ROS",
     show_default=True,
     help="What the packages are for.",
@@ -39,14 +40,14 @@ _FILE = options.PLACE
     help="The folder for the packages.",
 )
 @click.option(
-    "--mode", type=click.Choice(["simulation"]), help="Add a launch file for Gazebo and a world."
+    "--mode", type=Choice(["simulation"]), help="Add a launch file for Gazebo and a world."
 )
 @click.option(
     "--package", default="fsm_behaviour", show_default=True, help="The name of the package."
 )
 @click.option(
     "--language",
-    type=click.Choice(["cpp", "python"]),
+    type=Choice(["cpp", "python"]),
     default="cpp",
     show_default=True,
     help="The language of skeletons.",

@@ -13,10 +13,11 @@ import click
 from swarmdsl import __version__
 from swarmdsl.cli import COMMANDS, PLAIN, options
 from swarmdsl.cli.outcome import INTERRUPTED, OK
+from swarmdsl.cli.words import Group, unknown_option
 from swarmdsl.usage import UsageError
 
 
-class _Commands(click.Group):
+class _Commands(Group):
     """The commands, each imported when it is asked for."""
 
     def list_commands(self, _context: click.Context) -> list[str]:
@@ -30,17 +31,6 @@ class _Commands(click.Group):
         command = _of_click(module, name) if name in PLAIN else getattr(module, called)
         assert isinstance(command, click.Command)
         return command
-
-    def resolve_command(
-        self, context: click.Context, words: list[str]
-    ) -> tuple[str | None, click.Command | None, list[str]]:
-        name = words[0]
-        if name not in COMMANDS and not (name.startswith("-") or context.resilient_parsing):
-            from swarmdsl.suggest import did_you_mean
-
-            hint = did_you_mean(name, COMMANDS) or "`swarmc --help` lists all"
-            context.fail(f"there is no command `{name}`: {hint}")
-        return super().resolve_command(context, words)
 
 
 def _of_click(module: ModuleType, name: str) -> click.Command:
@@ -92,6 +82,9 @@ def run(arguments: Sequence[str]) -> int:
     """Run a command line; return the exit code."""
     try:
         return cli.main(list(arguments), prog_name="swarmc", standalone_mode=False) or OK
+    except click.NoSuchOption as error:
+        click.UsageError(unknown_option(error), error.ctx).show()
+        return error.exit_code
     except click.ClickException as error:
         error.show()
         return error.exit_code

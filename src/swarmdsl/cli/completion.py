@@ -6,10 +6,11 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import OK
+from swarmdsl.cli.words import Choice
 
 
 @click.command(epilog="Example: swarmc completion bash")
-@click.argument("shell", type=click.Choice(("bash", "zsh", "fish")))
+@click.argument("shell", type=Choice(("bash", "zsh", "fish")))
 @options.debug
 def completion(shell: str) -> int:
     """Print what makes a shell complete commands, options and files.

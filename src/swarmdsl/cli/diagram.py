@@ -9,6 +9,7 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import exit_code
+from swarmdsl.cli.words import Choice
 
 
 @click.command(
@@ -17,7 +18,7 @@ from swarmdsl.cli.outcome import exit_code
 @options.files
 @click.option(
     "--kind",
-    type=click.Choice(("composition", "internal", "statechart", "all")),
+    type=Choice(("composition", "internal", "statechart", "all")),
     default="all",
     show_default=True,
     help="Swarms with their members; members with their parts and connectors; state machines.",
@@ -32,7 +33,7 @@ from swarmdsl.cli.outcome import exit_code
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(("svg", "mermaid", "dot", "plantuml")),
+    type=Choice(("svg", "mermaid", "dot", "plantuml")),
     default="svg",
     show_default=True,
     help="What is written.",

@@ -12,6 +12,7 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import OK
+from swarmdsl.cli.words import Choice
 from swarmdsl.compare.rules import RULES
 
 if TYPE_CHECKING:
@@ -68,7 +69,7 @@ def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(("text", "markdown", "json")),
+    type=Choice(("text", "markdown", "json")),
     default="text",
     show_default=True,
     help="How differences are printed; JSON is a line for each.",

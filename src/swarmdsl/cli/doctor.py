@@ -6,6 +6,7 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import ERRORS, OK
+from swarmdsl.cli.words import Choice
 
 
 @click.command(epilog="Example: swarmc doctor ros2")
@@ -13,7 +14,7 @@ from swarmdsl.cli.outcome import ERRORS, OK
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(("text", "json")),
+    type=Choice(("text", "json")),
     default="text",
     show_default=True,
     help="How the answer is printed.",

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.cli import options
+from swarmdsl.cli.words import Group
 
 if TYPE_CHECKING:
     from swarmdsl.importing.command import Format
@@ -32,7 +33,11 @@ _force = click.option(
 )
 
 
-@click.group("import", epilog="Example: swarmc import scxml search.xml --adf uav.json -o uav.swarm")
+@click.group(
+    "import",
+    cls=Group,
+    epilog="Example: swarmc import scxml search.xml --adf uav.json -o uav.swarm",
+)
 @options.debug
 def import_() -> None:
     """Make models of SCXML, ADF and AMF files and of ROS packages.

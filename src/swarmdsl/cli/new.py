@@ -10,12 +10,13 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import exit_code
+from swarmdsl.cli.words import Choice
 
 if TYPE_CHECKING:
     from swarmdsl.scaffold.plan import Plan
 
 
-class _Target(click.Choice):  # type: ignore[type-arg]  # no generic class in Click 8.1
+class _Target(Choice):
     """One of the targets that projects are made for."""
 
     def convert(

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 import click
 
 from swarmdsl.cli.parameters import FORMAT, LEVELS, Option
+from swarmdsl.cli.words import Choice
 
 
 class _Place(click.Path):
@@ -35,7 +36,7 @@ def option(about: Option) -> Callable[[_Decorated], _Decorated]:
         *about.flags,
         about.parameter,
         is_flag=about.kind is None,
-        type=click.Choice(about.choices) if about.choices else types[about.kind],
+        type=Choice(about.choices) if about.choices else types[about.kind],
         metavar=about.metavar,
         multiple=about.repeated,
         default=about.default,

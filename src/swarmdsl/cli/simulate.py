@@ -9,6 +9,7 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.words import Choice
 from swarmdsl.render import render
 
 
@@ -41,7 +42,7 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 )
 @click.option(
     "--trace",
-    type=click.Choice(("text", "json", "none")),
+    type=Choice(("text", "json", "none")),
     help="How it is told what happens.  [default: text; json in a file; none on a terminal, "
     "which shows a table]",
 )

@@ -8,6 +8,7 @@ import click
 
 from swarmdsl.cli import options
 from swarmdsl.cli.outcome import exit_code
+from swarmdsl.cli.words import Choice
 from swarmdsl.render import render
 
 
@@ -16,7 +17,7 @@ from swarmdsl.render import render
 @click.option(
     "--format",
     "format_",
-    type=click.Choice(("text", "json")),
+    type=Choice(("text", "json")),
     default="text",
     show_default=True,
     help="How the answer is printed.",

@@ -15,6 +15,7 @@ from swarmdsl.project import find_settings
 from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import COMMAND_LINE, Source, Span
+from swarmdsl.suggest import did_you_mean
 from swarmdsl.usage import UsageError
 
 if TYPE_CHECKING:
@@ -48,9 +49,11 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
         name, equals, value = option.partition("=")
         target, dot, name = name.partition(".")
         if not (equals and dot and name):
-            raise UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE")
+            way = f": write `{built[0]}.{option}`" if equals and len(built) == 1 else ""
+            raise UsageError(f"`--option {option}` has not the form TARGET.NAME=VALUE{way}")
         if target not in given:
-            raise UsageError(f"`--option {option}`: target `{target}` is not built")
+            way = did_you_mean(target, given) or f"add `--target {target}`"
+            raise UsageError(f"`--option {option}`: target `{target}` is not built: {way}")
         if given[target].setdefault(name, value) != value:
             raise UsageError(
                 f"`{target}.{name}` is given as `{given[target][name]}` and as `{value}`"

@@ -153,6 +153,7 @@ class _Play:
         self._cast = cast
         self._inputs = inputs
         self._wrong = False
+        self._written: list[Path] = []
         self._until = request.until if request.until is not None else scenario.until
         seed = request.seed if request.seed is not None else scenario.seed
         self._listeners: list[Callable[[Line], None]] = []
@@ -212,6 +213,9 @@ class _Play:
         if unplayed and ending == _ENDINGS["quiet"] and (awaited := summary.awaited):
             start = request.paths[0] if request.paths else Path()
             click.echo(f"\n{advice(awaited, self._subject, start)}", err=True)
+        if self._written:
+            names = [printable(str(path)) for path in self._written]
+            click.echo(f"\nwritten: {', '.join(names)}", err=True)
         return None if interrupted else not (report.has_errors or self._wrong)
 
     def _run(self, tell: Tell) -> Ending:
@@ -270,19 +274,29 @@ class _Play:
             # A person watches the board instead, and types where there is something to type.
             watched = sys.stdout.isatty() and self._request.events != _STDIN
             return None if watched and self._request.trace is None else sys.stdout
-        return _write_to(path, stack, report)
+        return self._write_to(path, stack, report)
 
     def _picture(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
         """Draws the timeline, if one is wanted."""
         if self._request.timeline is None:
             return None
-        stream = _write_to(self._request.timeline, stack, report)
+        stream = self._write_to(self._request.timeline, stack, report)
         if stream is None:
             return None
         timeline = Timeline(self._subject.name, self._cast)
         self._listeners.append(timeline.note)
         self._world.crossed = timeline.crossed
         return lambda: stream.write(timeline.svg(self._world.clock.now))
+
+    def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
+        try:
+            stream = stack.enter_context(path.open("w", encoding="utf-8", newline="\n"))
+        except OSError as error:
+            reason = str(error.strerror)
+            report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+            return None
+        self._written.append(path)
+        return stream
 
     def _writer(self, stream: TextIO) -> Callable[[Line], None]:
         kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")
@@ -313,12 +327,3 @@ class _Play:
             time=shown(now),
             help=f"let {listed(error.states[:_MOST_SHOWN], 'or')} wait for an event or for a time",
         )
-
-
-def _write_to(path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
-    try:
-        return stack.enter_context(path.open("w", encoding="utf-8", newline="\n"))
-    except OSError as error:
-        reason = str(error.strerror)
-        report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
-        return None
