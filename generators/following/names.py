@@ -8,7 +8,7 @@ from swarmdsl.source import Span
 from ..ros2.view import PackageView
 from .library import Library
 
-_MODULES = ("following", "runner")
+_MODULES = ("following", "library", "runner")
 
 
 def check_names(package: PackageView, library: Library, report: Diagnostics) -> None:

@@ -55,12 +55,14 @@ class _Report(Diagnostics):
 def shared_files(
     package: PackageView, options: Options, library: Library, readme: str, states: str
 ) -> Iterator[OutputFile]:
-    """What all libraries have; `states` are the classes of the states of this one."""
+    """What all libraries have; `states` are the classes of the states of this one.
+
+    The module `library`, with what a node asks of it, each library has of its own.
+    """
     root = package.name
     for file in ros2.files(package, options):
         yield OutputFile(file.path, readme) if file.path == f"{root}/README.md" else file
     values = {"header": header(package, options), "library": library, "states": states}
-    values["is_yasmin"] = library.target == "yasmin"
     for module in ("following", "runner"):
         text = _templates().fill(f"{module}.py.j2", **values)
         yield OutputFile(f"{root}/{root}/{module}.py", text)

@@ -2,29 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import Generator, OutputFile, chosen_machines
-from swarmdsl.ir import System
+from swarmdsl.generator import Generator, chosen_machines, emit_of
 
 from .mapping import MAPPING
 from .options import Options
 from .ros2.mapping import MAPPING as MAPPING_FOR_ROS_2
 
-
-def emit(system: System, options: Options, report: Diagnostics) -> Iterable[OutputFile]:
-    """The files of the packages."""
-    # Imported here because whoever checks the options of a project needs no more than these.
-    from .render import emit
-
-    return emit(system, options, report)
-
-
 generator = Generator(
     target="smach",
     summary="ROS 1 (noetic) or 2: a package that runs the state machines with SMACH",
-    emit=emit,
+    emit=emit_of(f"{__name__}.render"),
     options_type=Options,
     machines=chosen_machines,
     mapping=MAPPING,

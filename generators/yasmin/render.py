@@ -41,6 +41,7 @@ def _behavior(package: PackageView, views: list[FsmView], options: Options) -> I
     values = {"package": package, "views": views, "header": head}
     readme, states = _fill("README.md", **values), _fill("package/states.py")
     yield from following.shared_files(package, options, YASMIN, readme, states)
+    yield OutputFile(f"{root}/{root}/library.py", _fill("package/library.py", **values))
     imports = _imports_of_test(package, views)
     text = _fill("test/test_yasmin.py", imports=imports, **values)
     yield OutputFile(f"{root}/test/test_yasmin.py", text)

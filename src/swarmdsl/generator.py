@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
+from importlib import import_module
 from typing import Any, TypeVar
 
 from swarmdsl.dataclass import dataclass, field
@@ -133,6 +134,22 @@ def chosen_machines(system: System) -> list[StateMachine]:
     return [machine for machine in system.machines if not used or machine.name in used]
 
 
+Emit = Callable[[System, Any, Diagnostics], Iterable[OutputFile]]
+
+
+def emit_of(module: str) -> Emit:
+    """The function `emit` of a module that is imported when it is called.
+
+    Whoever checks the options of a project needs no more than these.
+    """
+
+    def emit(system: System, options: Any, report: Diagnostics) -> Iterable[OutputFile]:
+        found: Emit = import_module(module).emit
+        return found(system, options, report)
+
+    return emit
+
+
 @dataclass(frozen=True)
 class Generator:
     """One target.
@@ -148,7 +165,7 @@ class Generator:
 
     target: str
     summary: str
-    emit: Callable[[System, Any, Diagnostics], Iterable[OutputFile]]
+    emit: Emit
     options_type: type = NoOptions
     supports: frozenset[Feature] = ALL_FEATURES
     api_version: int = API_VERSION
@@ -166,6 +183,7 @@ __all__ = [
     "NoOptions",
     "OutputFile",
     "Support",
+    "emit_of",
     "fits",
     "option",
 ]

@@ -49,6 +49,7 @@ def _behavior(
     values = {"package": package, "views": views, "header": head}
     readme, states = _fill("README.md", **values), _fill("states.py")
     yield from following.shared_files(package, options, SMACH, readme, states)
+    yield OutputFile(f"{root}/{root}/library.py", _fill("library.py", **values))
     imports = Imports({})
     imports.module("pytest")
     imports.name(f"{root}.following", "check")

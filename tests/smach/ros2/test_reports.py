@@ -57,6 +57,7 @@ def test_skeletons_of_ros_1_beside_it_mean_nothing_for_it(tmp_path: Path) -> Non
     ("machine", "name"),
     [
         ("Following", "following"),
+        ("Library", "library"),
         ("Runner", "runner"),
         ("Host", "host"),
     ],

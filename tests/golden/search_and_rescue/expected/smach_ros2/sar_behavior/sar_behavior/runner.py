@@ -9,16 +9,12 @@ from typing import Any, NamedTuple
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from smach_ros import IntrospectionServer
 
-from . import host
-from .following import check
-from .parameters import Parameter
+from . import host, library
 from .values import SECOND
 
 _MARGIN = 5.0
 """How long everything but the servers may take to stop, in seconds."""
-_VIEWER = Parameter('introspection.publish', 'bool', False, 'Whether SMACH tells its states.')
 
 
 class Fsm(NamedTuple):
@@ -30,7 +26,7 @@ class Fsm(NamedTuple):
 
 
 class Data:
-    """What the machine remembers, in the userdata of SMACH: its params and variables."""
+    """What the machine remembers, where SMACH keeps it: its params and variables."""
 
     def __init__(self, memory, values):
         vars(self)['_memory'] = memory
@@ -90,7 +86,7 @@ class Engine(host.Host):
         self._chart = chart
         self._first = behavior.data
         chart.host = self
-        parameters = (*behavior.parameters, _VIEWER)
+        parameters = (*behavior.parameters, library.SHOWN)
         behavior = behavior._replace(data=self._data, parameters=parameters)
         super().__init__(node, behavior, on_end=on_end)
 
@@ -164,12 +160,9 @@ class Host(Engine):
     def configure(self):
         """Make all clients and topics, and the machine."""
         super().configure()
-        if self._machine is None:  # what looks into it cannot be made twice
-            self._machine = self._fsm.build()
-            check(self._machine)
-            if self._values[_VIEWER.name]:
-                path = '/' + self._fsm.behavior.machine.name
-                IntrospectionServer('smach_server', self._machine, path).start()
+        if self._machine is None:  # what shows it cannot be made twice
+            is_shown = self._values[library.SHOWN.name]
+            self._machine = library.make(self._fsm, self._node, is_shown)
 
     def begin(self):
         """Let SMACH run the machine; the engine begins with it."""
@@ -198,7 +191,7 @@ class Host(Engine):
             with self._chart.changed:  # whoever ended it meanwhile, or began it anew, has the say
                 is_last = self._thread is current_thread()
                 self._chart.is_closed = not (self._is_to_run and is_last)
-            outcome = self._machine.execute()
+            outcome = library.run(self._machine)
         except Exception:
             self.logger.fatal(traceback.format_exc())
             self._has_failed = True

@@ -9,17 +9,12 @@ from typing import Any, NamedTuple
 import rclpy
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-import yasmin
-from yasmin_ros import set_ros_loggers
-from yasmin_viewer import YasminViewerPub
 
-from . import host
-from .parameters import Parameter
+from . import host, library
 from .values import SECOND
 
 _MARGIN = 5.0
 """How long everything but the servers may take to stop, in seconds."""
-_VIEWER = Parameter('viewer.publish', 'bool', True, 'Whether yasmin_viewer is told of states.')
 
 
 class Fsm(NamedTuple):
@@ -31,7 +26,7 @@ class Fsm(NamedTuple):
 
 
 class Data:
-    """What the machine remembers, on the blackboard of YASMIN: its params and variables."""
+    """What the machine remembers, where YASMIN keeps it: its params and variables."""
 
     def __init__(self, memory, values):
         vars(self)['_memory'] = memory
@@ -91,7 +86,7 @@ class Engine(host.Host):
         self._chart = chart
         self._first = behavior.data
         chart.host = self
-        parameters = (*behavior.parameters, _VIEWER)
+        parameters = (*behavior.parameters, library.SHOWN)
         behavior = behavior._replace(data=self._data, parameters=parameters)
         super().__init__(node, behavior, on_end=on_end)
 
@@ -160,15 +155,14 @@ class Host(Engine):
         self._has_failed = False
         self._thread = None
         self._is_to_run = False
+        self._machine = None
 
     def configure(self):
         """Make all clients and topics, and the machine."""
         super().configure()
-        set_ros_loggers(self._node)
-        self._machine = self._fsm.build()
-        self._machine.validate()
-        if self._values[_VIEWER.name]:
-            YasminViewerPub(self._machine, self._fsm.behavior.machine.name, node=self._node)
+        if self._machine is None:  # what shows it cannot be made twice
+            is_shown = self._values[library.SHOWN.name]
+            self._machine = library.make(self._fsm, self._node, is_shown)
 
     def begin(self):
         """Let YASMIN run the machine; the engine begins with it."""
@@ -197,7 +191,7 @@ class Host(Engine):
             with self._chart.changed:  # whoever ended it meanwhile, or began it anew, has the say
                 is_last = self._thread is current_thread()
                 self._chart.is_closed = not (self._is_to_run and is_last)
-            outcome = self._machine(yasmin.Blackboard())
+            outcome = library.run(self._machine)
         except Exception:
             self.logger.fatal(traceback.format_exc())
             self._has_failed = True
