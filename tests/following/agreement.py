@@ -36,7 +36,7 @@ SMALL = (
     *sorted((ROOT / "tests" / "golden").glob("*/model.swarm")),
 )
 MODELS = [*SMALL, *sorted(path.parent for path in (ROOT / "examples").glob("*/README.md"))]
-PATIENCE = 20.0
+PATIENCE = 60.0
 
 Build = Callable[..., ModuleType]
 

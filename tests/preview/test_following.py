@@ -21,7 +21,7 @@ from swarmdsl.preview.following import follow
 from swarmdsl.preview.pictures import Pictures, pictures
 from swarmdsl.preview.serving import News
 
-PATIENCE = 30
+PATIENCE = 60
 MODEL = """package yard
 import cpswarm.interfaces.*
 swarm event Go : swarmros/SimpleEvent

@@ -47,7 +47,7 @@ class Graph:
         self.master = xmlrpc.client.ServerProxy(self.uri)
         self._started: list[subprocess.Popen[Any]] = []
         self.start(["/usr/bin/rosmaster", "--core", "-p", str(port)], output="master")
-        wait_until(self._answers, "the master answers", 20)
+        wait_until(self._answers, "the master answers", 60)
 
     def environment(self, modules: Iterable[str | Path] = (), **more: str) -> dict[str, str]:
         """The variables of a process in this graph; `modules` are folders to import from."""
@@ -99,7 +99,7 @@ class Graph:
     def wait_for_node(self, name: str) -> None:
         """Wait until a node is known to the master."""
         what = f"{name} is not known"
-        wait_until(lambda: self.master.lookupNode("/test", name)[0] == 1, what, 20)  # type: ignore[index]
+        wait_until(lambda: self.master.lookupNode("/test", name)[0] == 1, what, 60)  # type: ignore[index]
 
     def end(self, process: subprocess.Popen[Any]) -> None:
         """End one of the processes."""
@@ -138,7 +138,7 @@ def end(process: subprocess.Popen[Any]) -> None:
             stream.close()
 
 
-def wait_until(test: Any, what: str, seconds: float = 10.0) -> None:
+def wait_until(test: Any, what: str, seconds: float = 60.0) -> None:
     """Wait for something to become true."""
     limit = time.monotonic() + seconds
     while not test():

@@ -18,8 +18,9 @@ import rospy
 _told = threading.Lock()
 
 
-def tell(what, name, content=None):
-    event = {"what": what, "name": name, "content": content, "time": time.monotonic()}
+def tell(what, name, content=None, since=None):
+    """Tell what happens, and when: now, or when it began."""
+    event = {"what": what, "name": name, "content": content, "time": since or time.monotonic()}
     with _told:
         sys.stdout.write(json.dumps(event) + "\n")
         sys.stdout.flush()
@@ -123,16 +124,21 @@ class Publisher:
         self._publisher = rospy.Publisher(topic, self._class, queue_size=10)
 
     def publish(self, fields, others):
-        """Publish when there are more connections than those of `others`: the node listens."""
+        """Publish when there are more connections than those of `others`: the node listens.
+
+        Gives the time before that.
+        """
         end = time.monotonic() + 5
         while self._publisher.get_num_connections() <= others and time.monotonic() < end:
             time.sleep(0.005)
+        since = time.monotonic()
         self._publisher.publish(filled(self._class(), fields))
+        return since
 
 
 def main():
     rospy.init_node("peers", anonymous=True, disable_signals=True)
-    servers, publishers, heard = {}, {}, set()
+    servers, publishers, heard = {}, {}, {}
     kinds = {"action": Action, "service": Service}
     tell("ready", "")
     for line in sys.stdin:
@@ -146,15 +152,18 @@ def main():
         elif do == "publish":
             if name not in publishers:
                 publishers[name] = Publisher(name, order["type"])
-            publishers[name].publish(order["fields"], name in heard)
-            tell("published", name)
+            since = publishers[name].publish(order["fields"], name in heard)
+            tell("published", name, since=since)
         elif do == "listen":
-            heard.add(name)
-            rospy.Subscriber(
+            heard[name] = rospy.Subscriber(
                 name,
                 class_of(order["type"], "msg"),
                 lambda message, name=name: tell("sent", name, plain(message)),
             )
+        elif do == "hear":
+            while not heard[name].get_num_connections():
+                time.sleep(0.005)
+            tell("hears", name)
     rospy.signal_shutdown("the test has ended")
 
 

@@ -101,10 +101,8 @@ def test_waiting_for_a_server_can_be_left(function: str, world: World) -> None:
     flight.serve(function, move=["succeeded"], land=["succeeded"])
     node = flight.node("flight")
     node.wait_in({"move": "Air/Move", "ask": "Air/Ask"}[function])
-    start = time.monotonic()
     flight.publish("Stop")
     assert node.ended() == 0
-    assert time.monotonic() - start < 3
     assert flight.called()[-1] == "land"
 
 

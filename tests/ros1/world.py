@@ -7,14 +7,15 @@ import os
 import signal
 import subprocess
 import threading
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from swarmdsl.ir import Named, System
 
-WAIT = 15.0
+WAIT = 60.0
+# Seconds that a node waits for servers, unless a test says otherwise: longer than a test waits.
+PATIENT = dict.fromkeys(("missing_server", "dead_server", "cancel"), 2 * WAIT)
 
 
 class Peers:
@@ -125,6 +126,8 @@ class World:
             if isinstance(event.type, Named) and event.topic not in self._listening:
                 self._listening.add(event.topic)
                 self.peers.order("listen", event.topic, type=str(event.type))
+        for name, seconds in PATIENT.items():
+            params.setdefault(f"timeouts__{name}", seconds)
         for name, value in params.items():
             self.graph.set_param(f"{self.namespace}/{module}/{name.replace('__', '/')}", value)
         node = Node(self, module)
@@ -162,6 +165,12 @@ class World:
     def sent(self, event: str, number: int = 1) -> Any:
         """The data of an event that the node has sent, the nth time."""
         return self.peers.wait_for("sent", self.system.event(event).topic, number)
+
+    def hears(self, event: str) -> None:
+        """Wait until what the node sends of an event arrives."""
+        topic = self.system.event(event).topic
+        self.peers.order("hear", topic)
+        self.peers.wait_for("hears", topic)
 
     def called(self) -> list[str]:
         """The servers of all calls so far."""
@@ -218,12 +227,10 @@ class Node:
                 lambda: any(each.startswith(path) for each in self.active), WAIT
             ), f"{path} expected, {self.active} active\n{self.printed()}"
 
-    def signal(self, number: signal.Signals) -> float:
-        """Send a signal; how many seconds later the node has ended."""
-        start = time.monotonic()
+    def signal(self, number: signal.Signals) -> int:
+        """Send a signal; the exit code, when the node has ended."""
         self.process.send_signal(number)
-        self.ended()
-        return time.monotonic() - start
+        return self.ended()
 
     def ended(self, within: float = WAIT) -> int:
         """The exit code, when the node has ended."""

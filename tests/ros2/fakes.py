@@ -157,7 +157,7 @@ class Fakes(Node):
         """Call a service, and tell what it responds."""
         made = interface(kind)
         client = self.create_client(made, name, callback_group=self.group)
-        client.wait_for_service(10)
+        client.wait_for_service(60)
         future = client.call_async(fill(made.Request(), data))
         future.add_done_callback(lambda done: self.tell(called=name, data=plain(done.result())))
 
@@ -170,7 +170,7 @@ class Fakes(Node):
 
 
 def wait_for(publisher, count=1):
-    end = time.monotonic() + 10
+    end = time.monotonic() + 60
     while publisher.get_subscription_count() < count and time.monotonic() < end:
         time.sleep(_STEP)
 

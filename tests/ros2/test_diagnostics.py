@@ -28,7 +28,7 @@ class Watched:
 
     def status(self, level: list[int], text: str) -> dict[str, Any]:
         """Wait until the node tells something on that level."""
-        end = time.monotonic() + 30
+        end = time.monotonic() + 60
         while time.monotonic() < end:
             for message in self.fakes.found("message", TOPIC):
                 (status,) = message["data"]["status"]

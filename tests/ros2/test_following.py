@@ -316,7 +316,7 @@ def test_a_machine_that_is_stopped_before_its_engine_has_begun(
     program.write_text(text, encoding="utf-8")
     trace = tmp_path / "trace.jsonl"
     process = ros.start(program, "--ros-args", "-p", f"trace.file:={trace}", stdout=subprocess.PIPE)
-    output, _ = process.communicate(timeout=30)
+    output, _ = process.communicate(timeout=60)
     assert f"came out with {library.stopped}" in output.splitlines()
     assert trace.read_text(encoding="utf-8") == ""
 
@@ -329,6 +329,6 @@ def test_a_machine_that_begins_anew_has_ended_before(
     program = tmp_path / "program.py"
     program.write_text(ANEW.format(suffix=library.suffix, run=library.run), encoding="utf-8")
     process = ros.start(program, stdout=subprocess.PIPE)
-    output, _ = process.communicate(timeout=30)
+    output, _ = process.communicate(timeout=60)
     said = [line for line in output.splitlines() if not line.startswith("[")]
     assert said == [*["begins", "has ended"] * 3, "False False False"]

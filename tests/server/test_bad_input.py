@@ -167,7 +167,7 @@ def test_two_editors_at_once(tmp_path):
         assert len(second.findings(path)) == 1
     finally:
         for server in (first, second):
-            server.process.communicate(timeout=30)
+            server.process.communicate(timeout=60)
 
 
 def test_a_file_of_5_mb(raw, tmp_path):
@@ -177,7 +177,7 @@ def test_a_file_of_5_mb(raw, tmp_path):
     start = time.monotonic()
     raw.open(path, text)
     [found] = raw.findings(path)
-    assert (found["code"], time.monotonic() - start < 20) == ("SW1217", True)
+    assert (found["code"], time.monotonic() - start < 60) == ("SW1217", True)
     raw.open(path, MODEL)
     assert raw.findings(path) == []
 

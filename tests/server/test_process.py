@@ -37,7 +37,7 @@ def test_an_editor_that_dies_takes_the_server_with_it():
     process.stdin.write(INITIALIZE)
     process.stdin.flush()
     assert capabilities(process.stdout)["hoverProvider"]
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=60)
     assert (process.returncode, errors) == (1, b"")
 
 
@@ -49,7 +49,7 @@ def test_an_editor_is_asked_to_tell_of_changes_on_disk():
     process.stdin.flush()
     capabilities(process.stdout)
     asked = answer(process.stdout)
-    process.communicate(timeout=20)
+    process.communicate(timeout=60)
     assert asked["method"] == "client/registerCapability"
     [registration] = asked["params"]["registrations"]
     watchers = registration["registerOptions"]["watchers"]
@@ -75,7 +75,7 @@ def test_an_editor_with_commands_of_its_own_is_offered_them(tmp_path):
     process.stdin.flush()
     while (resolved := answer(process.stdout)).get("id") != 3:
         pass
-    process.communicate(timeout=20)
+    process.communicate(timeout=60)
     assert preview["command"]["arguments"] == [uri, {"kind": "swarm", "name": "One"}]
     command = resolved["result"]["command"]
     assert (command["title"], command["command"]) == ("0 references", "swarmdsl.references")
@@ -88,7 +88,7 @@ def test_a_server_on_a_port_of_the_loopback_interface():
         port = free.getsockname()[1]
     process = subprocess.Popen([*SERVER, "--tcp", str(port)], stderr=subprocess.PIPE)
     try:
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 60
         while True:
             try:
                 connection = socket.create_connection(("127.0.0.1", port))
@@ -118,5 +118,5 @@ def test_a_port_that_is_taken():
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = str(taken.getsockname()[1])
-        ran = subprocess.run([*SERVER, "--tcp", port], capture_output=True, text=True, timeout=20)
+        ran = subprocess.run([*SERVER, "--tcp", port], capture_output=True, text=True, timeout=60)
     assert (ran.returncode, "already in use" in ran.stderr) == (1, True)

@@ -113,7 +113,7 @@ def test_real_time(model: Path) -> None:
     process.stdout.readline()
     process.stdout.readline()
 
-    assert 1.0 <= time.monotonic() - begun < 10
+    assert time.monotonic() - begun >= 1.0
     process.communicate()
     assert process.returncode == 0
 

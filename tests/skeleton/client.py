@@ -25,14 +25,14 @@ def goal(client, height, cancel=None):
     if cancel is not None:
         rospy.sleep(0.3)
         cancel()
-    assert client.wait_for_result(rospy.Duration(10)), height
+    assert client.wait_for_result(rospy.Duration(60)), height
     state, text = STATES[client.get_state()], client.get_goal_status_text()
     return [state, client.get_result().reached, text, heard]
 
 
 def ask(name, type_, **request):
     """The answer of a service, None where it gives none."""
-    rospy.wait_for_service(name, 20)
+    rospy.wait_for_service(name, 60)
     try:
         response = rospy.ServiceProxy(name, type_)(**request)
     except rospy.ServiceException:
@@ -44,7 +44,7 @@ def heard(topic, type_, publish):
     """The first message on a topic after something was published again and again."""
     came, found = threading.Event(), []
     rospy.Subscriber(topic, type_, lambda message: (found.append(message), came.set()))
-    for _ in range(200):
+    for _ in range(1200):
         publish()
         if came.wait(0.05):
             return found[0]

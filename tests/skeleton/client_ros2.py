@@ -20,7 +20,7 @@ from rclpy.action import ActionClient
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 STATES = {value: name[7:] for name, value in vars(GoalStatus).items() if name[:7] == "STATUS_"}
-PATIENCE = 30
+PATIENCE = 60
 
 
 def wait(test):

@@ -72,7 +72,7 @@ def test_a_node_without_a_needed_param_says_so(
         [python_nodes / "climb" / "src", messages], ROS_NAMESPACE="/no_param"
     )
     command = python_commands(graph, python_nodes)["climb"]
-    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=30)
+    run = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=100)
 
     assert run.returncode == 1
     assert "ROS parameter /no_param/climb/frame has no value" in run.stderr

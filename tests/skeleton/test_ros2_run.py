@@ -125,7 +125,7 @@ def start(ros2: tuple[Path, dict[str, str]], tmp_path: Path) -> Iterator[Any]:
         process.send_signal(signal.SIGTERM)
     for process in running:
         try:
-            ends.append(process.wait(5))
+            ends.append(process.wait(60))
         except subprocess.TimeoutExpired:
             process.kill()
             ends.append(process.wait())

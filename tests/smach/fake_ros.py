@@ -14,7 +14,7 @@ from swarmdsl import ir
 from swarmdsl.defaults import default_value
 from swarmdsl.ir import Array, Field, Named, Primitive, System
 
-WAIT = 20.0
+WAIT = 60.0
 
 
 class GoalStatus:

@@ -325,7 +325,7 @@ def compare(twin: Twin, expected: tuple[Any, ...], where: Any) -> None:
             f"{expected}\n{found()}\n{active}\n{twin.world.log[-3:]}\n{twin.robot.error!r}\n{where}"
         )
 
-    end = time.monotonic() + 20
+    end = time.monotonic() + 60
     while rounded(found()) != rounded(expected):
         assert time.monotonic() < end, said()
         time.sleep(0.001)

@@ -133,9 +133,9 @@ def test_a_machine_passes_a_preempt_on(smach: Any) -> None:
     with machine:
         smach.StateMachine.add("A", state, {"done": "over", "preempted": "preempted"})
     thread, outcomes = run(machine)
-    assert state.runs.wait(5)
+    assert state.runs.wait(60)
     machine.request_preempt()
-    thread.join(5)
+    thread.join(60)
     assert outcomes == ["preempted"]
     assert not machine.preempt_requested()
 
@@ -153,11 +153,11 @@ def test_a_concurrence_waits_for_all(smach: Any) -> None:
     slow = waiting(smach)
     both = concurrence(smach, ending(smach, "x"), slow, outcome_map={"one": {"S1": "done"}})
     thread, outcomes = run(both)
-    assert slow.runs.wait(5)
+    assert slow.runs.wait(60)
     time.sleep(0.05)
     assert thread.is_alive()
     slow.release.set()
-    thread.join(5)
+    thread.join(60)
     assert outcomes == ["one"]
 
 
@@ -188,10 +188,10 @@ def test_a_concurrence_passes_a_preempt_on(smach: Any) -> None:
     states = [waiting(smach), waiting(smach)]
     made = concurrence(smach, *states)
     thread, outcomes = run(made)
-    assert all(state.runs.wait(5) for state in states)
+    assert all(state.runs.wait(60) for state in states)
     time.sleep(0.05)
     made.request_preempt()
-    thread.join(5)
+    thread.join(60)
     assert outcomes == ["preempted"]
 
 
@@ -206,12 +206,12 @@ def test_a_preempt_that_comes_too_early_is_lost(
 
     if not is_real(smach):
         _, thread, outcomes = preempted_early()
-        thread.join(5)
+        thread.join(60)
         assert outcomes == ["preempted"]
         monkeypatch.setattr(smach, "DEFECTS", {"lost-preempt"})
     state, thread, _ = preempted_early()
     thread.join(0.5)
     assert thread.is_alive()
     state.release.set()
-    thread.join(5)
+    thread.join(60)
     assert not thread.is_alive()
