@@ -35,13 +35,13 @@ _SHALLOW = NESTING_LIMIT // 4
 def parse(source: Source, report: Diagnostics) -> Parsed:
     """Parse a file; whatever is wrong with it is reported and left out of the tree."""
     with no_garbage_collection():
-        return _parse_shallow(source, report) or _parse_in_pieces(source, report)
+        return parse_flawless(source, report) or _parse_in_pieces(source, report)
 
 
 def parse_piece(source: Source, report: Diagnostics) -> Parsed:
     """Parse a piece of a file on its own; all places are places in the piece."""
     with no_garbage_collection():
-        return _parse_shallow(source, report) or _parse_carefully(source, report)
+        return parse_flawless(source, report) or _parse_carefully(source, report)
 
 
 def _parse_in_pieces(source: Source, report: Diagnostics) -> Parsed:
@@ -65,7 +65,7 @@ def _moved(source: Source, base: int, span: Span) -> Span:
     return Span(source, base + span.start, base + span.end)
 
 
-def _parse_shallow(source: Source, report: Diagnostics) -> Parsed | None:
+def parse_flawless(source: Source, report: Diagnostics) -> Parsed | None:
     """Parse a file without syntax errors; None where it has some, or may have."""
     found = Diagnostics()
     comments = documentation(source, found)
@@ -166,4 +166,4 @@ def no_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_piece"]
+__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_flawless", "parse_piece"]

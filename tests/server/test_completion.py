@@ -94,6 +94,7 @@ DO = "do sweep(speed = 1.0, area = nothing)"
 PLACES = {
     "field of a goal": (work("do sweep(|)", DO), {"speed", "area", "by"}, {"found", "spot"}),
     "field that is left": (work("do sweep(speed = 1.0, |", DO), {"area"}, {"speed", "found"}),
+    "field before another": (work("do sweep(| area = nothing)", DO), {"speed"}, {"area", "found"}),
     "half a field": (work("do sweep(sp|)", DO), {"speed", "area"}, {"found"}),
     "value of a field": (work("do sweep(speed = |)", DO), {"spot", "seen"}, {"area", "sweep"}),
     "field of a result": (work("do sweep gives (|)", DO), {"found", "place"}, {"speed", "spot"}),
@@ -114,6 +115,9 @@ PLACES = {
     ),
     "param that is left": (
         HEAD + WORK.replace("arm : Arm", "arm : Arm { force = 1.0 | }"), {"reach"}, {"force"},
+    ),
+    "param before another": (
+        HEAD + WORK.replace("arm : Arm", "arm : Arm { | force = 1.0 }"), {"reach"}, {"force"},
     ),
     "action": (
         HEAD + 'function f : swarm { action "x" : |', {"tf2_msgs/LookupTransform"}, {"Mode"},
@@ -154,6 +158,14 @@ PLACES = {
     "initial": (HEAD + STATES.replace("initial First", "initial |"), {"First", "Both"}, {"Inner"}),
     "in a state": (state("|"), ITEMS, {"param", "Low"}),
     "half a keyword": (state("o|"), {"on"}, {"Low"}),
+    "region that ends": (
+        state("").replace("on done -> Last", "on |.done -> Last"),
+        {"Left", "Right"}, {"Low", "First"},
+    ),
+    "behind a region": (
+        state("").replace("on done -> Last", "on Left.| -> Last"), {"done"}, {"Low", "Left"},
+    ),
+    "in a number": (state("on Low / count = 1.|5"), set(), {"count"}),
     "trigger": (state("on |"), {"Low", "High", "done"}, {"on", "go", "First", "succeeded"}),
     "half a trigger": (state("on Lo|"), {"Low"}, {"First"}),
     "behind a trigger": (state("on Low |"), set(), {"Low", "First"}),
@@ -168,6 +180,8 @@ PLACES = {
     "second operand": (state("on Low [count < |"), {"limit", "MOST"}, {"Low"}),
     "effect": (state("on Low / |"), {"send", "count"}, {"Low", "First"}),
     "assigned value": (state("on Low / count = | -> Last"), {"count", "limit"}, {"Low"}),
+    "second effect": (state("on Low / count = 1,\n      | -> Last"), {"count"}, {"Low", "First"}),
+    "effect on a line of its own": (state("entry / count = 1,\n      |"), {"count"}, {"Low"}),
     "sent event": (state("on Low / send |"), {"Low", "High"}, {"count", "First"}),
     "function": (state("do |"), {"go"}, {"Low", "Other"}),
     "final state": (state("on done.|"), {"Done"}, {"Last", "Low"}),

@@ -112,7 +112,12 @@ class Candidates:
             return [each for each in swarm.items if isinstance(each, Role)] if swarm else ()
         if kind is None or not issubclass(kind, TopLevel):
             return ()
-        return self._visible((kind,))
+        package = ".".join(path)
+        return [
+            node
+            for node in self._visible((kind,))
+            if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
+        ]
 
     def _done(self, path: list[str], owner: Component | Part | None) -> Iterable[Node]:
         """What a state can do: functions, and operations of components and parts."""

@@ -33,8 +33,11 @@ from swarmdsl.workspace import Workspace
 from swarmdsl.workspace.occurrences import owners
 
 _WORD = re.compile(r"\w*")
+# The part of a number before its point.
+_NUMBER = re.compile(r"(?<![\w.])\d\w*\.\Z")
 # No text of a model has it: there the parser must stop.
 _STOP = "\0"
+_NAMES = ("IDENT", "WORD")
 _OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
@@ -58,9 +61,9 @@ def completions(workspace: Workspace, file: File, offset: int) -> list[Completio
     _, first, last = workspace.piece(file, start)
     last = max(last, end)
     head, tail = text[first:start], text[end:last]
-    if _in_comment_or_text(head):
+    if _in_comment_or_text(head) or _NUMBER.search(head):
         return []
-    expected = _expected(head)
+    expected, named = _expected(head)
     around = owner_around(file, start)
     keywords = [word for word in _keywords(expected) if word.isalpha()]
     if any(owner.span.absolute.end <= first for owner in owners(file)):
@@ -69,7 +72,7 @@ def completions(workspace: Workspace, file: File, offset: int) -> list[Completio
         left = outcomes_left(around, start)
         keywords = [word for word in keywords if word not in _OUTCOMES or word in left]
     found = [Completion(word, "keyword") for word in keywords]
-    if any(name for _, name, literal in expected if not literal) or not expected:
+    if named:
         scope = Scopes(workspace.project)[file]
         place = _Place(workspace, file, (head, tail), scope, around, start)
         found += place.names()
@@ -95,17 +98,22 @@ def _in_comment_or_text(head: str) -> bool:
     return last[0].startswith("//") or not closed
 
 
-def _expected(head: str) -> frozenset[tuple[str, str, str]]:
-    """What the grammar has behind a text; where that is wrong, behind its last statement."""
+def _expected(head: str) -> tuple[frozenset[tuple[str, str, str]], bool]:
+    """What the grammar has behind a text, and whether a name can be there.
+
+    Where the text is wrong, it is what is behind its last statement; where that is wrong too, or
+    ends within a name, what begins a statement, or maybe a name.
+    """
     statement = statement_at(head, len(head))
     blocks = "".join(head[start:end] for start, end in statement.around)
-    for text in (head, blocks + head[statement.start :], blocks):
+    ways = (head, False), (blocks + head[statement.start :], False), (blocks, True)
+    for text, lost in ways:
         found = mismatch(
             swarm_parser.PROGRAM, swarm_parser.TERMINALS, swarm_parser.BLANK, text + _STOP
         )
         if found is not None and found.at == len(text):
-            return found.expected
-    return frozenset()
+            return found.expected, lost or any(name in _NAMES for _, name, _ in found.expected)
+    return frozenset(), True
 
 
 def _keywords(expected: Iterable[tuple[str, str, str]]) -> list[str]:
@@ -136,12 +144,12 @@ class _Place:
         # In parentheses, or in the braces of a part.
         inside = closers(self._around[0]).split("\n")
         given = inside[0] == ")" or (isinstance(self._owner, Member) and len(inside) > 1)
-        for words in (NAME, ARGUMENT) if given else (NAME,):
-            for owner in tried(self._workspace, self._file, self._around, self._owner, words):
-                found = self._fitting(owner)
-                if found is not None:
-                    yield from found
-                    return
+        words = (*NAME, *ARGUMENT) if given else NAME
+        for owner in tried(self._workspace, self._file, self._around, self._owner, words):
+            found = self._fitting(owner)
+            if found is not None:
+                yield from found
+                return
 
     def _fitting(self, owner: TopLevel) -> Iterable[Completion] | None:
         """What the word on trial can be; None where it is no name of something that exists."""

@@ -24,12 +24,13 @@ def signature(workspace: Workspace, file: File, offset: int) -> Signature | None
     """The call whose arguments an offset is in; None outside of one."""
     text = file.source.text
     start, end = word_at(text, offset)
-    _, first, last = workspace.piece(file, start)
-    around = text[first:start], text[end : max(last, end)]
-    if not closers(around[0]).startswith(")"):
+    _, first, _ = workspace.piece(file, start)
+    head = text[first:start]
+    if not closers(head).startswith(")"):
         return None
     words = (*ARGUMENT, *NAME)
-    for owner in tried(workspace, file, around, owner_around(file, start), words):
+    # Which argument it is does not depend on those behind it.
+    for owner in tried(workspace, file, (head, ""), owner_around(file, start), words):
         found = slots(owner, workspace.project)
         if found is not None and found.fields:
             return _signature(found, owner, text[start:end])
