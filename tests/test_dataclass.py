@@ -115,7 +115,7 @@ def test_instances_are_alike(made, call):
 
 def test_the_first_of_many_are_like_the_last(made):
     for call in CALLS:
-        one, *_, last = [eval(call, made[0]) for _ in range(40)]
+        one, *_, last = [eval(call, made[0]) for _ in range(60)]
         assert known(one) == known(last)
     for call in WRONG_CALLS:  # now that each has code of its own
         with pytest.raises(TypeError):

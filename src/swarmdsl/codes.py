@@ -13,8 +13,7 @@ Each has a page in `explain/` (printed by `swarmc explain CODE`) and a case in
     14xx  comparison             15xx  new projects, changes of models
 """
 
-from __future__ import annotations
-
+# The annotations here are values: typing would compile texts one by one.
 from typing import NamedTuple
 
 

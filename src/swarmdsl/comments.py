@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
+from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
@@ -16,7 +16,8 @@ _ESCAPE = re.compile(r"\\[^\n]")
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
 
-class DocComment(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class DocComment:
     """Lines of `///` that stand together; `next` is the offset of what follows them."""
 
     span: Span

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Mapping
+from functools import cache
 from operator import attrgetter
 from reprlib import recursive_repr
 from types import SimpleNamespace
@@ -46,6 +47,9 @@ class _Field(dict[str, Any]):
     """What is said of a field: the arguments of `dataclasses.field`."""
 
 
+_NOTHING = _Field()
+
+
 def is_dataclass(cls: type) -> bool:
     """Whether it is a data class, made here or by Python."""
     return "__parts__" in vars(cls) or hasattr(cls, "__dataclass_fields__")
@@ -70,18 +74,14 @@ def annotations_of(cls: type) -> Mapping[str, str]:
 def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
     body = {name: of for name, of in vars(cls).items() if name not in _MADE_WITH_A_CLASS}
     inherited: dict[str, _Field] = getattr(cls, "__parts__", {})
-    own = {name: _about(body.pop(name, _Field())) for name in body.get("__annotations__", {})}
+    own = {name: _about(body.pop(name, _NOTHING)) for name in body.get("__annotations__", ())}
     parts = inherited | own
     methods: dict[str, Any] = {
         "__parts__": parts,
-        "__dataclass_fields__": _FieldsOfPython(),
-        # Asked by what prints values.
-        "__dataclass_params__": SimpleNamespace(
-            init=True, repr=True, eq=eq, order=False, unsafe_hash=False, frozen=frozen
-        ),
-        "__match_args__": tuple(
-            name for name, about in parts.items() if about.get("init", True) and not _named(about)
-        ),
+        "__dataclass_fields__": _FIELDS_OF_PYTHON,
+        "__dataclass_params__": _params(eq, frozen),
+        "__match_args__": _MATCHED,
+        "__init__": _first_init(frozen),
         "__repr__": _repr,
     }
     if eq:
@@ -93,24 +93,29 @@ def _define(cls: type, eq: bool, frozen: bool, slots: bool) -> type:
     if slots:
         # They cannot be added to a class.
         methods["__slots__"] = tuple(name for name in own if name not in inherited)
-        made = type(cls)(cls.__name__, cls.__bases__, methods | body)
-    else:
-        made = cls
-        for name, about in own.items():
-            if "default" in about:
-                methods[name] = about["default"]
-            elif name in vars(cls):
-                delattr(cls, name)
-        for name, value in methods.items():
-            if name not in body:
-                setattr(cls, name, value)
-
-    made.__init__ = _first_init(made, parts, frozen)  # type: ignore[misc]
-    return made
+        return type(cls)(cls.__name__, cls.__bases__, methods | body)
+    for name, about in own.items():
+        if "default" in about:
+            methods[name] = about["default"]
+        elif name in vars(cls):
+            delattr(cls, name)
+    for name, value in methods.items():
+        if name not in body:
+            setattr(cls, name, value)
+    return cls
 
 
 _MADE_WITH_A_CLASS = ("__dict__", "__weakref__")
-_FEW = 12
+# To compile what sets the fields takes as long as to do without it so often.
+_FEW = 50
+
+
+@cache
+def _params(eq: bool, frozen: bool) -> SimpleNamespace:
+    """What is asked by what prints values."""
+    return SimpleNamespace(
+        init=True, repr=True, eq=eq, order=False, unsafe_hash=False, frozen=frozen
+    )
 
 
 def _about(given: Any) -> _Field:
@@ -129,39 +134,54 @@ def _named(about: _Field) -> bool:
     return bool(about.get("kw_only", False))
 
 
-def _first_init(cls: type, parts: dict[str, _Field], frozen: bool) -> Callable[..., None]:
+def _first_init(frozen: bool) -> Callable[..., None]:
     """What sets the fields of the first few instances; then, or where a call is wrong, `_init`."""
-    accepted = {name for name, about in parts.items() if about.get("init", True)}
-    positional = [name for name, about in parts.items() if name in accepted and not _named(about)]
-    constants = {name: of["default"] for name, of in parts.items() if "default" in of}
-    factories = {
-        name: of["default_factory"] for name, of in parts.items() if "default_factory" in of
-    }
-    complete = len(accepted | constants.keys() | factories.keys())
     left = _FEW
+    shape: _Shape | None = None
 
     def first(self: object, *arguments: object, **named: object) -> None:
-        nonlocal left
+        nonlocal left, shape
+        if shape is None:  # many classes have no instance at all
+            owner = next(cls for cls in type(self).__mro__ if vars(cls).get("__init__") is first)
+            shape = _Shape(owner)
         left -= 1
-        values = constants | {name: make() for name, make in factories.items()}
-        values.update(zip(positional, arguments, strict=False))
+        values = shape.constants | {name: make() for name, make in shape.factories.items()}
+        values.update(zip(shape.positional, arguments, strict=False))
         values.update(named)
-        right = len(arguments) <= len(positional) and len(values) == complete
+        right = len(arguments) <= len(shape.positional) and len(values) == shape.complete
         if named:
-            right = right and named.keys() <= accepted.difference(positional[: len(arguments)])
+            taken = shape.positional[: len(arguments)]
+            right = right and named.keys() <= shape.accepted.difference(taken)
         if right and left >= 0:
             for name, value in values.items():
                 object.__setattr__(self, name, value)
         else:
-            init = _init(cls, parts, frozen)
-            cls.__init__ = init  # type: ignore[misc]
+            init = shape.owner.__init__ = _init(shape.owner, frozen)
             init(self, *arguments, **named)
 
     return first
 
 
-def _init(cls: type, parts: dict[str, _Field], frozen: bool) -> Callable[..., None]:
+class _Shape:
+    """What a class can be called with, and what its fields are otherwise."""
+
+    def __init__(self, owner: type[Any]) -> None:
+        self.owner = owner
+        parts: dict[str, _Field] = owner.__parts__
+        self.accepted = {name for name, about in parts.items() if about.get("init", True)}
+        self.positional = [
+            name for name, about in parts.items() if name in self.accepted and not _named(about)
+        ]
+        self.constants = {name: of["default"] for name, of in parts.items() if "default" in of}
+        self.factories = {
+            name: of["default_factory"] for name, of in parts.items() if "default_factory" in of
+        }
+        self.complete = len(self.accepted | self.constants.keys() | self.factories.keys())
+
+
+def _init(cls: type[Any], frozen: bool) -> Callable[..., None]:
     """What sets the fields of a new instance, made as Python makes it."""
+    parts: dict[str, _Field] = cls.__parts__
     anew = object()
     known: dict[str, Any] = {"anew": anew, "setattr": object.__setattr__}
     parameters: dict[bool, list[str]] = {False: ["self"], True: []}
@@ -251,6 +271,18 @@ class _FieldsOfPython:
         found = {part.name: part for part in dataclasses.fields(of_python)}
         owner.__dataclass_fields__ = found
         return found
+
+
+class _Matched:
+    """The attribute by which `match` knows positional patterns, made when it asks."""
+
+    def __get__(self, _instance: object, owner: type[Any]) -> tuple[str, ...]:
+        found = owner.__match_args__ = tuple(_Shape(owner).positional)
+        return found
+
+
+_FIELDS_OF_PYTHON = _FieldsOfPython()
+_MATCHED = _Matched()
 
 
 __all__ = ["annotations_of", "dataclass", "field", "fields_of", "is_dataclass", "replace"]

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from enum import Enum
+from typing import TYPE_CHECKING
 
-from swarmdsl.codes import CODES
 from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.source import Span
+
+if TYPE_CHECKING:
+    from swarmdsl.codes import Code
 
 
 class Severity(Enum):
@@ -109,7 +112,7 @@ class Diagnostics:
 
         Raises KeyError for a name or a field the catalogue does not know: a bug in swarmdsl.
         """
-        entry = CODES[name]
+        entry = _catalogued(name)
         found = Diagnostic(
             code=entry.code,
             name=name,
@@ -139,12 +142,12 @@ class Diagnostics:
         self._found.setdefault(found)
         self._counts[found.name] = self.count_of(found.name) + 1
 
-    def allows(self, name: str) -> bool:
-        """Whether nothing is said of a warning, by its name: there is no need to look for it."""
-        return self._level(name) is Level.ALLOW
+    def wants(self, silent: str) -> bool:
+        """Whether somebody asks for a silent warning, by its name: else nobody need look for it."""
+        return self._levels.get(silent, Level.ALLOW) is not Level.ALLOW
 
     def _level(self, name: str) -> Level:
-        silent = CODES[name].silent
+        silent = _catalogued(name).silent
         others = Level.ALLOW if silent else self._levels.get(ALL_WARNINGS, Level.WARN)
         return self._levels.get(name, others)
 
@@ -175,6 +178,13 @@ class Diagnostics:
 
     def __len__(self) -> int:
         return len(self._found)
+
+
+def _catalogued(name: str) -> Code:
+    # Imported here because a model without mistakes needs no catalogue.
+    from swarmdsl.codes import CODES
+
+    return CODES[name]
 
 
 def _position(found: Diagnostic) -> tuple[str, int, int, str, str]:

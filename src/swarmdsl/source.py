@@ -1,7 +1,6 @@
 """Source files and places in them."""
 
-from __future__ import annotations
-
+# The annotations here are values: typing would compile texts one by one.
 from bisect import bisect_right
 from functools import cached_property
 from pathlib import Path
@@ -86,7 +85,7 @@ class Span(NamedTuple):
         return self.source.text[self.start : self.end]
 
     @property
-    def absolute(self) -> Span:
+    def absolute(self) -> "Span":
         """The same place as one in the file."""
         source, start, end = self
         if not isinstance(source, Piece):

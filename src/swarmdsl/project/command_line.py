@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from swarmdsl.dataclass import replace
 from swarmdsl.diagnostics import Diagnostics, Level
 from swarmdsl.project import find_settings
-from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
 from swarmdsl.project.settings import Settings
 from swarmdsl.source import COMMAND_LINE, Source, Span
 from swarmdsl.suggest import did_you_mean
@@ -79,6 +78,11 @@ def _place(option: str) -> Span:
 def named_levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
     """The level of each diagnostic that is named; UsageError for what none has."""
     found: dict[str, Level] = {}
+    if not any(levels.values()):
+        return found
+    # Imported here because most runs name none, and need no catalogue.
+    from swarmdsl.project.lint import find_diagnostic, may_have, similar_diagnostic
+
     for level, words in levels.items():
         for word in words:
             name = find_diagnostic(word)

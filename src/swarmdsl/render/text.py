@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from typing import TextIO
 
 from swarmdsl.diagnostics import Diagnostic, Label, Severity
-from swarmdsl.render.excerpt import excerpt
 from swarmdsl.render.printable import printable
 
 _STYLES = {Severity.ERROR: "bold red", Severity.WARNING: "bold yellow"}
@@ -64,6 +63,9 @@ def _remarks(diagnostic: Diagnostic) -> list[tuple[str, str]]:
 
 def place(label: Label, gutter: int, mark: str, style: str, message: str) -> Iterator[Piece]:
     """A place: where it is, its line, and marks under it; `gutter` is the width of line numbers."""
+    # Imported here because most runs have no place to show.
+    from swarmdsl.render.excerpt import excerpt
+
     source = label.span.source
     line, column = source.line_column(label.span.start)
     shown = excerpt(label.span)

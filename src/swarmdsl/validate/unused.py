@@ -31,7 +31,7 @@ def check_unused(project: Project, context: Context) -> None:
     runs is one only where there are members. Nothing is said where a piece could not be read or
     a name was not resolved: it may mean what seems to be unused.
     """
-    if context.report.allows("unused-declaration"):
+    if not context.report.wants("unused-declaration"):
         return
     pairs = list(project.declarations())
     types = {interface_name(file, node.name): node for file, node in pairs}
