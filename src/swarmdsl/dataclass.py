@@ -277,7 +277,8 @@ class _Matched:
     """The attribute by which `match` knows positional patterns, made when it asks."""
 
     def __get__(self, _instance: object, owner: type[Any]) -> tuple[str, ...]:
-        found = owner.__match_args__ = tuple(_Shape(owner).positional)
+        found = tuple(_Shape(owner).positional)
+        owner.__match_args__ = found  # type: ignore[misc]
         return found
 
 

@@ -111,6 +111,8 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
             name=send.event.name,
             help=f"add `on {send.event.name} -> ...` to a state of a machine that should react",
         )
+    if not context.report.wants("unsent-event"):
+        return
     for trigger, names in unsent.items():
         context.report.report(
             "unsent-event",
