@@ -15,6 +15,9 @@ def found_in(
     pattern of whole comments does not where many have no end.
     """
     end = len(text) if end is None else end
+    if text.find("/*", start, end) < 0:
+        yield from ((each.start(), each[0]) for each in pattern.finditer(text, start, end))
+        return
     last_close = text.rfind("*/", start, end)
     found = pattern.search(text, start, end)
     while found is not None:

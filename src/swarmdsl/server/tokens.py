@@ -26,6 +26,7 @@ TYPES = (
     *("function", "method", "variable", "parameter", "property", "label", "keyword"),
 )
 MODIFIERS = ("declaration", "readonly", "defaultLibrary")
+_NUMBERS = {kind: number for number, kind in enumerate(TYPES)}
 _DECLARATION, _READONLY, _DEFAULT = (1 << index for index in range(len(MODIFIERS)))
 
 _KINDS: dict[type[Node], str] = {
@@ -78,7 +79,7 @@ class Token(NamedTuple):
 
 
 def _token(start: int, length: int, kind: str, modifiers: int = 0) -> Token:
-    return Token(start, length, TYPES.index(kind), modifiers)
+    return Token(start, length, _NUMBERS[kind], modifiers)
 
 
 def of_head(file: File) -> Iterator[list[Token]]:

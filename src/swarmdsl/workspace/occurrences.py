@@ -84,10 +84,13 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
         if kind in KINDS:
             for node in found:
                 yield Occurrence(node.name.span.absolute, node, declares=True)
-    around = _around(owner) if isinstance(owner, StateMachine) else {}
+    around: dict[Node, Node] = {}
     for _, ref in references(owner):
         if ref.target is not None:
-            yield from _path(ref.span, ref.name, ref.target, around)
+            yield _last(ref.span, ref.name, ref.target)
+            if "." in ref.name and isinstance(owner, StateMachine):
+                around = around or _around(owner)
+                yield from _path(ref.span, ref.name, ref.target, around)
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
             yield _last(use.span, use.name, use.target)
@@ -137,8 +140,7 @@ def _last(span: Span, name: str, node: Node) -> Occurrence:
 
 
 def _path(span: Span, name: str, node: Node, around: dict[Node, Node]) -> Iterator[Occurrence]:
-    """A path to a state (`Search.Sweep`): each word means one, the last one the target."""
-    yield _last(span, name, node)
+    """The words before the last one of a path to a state (`Search.Sweep`): each means one."""
     source, _, end = span.absolute
     words = name.split(".")
     end -= len(words.pop())
