@@ -77,7 +77,7 @@ class ValueLinker:
             names += [f"{base.name}.{_words(fields[: n + 1])}" for n in range(len(fields))]
             length = next((n for n, name in enumerate(names) if self._means_value(name)), None)
             if length is None:
-                self._report_unknown(base, fields, values)
+                self._report_unknown(base, fields, owner, values)
                 return tree
             used = base
             if length:
@@ -105,7 +105,9 @@ class ValueLinker:
             )
         return enum
 
-    def _report_unknown(self, base: NameUse, fields: list[FieldUse], values: Values) -> None:
+    def _report_unknown(
+        self, base: NameUse, fields: list[FieldUse], owner: TopLevel, values: Values
+    ) -> None:
         """Report a name that means no value: of a package, what is looked for in it."""
         name, at = base.name, base.span
         for count, field in enumerate(fields):
@@ -126,8 +128,18 @@ class ValueLinker:
             help_ = 'a value is always there: compare with one that stands for nothing, 0 or ""'
             self.report.report("unresolved-name", at, kind="value", name=name, help=help_)
         else:
-            known = [*values, "true", "false"]
-            self.scope.resolve(name, at, _DECLARED, self.report, built_in=known)
+            # Models that are right do not wait for it.
+            from swarmdsl.undeclared import way_to_declare
+
+            self.scope.resolve(
+                name,
+                at,
+                _DECLARED,
+                self.report,
+                built_in=[*values, "true", "false"],
+                # With something behind it, it may as well be a package.
+                way=None if fields else lambda project: way_to_declare(base, owner, project),
+            )
 
 
 def _words(fields: list[FieldUse]) -> str:

@@ -7,7 +7,7 @@ declarations win; a name that two imported files declare must be qualified by a 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import TypeVar
 
@@ -161,6 +161,7 @@ class FileScope:
         *,
         built_in: Iterable[str] = (),
         instead: Mapping[type[Node], str] | None = None,
+        way: Callable[[Project], str | None] | None = None,
     ) -> D | None:
         """Find the declaration a name means; None when there is none, which is reported.
 
@@ -199,7 +200,7 @@ class FileScope:
                 help=(instead or {}).get(type(found[0][1])),
             )
         elif not found and self.complete:
-            self._report_unresolved(name, at, kinds, built_in, report)
+            self._report_unresolved(name, at, kinds, built_in, report, way)
         return None
 
     def _report_unresolved(
@@ -209,6 +210,7 @@ class FileScope:
         kinds: tuple[type[D], ...],
         built_in: Iterable[str],
         report: Diagnostics,
+        way: Callable[[Project], str | None] | None,
     ) -> None:
         if name.rpartition(".")[2] in self.lost:
             return
@@ -243,7 +245,13 @@ class FileScope:
         if package in self.packages:
             candidates = [f"{package}.{key}" for key in candidates if self.find(f"{package}.{key}")]
             names = {key: self.find(key)[0][1] for key in candidates}
-        report_unresolved(kind, name, at, [*built_in, *candidates], names, report)
+        advice = None
+        if not package:
+            # Models that are right do not wait for it.
+            from swarmdsl.declaring import missing_line
+
+            advice = missing_line(name, kinds) or (way(self._project) if way is not None else None)
+        report_unresolved(kind, name, at, [*built_in, *candidates], names, report, way=advice)
 
     def _way_to(self, other: File, name: str) -> str:
         """How this file imports what another file declares: that of a library by its package."""
@@ -286,8 +294,13 @@ def report_unresolved(
     candidates: Iterable[str],
     nodes: dict[str, Declaration] | None,
     report: Diagnostics,
+    *,
+    way: str | None = None,
 ) -> None:
-    """Report a name that means nothing, with the most similar one that would."""
+    """Report a name that means nothing, with the most similar one that would.
+
+    `way` is what to do where none is similar.
+    """
     close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
     similar = nodes.get(close) if close and nodes else None
     report.report(
@@ -296,7 +309,7 @@ def report_unresolved(
         kind=kind,
         name=name,
         related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
-        help=f"did you mean `{close}`?" if close else None,
+        help=f"did you mean `{close}`?" if close else way,
     )
 
 

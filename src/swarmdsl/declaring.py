@@ -1,0 +1,87 @@
+"""The line that is missing where a name means nothing: a declaration of it, or an import.
+
+`scopes` asks for it when no name that is known comes close.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+
+from swarmdsl import resources
+from swarmdsl.libraries import SUFFIX
+from swarmdsl.syntax import (
+    AliasType,
+    Component,
+    Constant,
+    EnumType,
+    Environment,
+    Event,
+    Fitness,
+    Function,
+    Member,
+    Node,
+    StateMachine,
+    StructType,
+)
+
+# By the word that a declaration begins with, what it declares.
+_WORDS: dict[str, type[Node]] = {
+    **dict.fromkeys(("sensor", "actuator", "controller", "virtual"), Component),
+    "const": Constant,
+    "enum": EnumType,
+    "environment": Environment,
+    "event": Event,
+    "fitness": Fitness,
+    "function": Function,
+    "member": Member,
+    "statemachine": StateMachine,
+    "struct": StructType,
+    "type": AliasType,
+}
+_DECLARATION = re.compile(
+    rf"^(?:swarm |endless )?({'|'.join(_WORDS)}) +([A-Za-z]\w*)\b", re.MULTILINE
+)
+_PACKAGE = re.compile(r"^package +([\w.]+)", re.MULTILINE)
+
+# As short as they can be: the smallest that is right by itself.
+_LINES: dict[type[Node], str] = {
+    Component: "sensor {0} {{ }}",
+    Environment: "environment {0} {{ size 50 m x 50 m }}",
+    Event: "event {0} : std_msgs/Empty",
+    Function: 'function {0} : abstraction {{ service "{0}" : std_srvs/Trigger }}',
+    Member: "member {0} {{ }}",
+    StateMachine: "statemachine {0} {{ initial Done final Done }}",
+    StructType: "struct {0} {{ }}",
+}
+
+
+def missing_line(name: str, kinds: tuple[type[Node], ...]) -> str | None:
+    """What to add so that a name means something of one of these kinds, in words.
+
+    None where nobody can say: of a fitness or an enum the name alone tells too little.
+    """
+    for kind, package in _in_library().get(name, ()):
+        if kind in kinds:
+            return f"add `import {package}.{name}`"
+    line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
+    if line is None:
+        return None
+    elsewhere = f", or say of which package of ROS it is: `package/{name}`"
+    return f"declare it: `{line.format(name)}`{elsewhere if StructType in kinds else ''}"
+
+
+@cache
+def _in_library() -> Mapping[str, list[tuple[type[Node], str]]]:
+    """What the packages that come with swarmdsl declare, by name, each with its package.
+
+    Their lines are looked through, which costs a hundredth of what parsing them does.
+    """
+    found: dict[str, list[tuple[type[Node], str]]] = {}
+    for path in sorted(resources.library().rglob(f"*{SUFFIX}")):
+        text = path.read_text(encoding="utf-8")
+        package = "".join(_PACKAGE.findall(text))
+        for word, name in _DECLARATION.findall(text):
+            found.setdefault(name, []).append((_WORDS[word], package))
+    return found

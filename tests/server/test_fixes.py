@@ -1,0 +1,95 @@
+"""Changes that mend what is wrong, each made and looked at by the compiler."""
+
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import compiler
+from swarmdsl.server.fixes import fix
+
+MODEL = """\
+/// Robots that count.
+package counting
+
+import cpswarm.interfaces.*
+
+/// Count once.
+function count : abstraction { action "count" : counting/Count }
+action Count {
+  goal { depth : uint8  place : geometry_msgs/Point }
+  result { count : uint16 }
+}
+function stop : abstraction { service "stop" : std_srvs/SetBool }
+statemachine Counting {
+  /// How deep.
+  param depth : uint8 = 3
+
+  // Where it begins.
+  initial Idle
+  state Idle { on MissionStart -> Count }
+  state Count {
+    do count(depth = depth, place = place) gives (count => found)
+    on succeeded [not weary] / sum = sum + found -> Count
+    on succeeded, aborted -> Stop
+    after limit -> Stop
+  }
+  state Stop {
+    do stop(data = true) gives (message => reason)
+    on Stopped -> Done
+    on succeeded [reason != "" and sum > 3 and rate < 1.5] -> Done
+    on succeeded, aborted -> Idle
+  }
+  final Done
+}
+member Counter { behavior Counting  eye : Camera }
+fitness Found { maximize found }
+swarm Counters { counter : Counter[2]  other : Looker  environment Field  fitness Found }
+"""
+
+
+def mended(path: Path) -> list[str]:
+    """The titles of the changes, made one after the other until none is left."""
+    titles: list[str] = []
+    while True:
+        checked = compiler.check([path])
+        fixes = [found for each in checked.report if (found := fix(each)) is not None]
+        if not fixes:
+            assert not checked.report.has_errors
+            return titles
+        first = fixes[0]
+        titles.append(first.title)
+        text = path.read_text(encoding="utf-8")
+        text = text[: first.span.start] + first.text + text[first.span.end :]
+        path.write_text(text, encoding="utf-8")
+        assert len(titles) < 50
+
+
+def test_what_is_not_declared(tmp_path):
+    path = tmp_path / "counting.swarm"
+    path.write_text(MODEL, encoding="utf-8")
+    assert set(mended(path)) == {
+        "Add `import cpswarm.events.MissionStart`",
+        "Add `import cpswarm.hardware.Camera`",
+        "Declare `event Stopped : std_msgs/Empty`",
+        "Declare `environment Field { size 50 m x 50 m }`",
+        "Declare `member Looker { }`",
+        "Declare `var found : uint16 = 0`",
+        "Declare `var limit : duration`",
+        "Declare `var place : geometry_msgs/Point`",
+        'Declare `var reason : string = ""`',
+        "Declare `var rate : float64 = 0.0`",
+        "Declare `var sum : uint32 = 0`",
+        "Declare `var weary : bool = false`",
+        "Declare `in found : float64`",
+    }
+    text = path.read_text(encoding="utf-8")
+    assert "\n  param depth : uint8 = 3\n  var " in text
+    assert "\n\n  // Where it begins.\n" in text
+
+
+@pytest.mark.parametrize("head", ["", "package p\n"])
+def test_on_one_line(tmp_path, head):
+    path = tmp_path / "m.swarm"
+    machine = "endless statemachine M { initial A state A { on Go / n = n + 1 -> A } }"
+    path.write_text(f"{head}{machine}\nmember R {{ behavior M }}\nswarm S {{ r : R }}\n")
+    assert mended(path) == ["Declare `event Go : std_msgs/Empty`", "Declare `var n : uint32 = 0`"]
