@@ -2,13 +2,14 @@
 
 import * as vscode from "vscode";
 
+import { followNodes, followTrace } from "./follow.ts";
 import { selectInterpreter } from "./interpreter.ts";
 import { newModel } from "./models.ts";
 import { Preview } from "./preview.ts";
 import { onSelect } from "./python.ts";
 import { type Place, showReferences } from "./references.ts";
 import { Server } from "./server.ts";
-import { follow, simulate } from "./simulate.ts";
+import { simulate } from "./simulate.ts";
 import { showStatus } from "./status.ts";
 import type { Subject } from "./subject.ts";
 import { provideTasks } from "./tasks.ts";
@@ -41,7 +42,11 @@ export function activate(context: vscode.ExtensionContext): void {
     }),
     command("followTrace", (file?: vscode.Uri | string) => {
       const uri = asked(file);
-      return uri && follow(preview, uri);
+      return uri && followTrace(preview, uri);
+    }),
+    command("followNodes", (file?: vscode.Uri | string) => {
+      const uri = asked(file);
+      return uri && followNodes(started, preview, uri, log);
     }),
     command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
       const uri = asked(file);

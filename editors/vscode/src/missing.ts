@@ -31,7 +31,7 @@ function openSettings(setting: string): Thenable<unknown> {
 
 /** Tell that the copy that comes with the extension does not do what is asked for. */
 export function tellBundled(what: string): void {
-  const text = `To ${what} a model, install the Python package swarmdsl, and select its interpreter.`;
+  const text = `To ${what}, install the Python package swarmdsl, and select its interpreter.`;
   void vscode.window.showErrorMessage(text, SELECT).then((chosen) =>
     chosen ? vscode.commands.executeCommand("swarmdsl.selectInterpreter") : undefined,
   );

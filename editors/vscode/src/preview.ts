@@ -4,9 +4,9 @@ import { randomBytes } from "node:crypto";
 
 import * as vscode from "vscode";
 
+import type { Lights, Moved } from "./lights.ts";
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
-import { Trace } from "./trace.ts";
 
 /** What the page says. */
 interface Said {
@@ -25,7 +25,7 @@ export class Preview implements vscode.Disposable {
   private file: vscode.Uri | undefined;
   private first: string | undefined; // what is shown when the page begins
   private wanted: Said["want"];
-  private trace: Trace | undefined;
+  private lights: Lights | undefined;
   private begins = false;
   private timer: NodeJS.Timeout | undefined;
   private readonly extension: vscode.Uri;
@@ -68,27 +68,24 @@ export class Preview implements vscode.Disposable {
     this.begins = true;
     panel.onDidDispose(() => {
       this.panel = undefined;
-      this.trace?.dispose();
-      this.trace = undefined;
+      this.lights?.dispose();
+      this.lights = undefined;
     });
     panel.webview.onDidReceiveMessage((said: Said) => this.hear(said));
     panel.webview.html = await this.html();
   }
 
-  /** Light up the states that are active by a trace; `alone` is a machine that it has no name for. */
-  light(path: string, alone = ""): Trace {
-    this.trace?.dispose();
-    this.trace = new Trace(
-      path,
-      alone,
-      (active, taken) => void this.panel?.webview.postMessage({ active, taken }),
-    );
-    return this.trace;
+  /** Light up where members are by what `begin` begins, in place of what did so before. */
+  light<Kind extends Lights>(begin: (moved: Moved) => Kind): Kind {
+    this.lights?.dispose();
+    const lights = begin((active, taken) => void this.panel?.webview.postMessage({ active, taken }));
+    this.lights = lights;
+    return lights;
   }
 
   dispose(): void {
     clearTimeout(this.timer);
-    this.trace?.dispose();
+    this.lights?.dispose();
     this.listening.dispose();
     this.panel?.dispose();
   }
@@ -130,7 +127,7 @@ export class Preview implements vscode.Disposable {
       }
       this.wanted = want;
       await this.update();
-      this.trace?.again();
+      this.lights?.again();
     }
     const place = /^(.*):(\d+):(\d+)$/.exec(reveal ?? "");
     if (place?.[1] !== undefined) {

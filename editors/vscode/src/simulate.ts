@@ -11,6 +11,7 @@ import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
 import { run } from "./tasks.ts";
+import { Trace } from "./trace.ts";
 
 interface Scenario extends vscode.QuickPickItem {
   readonly uri: vscode.Uri | undefined;
@@ -35,7 +36,7 @@ export async function simulate(
     return;
   }
   if (launch.bundled) {
-    tellBundled("simulate");
+    tellBundled("simulate a model");
     return;
   }
   const chosen = subject ?? (await chooseSubject(file));
@@ -65,7 +66,7 @@ export async function simulate(
   }
   const machine = chosen.kind === "machine" ? chosen : undefined;
   await preview.show(file, machine);
-  const lights = preview.light(trace, machine?.name);
+  const lights = preview.light((moved) => new Trace(trace, machine?.name ?? "", moved));
   const running = await vscode.tasks.executeTask(task);
   const ended = vscode.tasks.onDidEndTask(async ({ execution }) => {
     if (execution === running) {
@@ -74,20 +75,6 @@ export async function simulate(
       await rm(folder, { recursive: true, force: true });
     }
   });
-}
-
-/** Light up where robots are in the preview of a file's model, by a trace that they write. */
-export async function follow(preview: Preview, file: vscode.Uri): Promise<void> {
-  const chosen = await vscode.window.showOpenDialog({
-    title: "The trace of a simulation, or of robots",
-    openLabel: "Follow",
-    defaultUri: vscode.Uri.joinPath(file, ".."),
-    filters: { Traces: ["jsonl", "json"], "All files": ["*"] },
-  });
-  if (chosen?.[0]) {
-    await preview.show(file);
-    preview.light(chosen[0].fsPath);
-  }
 }
 
 async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {

@@ -2,14 +2,11 @@
 
 import { type FileHandle, open, stat } from "node:fs/promises";
 
+import type { Active, Lights, Moved, Taken } from "./lights.ts";
+
 const PAUSE = 100; // milliseconds between two looks at the file
 const CHUNK = 1 << 20;
 const MOMENT = 1000; // milliseconds for which a transition counts as just taken
-
-/** The innermost active states of members; null of those that are gone. */
-export type Active = Record<string, readonly string[] | null>;
-/** Transitions that members have just taken. */
-export type Taken = Record<string, readonly string[]>;
 
 interface Step {
   readonly time: number;
@@ -18,10 +15,10 @@ interface Step {
   readonly taken: readonly string[];
 }
 
-export class Trace {
+export class Trace implements Lights {
   private readonly path: string;
   private readonly alone: string;
-  private readonly moved: (active: Active, taken: Taken) => void;
+  private readonly moved: Moved;
   private readonly timer: NodeJS.Timeout;
   private active: Active = {};
   private file: FileHandle | undefined;
@@ -32,14 +29,13 @@ export class Trace {
   private disposed = false;
 
   /** `alone` is what a member without a name is called. The file may come later. */
-  constructor(path: string, alone: string, moved: (active: Active, taken: Taken) => void) {
+  constructor(path: string, alone: string, moved: Moved) {
     this.path = path;
     this.alone = alone;
     this.moved = moved;
     this.timer = setInterval(() => void this.look(), PAUSE);
   }
 
-  /** Say again where all are. */
   again(): void {
     this.moved(this.active, {});
   }
@@ -52,7 +48,6 @@ export class Trace {
     await this.close();
   }
 
-  /** End it: nobody is anywhere any more. */
   dispose(): void {
     clearInterval(this.timer);
     this.disposed = true;

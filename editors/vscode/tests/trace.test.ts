@@ -6,7 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import { type Active, type Taken, Trace } from "../src/trace.ts";
+import type { Active, Taken } from "../src/lights.ts";
+import { Trace } from "../src/trace.ts";
 
 const DEADLINE = 20_000;
 

@@ -248,6 +248,11 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
         summary = window.page.locator(".terminal-wrapper .xterm-rows", has_text="never taken")
         expect(summary).not_to_have_count(0)
 
+        window.command("Swarm: Follow ROS 2 Nodes...")
+        window.answer("Follow ROS 2 Nodes", "/sar")
+        told = window.page.locator(".notification-toast", has_text="ROS 2 cannot be followed")
+        expect(told).to_contain_text("source the setup file of ROS 2")
+
         window.command("Swarm: Simulate in Real Time")
         window.choose("mission.toml")
         page = window.view()

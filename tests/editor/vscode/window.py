@@ -85,6 +85,14 @@ class Window:
     def _entry(self) -> Locator:
         return self._asked.locator("input[type=text]")
 
+    def answer(self, title: str, text: str) -> None:
+        """Write into a field that opens in the middle, and close it."""
+        # The list of commands has one, too, until it has closed.
+        expect(self._asked.locator(".quick-input-title")).to_have_text(title)
+        self._entry.fill(text)
+        self._entry.press("Enter")
+        expect(self._asked).to_have_count(0)
+
     def choose(self, text: str) -> None:
         """Choose what a list offers that has opened in the middle."""
         self._asked.locator(".monaco-list-row", has_text=text).first.click()

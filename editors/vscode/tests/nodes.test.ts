@@ -1,0 +1,83 @@
+// What a swarmc that listens to nodes tells of them, and that it has ended.
+
+import assert from "node:assert/strict";
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+
+import type { Active, Taken } from "../src/lights.ts";
+import { Nodes } from "../src/nodes.ts";
+
+// In place of swarmc: it says what it was started with, and serves the news of its page.
+const SERVES = `
+const { createServer } = require("node:http");
+const news = [
+  { titles: {} },
+  { active: { "uav[0]": ["Höhe"], [process.argv.slice(2).join(" ")]: ["Idle"] } },
+  { active: { "uav[0]": null } },
+  { taken: { "uav[1]": ["Höhe->0"] } },
+];
+const server = createServer((asked, answer) => {
+  if (asked.url !== "/events") throw new Error(asked.url);
+  const bytes = Buffer.from(": here\\n\\n" + news.map((each) => "data: " + JSON.stringify(each) + "\\n\\n").join(""));
+  const within = bytes.indexOf(0xc3) + 1; // a letter
+  answer.write(bytes.subarray(0, within), () => setTimeout(() => answer.write(bytes.subarray(within)), 50));
+});
+server.listen(0, "127.0.0.1", () =>
+  console.log("1 file is right; http://127.0.0.1:" + server.address().port + "/"));
+process.on("SIGINT", () => process.exit(0));
+`;
+const FAILS = `console.error("error[SW1012]: ROS 2 cannot be followed\\n  = help: source it"); process.exit(1);`;
+
+interface Told {
+  readonly nodes: Nodes;
+  readonly model: string;
+  /** The next of what is told: who has moved and what was taken, or why it has ended. */
+  next(): Promise<[Active, Taken] | string>;
+}
+
+async function followed(script: string, run: (told: Told) => Promise<void>): Promise<void> {
+  const folder = await mkdtemp(join(tmpdir(), "nodes-"));
+  const program = join(folder, "swarmc.cjs");
+  await writeFile(program, script);
+  const launch = { command: process.execPath, args: [program], origin: "", bundled: false };
+  const told: ([Active, Taken] | string)[] = [];
+  let wake = (): void => undefined;
+  const tell = (news: [Active, Taken] | string): void => {
+    told.push(news);
+    wake();
+  };
+  const model = join(folder, "a.swarm");
+  const nodes = new Nodes(launch, model, "/sar", (...each) => tell(each), tell);
+  const next = async (): Promise<[Active, Taken] | string> => {
+    while (!told.length) {
+      await new Promise<void>((resolve) => (wake = resolve));
+    }
+    return told.shift() ?? "";
+  };
+  try {
+    await run({ nodes, model, next });
+  } finally {
+    nodes.dispose();
+    await rm(folder, { recursive: true });
+  }
+}
+
+test("nodes are followed until nobody looks any more", () =>
+  followed(SERVES, async ({ nodes, model, next }) => {
+    const line = `preview ${model} --follow ros2:/sar`;
+    assert.deepEqual(await next(), [{ "uav[0]": ["Höhe"], [line]: ["Idle"] }, {}]);
+    assert.deepEqual(await next(), [{ "uav[0]": null }, {}]);
+    assert.deepEqual(await next(), [{}, { "uav[1]": ["Höhe->0"] }]);
+    nodes.again();
+    assert.deepEqual(await next(), [{ [line]: ["Idle"] }, {}]);
+    nodes.dispose();
+    assert.deepEqual(await next(), [{ [line]: null }, {}]);
+  }));
+
+test("why nodes cannot be followed is told", () =>
+  followed(FAILS, async ({ next }) => {
+    assert.deepEqual(await next(), [{}, {}]);
+    assert.match(String(await next()), /^error\[SW1012\].*\n.*source it$/);
+  }));
