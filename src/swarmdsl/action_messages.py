@@ -13,7 +13,7 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.ir.types import Named
 
 _PARTS = ("Goal", "Result", "Feedback")
-_MADE = re.compile(rf"(.+?)({'|'.join(_PARTS)})")
+_MADE = rf"(.+?)({'|'.join(_PARTS)})"
 _WRAPPED = "Action"
 _HEADER = ("header", Named("std_msgs", "Header"))
 _STATUS = ("status", Named("actionlib_msgs", "GoalStatus"))
@@ -39,7 +39,7 @@ def names_made(action: str) -> tuple[str, ...]:
 
 def ways_made(type_: Named) -> Iterator[Made]:
     """Of which actions a message of that name may be made, if there are such."""
-    found = _MADE.fullmatch(type_.name)
+    found = re.fullmatch(_MADE, type_.name)
     if found is None:
         return
     base, part = found.groups()

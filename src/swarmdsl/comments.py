@@ -9,10 +9,10 @@ from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.source import Source, Span
 
 # What has no end goes on to that of its line, or of the file.
-_TOKEN = re.compile(r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)')
+_TOKEN = r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)'
 _DOC_LINE = re.compile(r"///(?!/)")
 _BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
-_ESCAPE = re.compile(r"\\[^\n]")
+_ESCAPE = r"\\[^\n]"
 _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
 
@@ -48,7 +48,7 @@ class Comments:
 
     def quoted(self, start: int, end: int) -> None:
         """Look at a text in double quotes."""
-        for escape in _ESCAPE.finditer(self._source.text, start + 1, end - 1):
+        for escape in re.compile(_ESCAPE).finditer(self._source.text, start + 1, end - 1):
             if escape[0] not in _ESCAPES:
                 self._report.report(
                     "syntax-error",
@@ -99,7 +99,7 @@ def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]
 
 def _look_at_all(source: Source, comments: Comments) -> None:
     has_escapes = "\\" in source.text
-    for token in _TOKEN.finditer(source.text):
+    for token in re.finditer(_TOKEN, source.text):
         written = token[0]
         if written[0] == '"':
             if has_escapes and token["closed"]:

@@ -13,8 +13,7 @@ from swarmdsl.syntax import Expression, Node, Ref, Word
 if TYPE_CHECKING:
     from swarmdsl.brackets import Repair
 
-_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_NOTHING = re.compile(r"_\d+")
+_WORD = r"[A-Za-z_][A-Za-z0-9_]*"
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,10 +66,10 @@ class Draft:
             return type(value)(self._restore(item, source, repaired) for item in value)
         if isinstance(value, Word):
             span = self._place(value.span, source)
-            if value.strip("_") or not _WORD.fullmatch(value):
+            if value.strip("_") or not re.fullmatch(_WORD, value):
                 return Word(value, span)
             # A placeholder: for a keyword, which it is as long as, or for nothing.
-            return Word(span.text if _WORD.fullmatch(span.text) else f"_{span.start}", span)
+            return Word(span.text if re.fullmatch(_WORD, span.text) else f"_{span.start}", span)
         if isinstance(value, Ref):
             value.span = self._place(value.span, source)
         elif isinstance(value, Node):
@@ -91,7 +90,7 @@ class Draft:
 
 def stands_for_nothing(name: Word) -> bool:
     """Whether a name was put in where none could be read."""
-    return _NOTHING.fullmatch(name) is not None and name.span.text != name
+    return name.startswith("_") and name[1:].isdecimal() and name.span.text != name
 
 
 def untouched(text: str) -> Draft:

@@ -11,7 +11,7 @@ from typing import Any
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
 # What a `uint64` holds at most, and a duration in nanoseconds.
 _LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
-_ESCAPE = re.compile(r"\\(.)")
+_ESCAPE = r"\\(.)"
 # More would take Python long to read, and nobody needs them.
 _MOST_DIGITS = 400
 _ESCAPED = {"n": "\n", "t": "\t"}
@@ -37,7 +37,7 @@ def unquoted(text: str) -> str:
     r"""The content of a text in double quotes, with `\"`, `\\`, `\n` and `\t` replaced."""
     if "\\" not in text:
         return text[1:-1]
-    return _ESCAPE.sub(lambda found: _ESCAPED.get(found[1], found[1]), text[1:-1])
+    return re.sub(_ESCAPE, lambda found: _ESCAPED.get(found[1], found[1]), text[1:-1])
 
 
 def quantity_value(digits: str) -> int | float:

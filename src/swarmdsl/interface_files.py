@@ -32,14 +32,14 @@ Complain = Callable[[str, Span | None], None]
 FOLDERS = {Message: "msg", Service: "srv", Action: "action"}
 TIMES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
 
-_INTERFACE = re.compile(r"[A-Z][A-Za-z0-9]*")
+_INTERFACE = r"[A-Z][A-Za-z0-9]*"
 _INTERFACE_HINT = "a ROS interface starts with a capital letter and has letters and digits only"
-_FIELD = {1: re.compile(r"[A-Za-z][A-Za-z0-9_]*"), 2: re.compile(r"[a-z](_?[a-z0-9])*")}
+_FIELD = {1: r"[A-Za-z][A-Za-z0-9_]*", 2: r"[a-z](_?[a-z0-9])*"}
 _FIELD_HINT = {
     1: "ROS wants letters, digits and `_`, and a letter first",
     2: "ROS 2 wants lower-case letters, digits and single `_`",
 }
-_CONSTANT = {1: _FIELD[1], 2: re.compile(r"[A-Z](_?[A-Z0-9])*")}
+_CONSTANT = {1: _FIELD[1], 2: r"[A-Z](_?[A-Z0-9])*"}
 _CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 wants capital letters, digits and single `_`"}
 
 
@@ -70,14 +70,14 @@ def named(type_: Type) -> Iterator[Named]:
 
 def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str, str, Span | None]]:
     """The names in it that ROS does not take: each with what it is, what ROS wants, its place."""
-    if not _INTERFACE.fullmatch(interface.type.name):
+    if not re.fullmatch(_INTERFACE, interface.type.name):
         use = "the name of an interface"
         yield interface.type.name, use, _INTERFACE_HINT, interface.origin
     for value in interface.constants if isinstance(interface, Message) else ():
-        if not _CONSTANT[ros].fullmatch(value.name):
+        if not re.fullmatch(_CONSTANT[ros], value.name):
             yield value.name, "the name of a constant", _CONSTANT_HINT[ros], value.origin
     for field in (field for part in parts(interface) for field in part):
-        if not _FIELD[ros].fullmatch(field.name):
+        if not re.fullmatch(_FIELD[ros], field.name):
             yield field.name, "the name of a field", _FIELD_HINT[ros], field.origin
 
 

@@ -30,7 +30,7 @@ from swarmdsl.syntax import (
 )
 
 # What the messages end with that ROS makes of an action or service.
-_MADE = re.compile(r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|Request|Response)$")
+_MADE = r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|Request|Response)$"
 _KINDS: dict[type[Interface], Kind] = {ServiceType: "srv", ActionType: "action"}
 
 
@@ -114,7 +114,7 @@ class Interfaces:
         What ROS makes of an action or service (`TrackGoal`, `Track_Request`) has no file.
         """
         known = self._read.get(type_.package)
-        made = _MADE.search(type_.name)
+        made = re.search(_MADE, type_.name)
         made_of = type_.name[: made.start()] if made else type_.name
         return known is not None and type_.name not in known and made_of not in known
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
-from importlib.util import find_spec
 from pathlib import Path
 
 from swarmdsl import resources
@@ -126,6 +125,8 @@ def installed_folders(report: Diagnostics) -> list[Path]:
 
 def _folder_of(module: str) -> Path:
     """Where the files of a module lie; the module itself is not run."""
+    from importlib.util import find_spec
+
     spec = find_spec(module)
     if spec is None:
         raise ModuleNotFoundError(f"there is no module `{module}`")

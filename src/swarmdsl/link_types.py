@@ -19,7 +19,6 @@ from swarmdsl.syntax import (
     StructType,
     TypeRef,
 )
-from swarmdsl.syntax_advice import SIZES
 
 _TYPES: tuple[type[Interface], ...] = (
     StructType,
@@ -184,6 +183,9 @@ class TypeLinker:
         elif size and not _is_size(size):
             fault = f"{size} elements"
         if fault:
+            # Imported here because it is all advice, which most models do without.
+            from swarmdsl.syntax_advice import SIZES
+
             self._report.report(
                 "impossible-array", ref.span, what="an array", size=fault, help=SIZES
             )

@@ -29,7 +29,7 @@ from swarmdsl.source_map import MappedText
 VERSION = 1
 _OURS = "swarmdsl:"
 _YOURS = "yours"
-_WORD = re.compile(r"(?:([0-9]{1,9})=)?(?:-|([0-9]{1,9}):([0-9]{1,9}):([0-9]{1,9})\+([0-9]{1,9}))")
+_WORD = r"(?:([0-9]{1,9})=)?(?:-|([0-9]{1,9}):([0-9]{1,9}):([0-9]{1,9})\+([0-9]{1,9}))"
 
 
 class Model(NamedTuple):
@@ -174,8 +174,9 @@ def _read(text: str, models: list[Model]) -> FileMap:
     of_user = words[:1] == [_YOURS]
     origin: Position | None = None
     lines: list[tuple[int, Position | None]] = []
+    read = re.compile(_WORD).fullmatch
     for word in words[of_user:]:
-        found = _WORD.fullmatch(word)
+        found = read(word)
         if found is None:
             continue
         start, model, *place = found.groups()

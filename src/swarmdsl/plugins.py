@@ -41,7 +41,7 @@ OPTION_TYPES = (str, bool, int)
 ROS_1 = frozenset({"ros", "ros1", "ros-1", "ros_1"})
 
 # A target's name is also the name of its output folder.
-_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+_NAME = r"[a-z][a-z0-9_-]*"
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ def load(name: str) -> Generator | Broken | None:
     found = _third_party().get(name, [])
     if not found:
         return None
-    if not _NAME.fullmatch(name):
+    if not re.fullmatch(_NAME, name):
         return Broken("its name is not made of lower-case letters, digits, `-` and `_`")
     if len(found) > 1:
         return Broken(f"it is offered more than once, as {' and '.join(p.value for p in found)}")

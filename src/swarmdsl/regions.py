@@ -13,7 +13,7 @@ from collections.abc import Mapping
 Texts = Mapping[str, bytes]
 """What the user has written in each region."""
 
-_MARK = re.compile(rb"swarmc:(begin|end) ([A-Za-z0-9_.]+)")
+_MARK = rb"swarmc:(begin|end) ([A-Za-z0-9_.]+)"
 
 
 class RegionError(Exception):
@@ -80,8 +80,9 @@ def _pieces(content: bytes) -> list[tuple[str | None, list[bytes]]]:
         return [(None, [content])]
     pieces: list[tuple[str | None, list[bytes]]] = [(None, [])]
     begun: dict[str, int] = {}
+    find = re.compile(_MARK).search
     for number, line in enumerate(content.splitlines(keepends=True)):
-        mark = _MARK.search(line)
+        mark = find(line)
         if mark is None:
             pieces[-1][1].append(line)
             continue

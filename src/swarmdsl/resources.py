@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
-from zlib import crc32
 
 _PACKAGE = Path(__file__).resolve().parent
 
@@ -28,6 +27,9 @@ def grammar() -> Path:
 @cache
 def grammar_checksum() -> int:
     """A number that is another one when a grammar file has changed."""
+    # Imported here because it is a library of its own, and most models follow the grammar.
+    from zlib import crc32
+
     checksum = 0
     for path in sorted(grammar().glob("*.tx")):
         checksum = crc32(path.read_bytes(), checksum)

@@ -12,19 +12,19 @@ from swarmdsl.naming import is_ros_package_name
 from swarmdsl.xml_text import Element, document
 
 # What catkin_pkg demands of them.
-_VERSION = re.compile(r"[0-9]+\.[0-9]+\.[0-9]+")
-_COPYRIGHT = re.compile(r"[0-9]{4}(-[0-9]{4})? \S.*")
-_EMAIL = re.compile(r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}")
+_VERSION = r"[0-9]+\.[0-9]+\.[0-9]+"
+_COPYRIGHT = r"[0-9]{4}(-[0-9]{4})? \S.*"
+_EMAIL = r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}"
 
 
 def _version_fault(value: str) -> str | None:
-    if _VERSION.fullmatch(value):
+    if re.fullmatch(_VERSION, value):
         return None
     return f"`{value}` is no version: three numbers, as in `1.2.0`"
 
 
 def _email_fault(value: str) -> str | None:
-    return None if _EMAIL.fullmatch(value) else f"`{value}` is no e-mail address"
+    return None if re.fullmatch(_EMAIL, value) else f"`{value}` is no e-mail address"
 
 
 def packages_fault(value: str) -> str | None:
@@ -35,7 +35,7 @@ def packages_fault(value: str) -> str | None:
 
 def copyright_fault(value: str) -> str | None:
     """What is wrong with a year and the holder of a copyright, which may be empty; or None."""
-    if not value or (_COPYRIGHT.fullmatch(value) and value.isprintable()):
+    if not value or (re.fullmatch(_COPYRIGHT, value) and value.isprintable()):
         return None
     return f"`{value}` is not a year and a name, as in `2026 Example Robotics`"
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from functools import lru_cache
-from heapq import nlargest
 from itertools import pairwise
 
 from swarmdsl.diagnostics import listed
@@ -18,7 +17,9 @@ def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | Non
     by_lower = {name.lower(): name for name in known}
     if not word or not by_lower:
         return None
+    # Imported here because they are slow and most models have no such word.
     from difflib import get_close_matches
+    from heapq import nlargest
 
     word = word.lower()
     compared: Iterable[str] = by_lower

@@ -17,19 +17,84 @@ new_word = str.__new__
 
 BLANK = '[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*'
 TOKEN = re.compile('([A-Za-z_][A-Za-z0-9_]*\\b|[!-/:-@\\[-^`{-~]|)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)').match
-REGEX0 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
-REGEX1 = re.compile('("(?:[^"\\\\\\n]|\\\\[^\\n])*")' + BLANK, re.MULTILINE).match
-REGEX2 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?)' + BLANK, re.MULTILINE).match
-REGEX3 = re.compile('((?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?)' + BLANK, re.MULTILINE).match
-REGEX4 = re.compile('((?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
-REGEX5 = re.compile('(<=?\\s*-?\\d+\\b)' + BLANK, re.MULTILINE).match
-REGEX6 = re.compile('((?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+)' + BLANK, re.MULTILINE).match
-REGEX7 = re.compile('(-?\\d+\\b(?!\\.\\d))' + BLANK, re.MULTILINE).match
-REGEX8 = re.compile('(\\.\\.)' + BLANK, re.MULTILINE).match
-REGEX9 = re.compile('(\\->)' + BLANK, re.MULTILINE).match
-REGEX10 = re.compile('(\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b)' + BLANK, re.MULTILINE).match
-REGEX11 = re.compile('(\\d+\\b|\\*)' + BLANK, re.MULTILINE).match
-REGEX12 = re.compile('(=>)' + BLANK, re.MULTILINE).match
+
+def REGEX0(text, at):
+    global REGEX0
+    REGEX0 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+    return REGEX0(text, at)
+
+
+def REGEX1(text, at):
+    global REGEX1
+    REGEX1 = re.compile('("(?:[^"\\\\\\n]|\\\\[^\\n])*")' + BLANK, re.MULTILINE).match
+    return REGEX1(text, at)
+
+
+def REGEX2(text, at):
+    global REGEX2
+    REGEX2 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?)' + BLANK, re.MULTILINE).match
+    return REGEX2(text, at)
+
+
+def REGEX3(text, at):
+    global REGEX3
+    REGEX3 = re.compile('((?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?)' + BLANK, re.MULTILINE).match
+    return REGEX3(text, at)
+
+
+def REGEX4(text, at):
+    global REGEX4
+    REGEX4 = re.compile('((?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+    return REGEX4(text, at)
+
+
+def REGEX5(text, at):
+    global REGEX5
+    REGEX5 = re.compile('(<=?\\s*-?\\d+\\b)' + BLANK, re.MULTILINE).match
+    return REGEX5(text, at)
+
+
+def REGEX6(text, at):
+    global REGEX6
+    REGEX6 = re.compile('((?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+)' + BLANK, re.MULTILINE).match
+    return REGEX6(text, at)
+
+
+def REGEX7(text, at):
+    global REGEX7
+    REGEX7 = re.compile('(-?\\d+\\b(?!\\.\\d))' + BLANK, re.MULTILINE).match
+    return REGEX7(text, at)
+
+
+def REGEX8(text, at):
+    global REGEX8
+    REGEX8 = re.compile('(\\.\\.)' + BLANK, re.MULTILINE).match
+    return REGEX8(text, at)
+
+
+def REGEX9(text, at):
+    global REGEX9
+    REGEX9 = re.compile('(\\->)' + BLANK, re.MULTILINE).match
+    return REGEX9(text, at)
+
+
+def REGEX10(text, at):
+    global REGEX10
+    REGEX10 = re.compile('(\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b)' + BLANK, re.MULTILINE).match
+    return REGEX10(text, at)
+
+
+def REGEX11(text, at):
+    global REGEX11
+    REGEX11 = re.compile('(\\d+\\b|\\*)' + BLANK, re.MULTILINE).match
+    return REGEX11(text, at)
+
+
+def REGEX12(text, at):
+    global REGEX12
+    REGEX12 = re.compile('(=>)' + BLANK, re.MULTILINE).match
+    return REGEX12(text, at)
+
 SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET2 = frozenset(['', '!', '"', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~'])

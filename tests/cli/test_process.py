@@ -95,7 +95,8 @@ def test_a_check_imports_no_later_phase(tmp_path, monkeypatch):
     later = (
         *("dataclasses", "decimal", "hashlib", "json", "logging", "xml.etree"),
         *("emit", "generator", "lower", "output", "plugins", "peg", "recovery", "scan"),
-        *("codes", "explain", "ir.expressions", "ir.statemachine"),
+        *("codes", "explain", "project.lint", "syntax_advice"),
+        *("ir.expressions", "ir.statemachine"),
     )
     code = (
         "import sys\nfrom swarmdsl.cli import run\nrun(['check', 'examples/minimal'])\n"

@@ -11,6 +11,13 @@ from swarmdsl.peg.grammar import Assign, Choice, Expression, Rule, Terminal, Uns
 
 # ASCII words and marks; the empty text stands for all else, and for the end.
 _TOKEN = r"[A-Za-z_][A-Za-z0-9_]*\b|[!-/:-@\[-^`{-~]|"
+# Compiled where it is used first: a file has few of them.
+_REGEX = """
+def {name}(text, at):
+    global {name}
+    {name} = re.compile({regex!r} + BLANK, re.MULTILINE).match
+    return {name}(text, at)
+"""
 
 
 @dataclass
@@ -34,7 +41,7 @@ class Lookahead:
             f"BLANK = {grammar.blank!r}",
             f"TOKEN = re.compile({f'({_TOKEN}){grammar.no_comment}'!r}).match",
             *(
-                f"{name} = re.compile({f'({regex})'!r} + BLANK, re.MULTILINE).match"
+                _REGEX.format(name=name, regex=f"({regex})")
                 for regex, name in self._regexes.items()
             ),
             *(f"{name} = frozenset({sorted(members)!r})" for members, name in self._sets.items()),

@@ -9,9 +9,9 @@ from swarmdsl.ir.types import PRIMITIVES
 from swarmdsl.ros.fault import InterfaceError
 from swarmdsl.ros.values import (
     BEFORE_COMMENT,
-    QUOTED,
     TEXTS,
     Values,
+    is_quoted,
     read_value,
     read_values,
 )
@@ -35,7 +35,7 @@ _TYPE = re.compile(
     r"(?P<name>[A-Za-z]\w*(?:/[A-Za-z]\w*)?)(?:<=(?P<bound>\d{1,9}))?(?P<array>(?:\[[^\]]*\])*)",
     re.ASCII,
 )
-_ARRAY = re.compile(r"\[(?:(?:<=)?(?!0+\])\d{1,9})?\]", re.ASCII)
+_ARRAY = r"\[(?:(?:<=)?(?!0+\])\d{1,9})?\]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +91,7 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
         raise InterfaceError(
             span, "ROS has no arrays of arrays", "put the inner array into a message of its own"
         )
-    if array and not _ARRAY.fullmatch(array):
+    if array and not re.fullmatch(_ARRAY, array, re.ASCII):
         raise InterfaceError(
             span, f"`{array}` is no size of an array", "write `[]`, `[16]` or `[<=16]`"
         )
@@ -128,7 +128,7 @@ def _constant(name: Word, type_: TypeRef, bound: int | None, rest: Span) -> Line
             "a constant is a number, a text or a truth value",
         )
     span, comment = _split(rest)
-    if type_.name in TEXTS and not QUOTED.fullmatch(span.text):
+    if type_.name in TEXTS and not is_quoted(span.text):
         # ROS 1 takes all that follows for the text, quotes and `#` too.
         value, comment = Value(rest, rest.text), ""
     elif span.text:

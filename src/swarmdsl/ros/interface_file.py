@@ -49,7 +49,7 @@ _SHAPES: dict[Kind, str] = {
 }
 # A file with more faults is something else: Tcl and mail programs have .msg files too.
 _FAULTS_PER_FILE = 10
-_SEPARATOR = re.compile(r"-{3,}\s*(?:#.*)?")
+_SEPARATOR = r"-{3,}\s*(?:#.*)?"
 
 
 @dataclass
@@ -153,7 +153,7 @@ class _Reader:
             self._above, self._last = [], None
             self._part = self._parts_left.pop(0)
             self._names = {}
-            if not _SEPARATOR.fullmatch(text):
+            if not re.fullmatch(_SEPARATOR, text):
                 raise InterfaceError(line, "a line with `---` has nothing else")
         elif not text.lstrip().startswith("#"):
             self._read_declaration(line)

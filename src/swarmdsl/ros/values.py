@@ -15,9 +15,9 @@ Values = Value | tuple[Value, ...]
 BEFORE_COMMENT = re.compile(
     r""" (?: "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^#"'] )* [^#]* """, re.X
 )
-QUOTED = re.compile(r""" "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' """, re.X)
-_ELEMENT = re.compile(
-    r""" \s* (?P<text> "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^,]*? ) \s* (?P<comma>,|$) """, re.X
+_QUOTED = r""" "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' """
+_ELEMENT = (
+    r""" \s* (?P<text> "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^,]*? ) \s* (?P<comma>,|$) """
 )
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _RANGES = {
@@ -27,6 +27,11 @@ _RANGES = {
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
     **{f"uint{bits}": (0, 2**bits - 1) for bits in (8, 16, 32, 64)},
 }
+
+
+def is_quoted(text: str) -> bool:
+    """Whether it is a text in quotes."""
+    return re.fullmatch(_QUOTED, text, re.X) is not None
 
 
 def read_values(span: Span, type_: str, bound: int | None, array: str) -> Values:
@@ -52,7 +57,7 @@ def _elements(span: Span) -> list[Span]:
     text, start, end = span.source.text, span.start + 1, span.end - 1
     spans: list[Span] = []
     while text[start:end].strip() or spans:
-        found = _ELEMENT.match(text, start, end)
+        found = re.compile(_ELEMENT, re.X).match(text, start, end)
         assert found is not None  # it matches anything up to a comma or the end
         spans.append(Span(span.source, *found.span("text")))
         if not found["comma"]:
@@ -86,7 +91,7 @@ def _text(span: Span) -> str:
     quote = text[:1]
     if quote not in ("'", '"'):
         return text
-    if not QUOTED.fullmatch(text):
+    if not is_quoted(text):
         raise InterfaceError(span, f"this text has no closing `{quote}`, or goes on after it")
     return text[1:-1].replace("\\" + quote, quote)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cache
 from types import UnionType
 from typing import Any, TypeVar, get_args
 
@@ -38,17 +39,18 @@ class _Parts(dict[type[Node], tuple[tuple[str, bool], ...]]):
     # A model has few kinds of nodes.
     def __missing__(self, cls: type[Node]) -> tuple[tuple[str, bool], ...]:
         annotations = annotations_of(cls)
-        holding = {
-            name: _NO_PARTS.sub("", annotations[name])
+        holding = [
+            (name, annotations[name].startswith(("list", "tuple")))
             for name, about in fields_of(cls).items()
-            if "elsewhere" not in about.get("metadata", ())
-        }
-        self[cls] = tuple(
-            (name, annotation.startswith(("list", "tuple")))
-            for name, annotation in reversed(holding.items())
-            if not _HOLDERS.isdisjoint(_WORD.findall(annotation))
-        )
+            if "elsewhere" not in about.get("metadata", ()) and _holds_parts(annotations[name])
+        ]
+        self[cls] = tuple(reversed(holding))
         return self[cls]
+
+
+@cache
+def _holds_parts(annotation: str) -> bool:
+    return not _HOLDERS.isdisjoint(_WORD.findall(_NO_PARTS.sub("", annotation)))
 
 
 class _References(dict[type[Node], tuple[str, ...]]):
