@@ -23,6 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TESTS = ROOT / "tests" / "ros2"
 FOLDER = Path(os.environ.get("SWARMDSL_ROS2", ROOT / ".ros2"))
 ROUNDS = 5
+BATCHES = 5
 PINGS = 300
 IDLE = 4.0
 """For how many seconds a node does nothing."""
@@ -51,7 +52,8 @@ def section(folder: Path) -> Section:
     found = Section(
         "A node that answers a message with another one, on rclpy; "
         f"{ROUNDS} rounds (least / middle / greatest). Time from a message to the answer is of "
-        f"{PINGS} messages, one after the other, through the middleware and back. The node that "
+        f"{PINGS} messages, one after the other, through the middleware and back, in a round the "
+        f"least of {BATCHES} times so many. The node that "
         "tells what it does publishes its state, each transition and, once a second, diagnostics, "
         "and logs what it does, as generated nodes do.",
         [
@@ -141,15 +143,20 @@ def _one(ros: Any, command: list[str]) -> Any:
         ask(connect=["/one"])
         start = _processor(node.pid)
         ask(rounds=50)
-        before = _processor(node.pid)
-        answers = ask(rounds=PINGS)
-        work = (_processor(node.pid) - before) / PINGS
+        answers, work = zip(*(_batch(node.pid, ask) for _ in range(BATCHES)), strict=True)
         before = _processor(node.pid)
         time.sleep(IDLE)
         idle = _processor(node.pid) - before
         memory = _memory(node.pid)
         _end(node)
-    return start, median(answers), work, idle, memory
+    return start, min(answers), min(work), idle, memory
+
+
+def _batch(process_id: int, ask: Any) -> tuple[float, float]:
+    """Seconds until a message is answered, and those of the processor for it."""
+    before = _processor(process_id)
+    answers = ask(rounds=PINGS)
+    return median(answers), (_processor(process_id) - before) / PINGS
 
 
 def _many(ros: Any, commands: dict[str, list[str]], found: Section) -> None:
