@@ -140,7 +140,7 @@ def test_examples(model: Path, tmp_path: Path) -> None:
 
 @pytest.mark.filterwarnings("ignore:Gen")
 @settings(
-    max_examples=50,
+    max_examples=30,
     phases=[Phase.generate],  # shrinking would take minutes
 )
 # Names that a package of another model cannot have.

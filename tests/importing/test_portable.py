@@ -280,7 +280,7 @@ def compiles(system: System, folder: Path) -> bool:
 
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
-    max_examples=80,
+    max_examples=50,
     phases=[Phase.generate],  # shrinking would take minutes
 )
 @given(systems().filter(lambda system: bool(system.machines)))

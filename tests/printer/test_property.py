@@ -16,7 +16,7 @@ from .systems import systems
 
 @pytest.mark.filterwarnings("ignore:Generating overly large repr")
 @settings(
-    max_examples=150,
+    max_examples=75,
     phases=[Phase.generate],  # shrinking would take minutes
 )
 @given(systems())

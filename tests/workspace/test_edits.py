@@ -192,7 +192,7 @@ def edits(folder: Path, dice: random.Random) -> Iterator[dict[Path, str | None]]
 @pytest.mark.parametrize("seed", range(SEEDS))
 def test_edits(seed: int, tmp_path: Path, pytestconfig: pytest.Config) -> None:
     dice = random.Random(seed)
-    wanted = pytestconfig.getoption("--mutants") * 2 // SEEDS
+    wanted = pytestconfig.getoption("--mutants") // SEEDS
     places = models()
     done = 0
     while done < wanted:
