@@ -15,6 +15,7 @@ from swarmdsl.source_map import MappedText
 from swarmdsl.templates import Templates
 
 from ..ros2 import render as ros2
+from ..ros2.imports import WIDTH
 from ..ros2.options import Options
 from ..ros2.view import MachineView, PackageView, package_view
 from .library import Library
@@ -78,7 +79,7 @@ def module_file(
 ) -> OutputFile:
     """The module of a machine in the library."""
     path = f"{package.name}/{package.name}/{machine.module}{library.suffix}.py"
-    return OutputFile(path, text.rewritten(ros2.within_width), origin=machine.origin)
+    return OutputFile(path, text.rewritten(WIDTH, ros2.narrowed), origin=machine.origin)
 
 
 @cache

@@ -10,7 +10,7 @@ from functools import cache
 from inspect import cleandoc
 from pathlib import Path
 
-from swarmdsl import runtime
+import swarmdsl
 
 # How docstrings begin that are no orders, as the linters want them to be.
 _NOUNS = ("A", "An", "The", "What", "Which")
@@ -27,7 +27,8 @@ def engine_source() -> str:
     Strings are in single quotes and docstrings of several lines begin below the quotes, as
     the linters of ROS 2 want it.
     """
-    folder = Path(str(runtime.__file__)).parent
+    # It is only read: to import it takes longer.
+    folder = Path(str(swarmdsl.__file__)).with_name("runtime")
     imports: dict[str, set[str]] = {}
     sections = []
     for module in _MODULES:
@@ -51,7 +52,8 @@ def engine_source() -> str:
         f"from {module} import {', '.join(sorted(names, key=str.lower))}"
         for module, names in sorted(imports.items())
     ]
-    doc = f'"""{(runtime.__doc__ or "").strip()}\n"""'
+    package = ast.parse((folder / "__init__.py").read_text(encoding="utf-8"))
+    doc = f'"""{ast.get_docstring(package, clean=False)}"""'
     made = "\n".join([doc, "", *head, "", "", "\n\n\n".join(sections), ""])
     return _TOKEN.sub(_in_style, re.sub(r"\n{4,}", "\n\n\n", made))
 

@@ -116,15 +116,13 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
     text = _fill("package/package/machine.py", machine=machine, package=package, header=head)
     return OutputFile(
         f"{package.name}/{package.name}/{machine.module}.py",
-        text.rewritten(within_width),
+        text.rewritten(WIDTH, narrowed),
         origin=machine.origin,
     )
 
 
-def within_width(line: str) -> list[str]:
-    """A line, a comment in several that are not too long; code that is says so."""
-    if len(line) <= WIDTH:
-        return [line]
+def narrowed(line: str) -> list[str]:
+    """A line that is too long: a comment in several that are not; code says so."""
     stripped = line.lstrip()
     indent = line[: len(line) - len(stripped)]
     if stripped.startswith("#"):

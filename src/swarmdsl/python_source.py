@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cache
 from typing import NamedTuple
 
 from swarmdsl.dataclass import dataclass
@@ -41,32 +42,34 @@ def layout(
 
 def one_line(value: object) -> str:
     """The value as an expression on one line."""
-    return _written(value).flat
+    return _flat(_written(value))
 
 
 class _Written(NamedTuple):
     """An expression on one line, and the parts that can have lines of their own."""
 
     flat: str
-    opening: str = ""
-    items: Sequence[tuple[str, _Written]] = ()
+    opening: str
+    items: Sequence[tuple[str, _Written | str]]
     """Each with what stands before it."""
-    closing: str = ""
+    closing: str
     together: str | None = None
     """All items on one line, where they may share one: those of a call."""
 
 
-def _written(value: object) -> _Written:
+def _written(value: object) -> _Written | str:
+    """An expression; one without parts is only its text."""
+    if isinstance(value, (str, int, float)):
+        return repr(value)
     if isinstance(value, Source):
-        return _Written(value.text)
+        return value.text
+    items: list[tuple[str, _Written | str]]
     if isinstance(value, Call):
         items = [("", _written(argument)) for argument in value.arguments]
         items += [(f"{name}=", _written(item)) for name, item in value.keywords]
         together = _side_by_side(items)
         opening = f"{value.function}("
         return _Written(f"{opening}{together})", opening, items, ")", together)
-    if isinstance(value, (str, int, float)):
-        return _Written(repr(value))
     if isinstance(value, tuple):
         items = [("", _written(item)) for item in value]
         comma = "," if len(items) == 1 else ""
@@ -77,14 +80,20 @@ def _written(value: object) -> _Written:
     if isinstance(value, Mapping):
         items = [(f"{key!r}: ", _written(item)) for key, item in value.items()]
         return _Written(f"{{{_side_by_side(items)}}}", "{", items, "}")
-    return _Written(repr(value))
+    return repr(value)
 
 
-def _side_by_side(items: Sequence[tuple[str, _Written]]) -> str:
-    return ", ".join([prefix + item.flat for prefix, item in items])
+def _flat(written: _Written | str) -> str:
+    return written if isinstance(written, str) else written.flat
 
 
-def _laid_out(written: _Written, indent: int, before: str, after: str, width: int) -> str:
+def _side_by_side(items: Sequence[tuple[str, _Written | str]]) -> str:
+    return ", ".join([prefix + _flat(item) for prefix, item in items])
+
+
+def _laid_out(written: _Written | str, indent: int, before: str, after: str, width: int) -> str:
+    if isinstance(written, str):
+        return f"{before}{written}{after}"
     if not written.items or len(before) + len(written.flat) + len(after) <= width:
         return f"{before}{written.flat}{after}"
     inner = _STEP * (indent + 1)
@@ -126,5 +135,9 @@ def place(origin: Span | None) -> str:
 
 def file_name(origin: Span) -> str:
     """The last name of the file a place is in, on one line."""
-    name = origin.source.name.replace("\\", "/").rsplit("/", 1)[-1]
-    return " ".join(name.split())
+    return _last_name(origin.source.name)
+
+
+@cache
+def _last_name(path: str) -> str:
+    return " ".join(path.replace("\\", "/").rsplit("/", 1)[-1].split())

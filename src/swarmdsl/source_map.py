@@ -65,13 +65,16 @@ class MappedText(str):
         made.entries = tuple(entries)
         return made
 
-    def rewritten(self, rewrite: Callable[[str], Sequence[str]]) -> MappedText:
-        """The text with other lines in place of each one, of which there is at least one."""
+    def rewritten(self, width: int, rewrite: Callable[[str], Sequence[str]]) -> MappedText:
+        """The text with others in place of each line that is too wide, at least one."""
         lines: list[str] = []
         starts = []
         for line in self.splitlines():
             starts.append(len(lines) + 1)
-            lines += rewrite(line)
+            if len(line) > width:
+                lines += rewrite(line)
+            else:
+                lines.append(line)
         entries = (Entry(starts[entry.line - 1], entry.origin) for entry in self.entries)
         return MappedText("\n".join([*lines, ""]), entries)
 
@@ -91,16 +94,17 @@ def mapped(text: str, printed: Sequence[Placed]) -> MappedText:
     around: list[tuple[int, Span]] = []
     lines = []
     for number, line in enumerate(text.split("\n"), 1):
-        marks = list(_MARK.finditer(line)) if "\ufdd0" in line else ()
+        marks = _MARK.findall(line) if "\ufdd0" in line else ()
         bare = _MARK.sub("", line) if marks else line
         lines.append(bare)
-        if not bare.strip():
+        content = bare.lstrip()
+        if not content:
             continue
-        depth = len(bare) - len(bare.lstrip())
+        depth = len(bare) - len(content)
         while around and around[-1][0] > depth:
             around.pop()
         for mark in marks:
-            place = printed[int(mark[1])]
+            place = printed[int(mark)]
             least = depth if place.holds or place.origin is None else depth + 1
             while around and around[-1][0] >= least:
                 around.pop()

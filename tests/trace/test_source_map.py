@@ -81,7 +81,7 @@ def test_a_text_that_comes_from_a_place_marks_its_line_in_what_is_included(tmp_p
 
 def test_lines_that_are_broken_move_those_after_them(tmp_path: Path) -> None:
     text = printed(tmp_path, "a\nlong line{{ at(a) }}\nb{{ at(b) }}\n", a=A, b=B)
-    broken = text.rewritten(str.split)
+    broken = text.rewritten(4, str.split)
 
     assert broken == "a\nlong\nline\nb\n"
     assert broken.entries == (Entry(2, A), Entry(4, B))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagram.composition import composition
@@ -10,7 +10,7 @@ from swarmdsl.diagram.graph import Diagram
 from swarmdsl.diagram.internal import internal
 from swarmdsl.diagram.mermaid import mermaid
 from swarmdsl.diagram.statechart import statechart
-from swarmdsl.ir import StateMachine, System
+from swarmdsl.ir import State, StateMachine, System
 
 # What Mermaid draws at most, unless somebody has told it otherwise (`maxTextSize`, `maxEdges`).
 _MOST_TEXT, _MOST_EDGES = 50_000, 500
@@ -54,11 +54,22 @@ def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture
             yield from _picture(f"Swarm `{swarm.name}`", composition(swarm, system))
     known = {machine.name: machine for machine in system.machines}
     for machine in machines:
-        yield from _picture(f"State machine `{machine.name}`", statechart(machine, known))
+        # To draw it takes much longer than to see that it is too large.
+        if _fewest_edges(machine.states) <= _MOST_EDGES:
+            yield from _picture(f"State machine `{machine.name}`", statechart(machine, known))
+
+
+def _fewest_edges(states: Iterable[State]) -> int:
+    """How many transitions are drawn at least: what is in a reused machine may not be."""
+    return sum(
+        sum(transition.target is not None for transition in state.transitions)
+        + (_fewest_edges(state.states) if state.submachine is None else 0)
+        for state in states
+    )
 
 
 def _picture(title: str, diagram: Diagram) -> Iterator[Picture]:
-    text = mermaid(diagram)
-    if len(text) <= _MOST_TEXT and len(diagram.edges) <= _MOST_EDGES:
+    text = mermaid(diagram) if len(diagram.edges) <= _MOST_EDGES else None
+    if text is not None and len(text) <= _MOST_TEXT:
         # Mermaid's own text has no backquote: it would be an entity.
         yield Picture(title, f"```mermaid\n{text}```")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 
 from swarmdsl import ir
 from swarmdsl.dataclass import replace
@@ -98,29 +99,26 @@ class _Builder:
         return tuple(self._state(state, frame) for state in vertices(container))
 
     def _state(self, state: Vertex, frame: Frame) -> ir.State:
-        made = ir.State(
+        made = partial(
+            ir.State,
             id=frame.ids[state],
             name=str(state.name),
-            kind=ir.StateKind.SIMPLE,
             doc=state.doc,
             origin=state.name.span,
         )
         match state:
             case FinalState():
-                return replace(made, kind=ir.StateKind.FINAL)
+                return made(kind=ir.StateKind.FINAL)
             case History():
                 assert state.target.target is not None
                 target = frame.ids[state.target.target]
                 resume = ir.Transition((), None, (), target, origin=state.span)
-                return replace(
-                    made, kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,)
-                )
+                return made(kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,))
             case Choice():
                 branches = tuple(lower_branch(branch, frame) for branch in state.branches)
-                return replace(made, kind=ir.StateKind.CHOICE, transitions=branches)
+                return made(kind=ir.StateKind.CHOICE, transitions=branches)
             case Parallel():
-                return replace(
-                    made,
+                return made(
                     kind=ir.StateKind.PARALLEL,
                     states=tuple(
                         self._region(item, frame)
@@ -133,23 +131,24 @@ class _Builder:
                     docs=lower_docs(state.items),
                 )
             case State():
-                made = replace(
+                made = partial(
                     made,
                     transitions=lower_transitions(state, frame),
-                    entry=lower_effects(state, Entry, frame),
                     exit=lower_effects(state, Exit, frame),
                     docs=lower_docs(state.items),
                 )
+                entry = lower_effects(state, Entry, frame)
                 if state.machine is not None:
-                    return self._submachine(made, state, frame)
+                    return self._submachine(made, entry, state, frame)
                 if vertices(state):
-                    return replace(
-                        made,
+                    return made(
                         kind=ir.StateKind.COMPOSITE,
                         initial=frame.ids[_initial(state)],
                         states=self.states(state, frame),
+                        entry=entry,
                     )
-                return replace(made, activity=lower_activity(state, frame))
+                activity = lower_activity(state, frame)
+                return made(kind=ir.StateKind.SIMPLE, activity=activity, entry=entry)
 
     def _region(self, region: Region, frame: Frame) -> ir.State:
         return ir.State(
@@ -163,11 +162,17 @@ class _Builder:
             origin=region.name.span,
         )
 
-    def _submachine(self, made: ir.State, state: State, frame: Frame) -> ir.State:
+    def _submachine(
+        self,
+        made: partial[ir.State],
+        entry: tuple[ir.Effect, ...],
+        state: State,
+        frame: Frame,
+    ) -> ir.State:
         assert state.machine is not None
         machine = state.machine.target
         assert machine is not None
-        names = self.add_variables(machine, snake_case(made.id) + "_", frame.context)
+        names = self.add_variables(machine, snake_case(frame.ids[state]) + "_", frame.context)
         bound = {str(binding.name): binding.value for binding in state.bindings}
         values = {}
         for item in machine.items:
@@ -175,14 +180,13 @@ class _Builder:
                 value = bound.get(str(item.name), item.default)
                 assert value is not None
                 values[item] = lower_expression(value, frame.context)
-        inner = Frame(_ids(machine, made.id), frame.context.reusing(names, values))
-        return replace(
-            made,
+        inner = Frame(_ids(machine, frame.ids[state]), frame.context.reusing(names, values))
+        return made(
             kind=ir.StateKind.COMPOSITE,
             initial=inner.ids[_initial(machine)],
             states=self.states(machine, inner),
             # Its variables start anew each time: a counter of tries, for instance.
-            entry=(*_first_values(names, frame.context), *made.entry),
+            entry=(*_first_values(names, frame.context), *entry),
             submachine=frame.context.names[machine],
         )
 
