@@ -48,6 +48,7 @@ class _Field(dict[str, Any]):
 
 
 _NOTHING = _Field()
+_set = object.__setattr__
 
 
 def is_dataclass(cls: type) -> bool:
@@ -145,16 +146,18 @@ def _first_init(frozen: bool) -> Callable[..., None]:
             owner = next(cls for cls in type(self).__mro__ if vars(cls).get("__init__") is first)
             shape = _Shape(owner)
         left -= 1
-        values = shape.constants | {name: make() for name, make in shape.factories.items()}
-        values.update(zip(shape.positional, arguments, strict=False))
-        values.update(named)
-        right = len(arguments) <= len(shape.positional) and len(values) == shape.complete
+        values = shape.constants.copy()
+        for name, make in shape.factories:
+            values[name] = make()
+        values.update(zip(shape.positional, arguments))  # noqa: B905 - of fewer or more
+        right = len(arguments) <= len(shape.positional)
         if named:
-            taken = shape.positional[: len(arguments)]
-            right = right and named.keys() <= shape.accepted.difference(taken)
-        if right and left >= 0:
+            values.update(named)
+            twice = not named.keys().isdisjoint(shape.positional[: len(arguments)])
+            right = right and named.keys() <= shape.accepted and not twice
+        if right and len(values) == shape.complete and left >= 0:
             for name, value in values.items():
-                object.__setattr__(self, name, value)
+                _set(self, name, value)
         else:
             init = shape.owner.__init__ = _init(shape.owner, frozen)
             init(self, *arguments, **named)
@@ -173,10 +176,10 @@ class _Shape:
             name for name, about in parts.items() if name in self.accepted and not _named(about)
         ]
         self.constants = {name: of["default"] for name, of in parts.items() if "default" in of}
-        self.factories = {
-            name: of["default_factory"] for name, of in parts.items() if "default_factory" in of
-        }
-        self.complete = len(self.accepted | self.constants.keys() | self.factories.keys())
+        self.factories = [
+            (name, of["default_factory"]) for name, of in parts.items() if "default_factory" in of
+        ]
+        self.complete = len({*self.accepted, *self.constants, *dict(self.factories)})
 
 
 def _init(cls: type[Any], frozen: bool) -> Callable[..., None]:
