@@ -11,8 +11,7 @@ stands in it from line 12 on from line 5. `-` stands for no place; `yours` in fr
 that belongs to the user.
 """
 
-from __future__ import annotations
-
+# The annotations here are values: typing would compile texts one by one.
 import os
 import re
 from collections.abc import Mapping

@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swarmdsl.diagnostics import Diagnostics, Label
 from swarmdsl.fitting_code import mark_in
 from swarmdsl.generator import OutputFile
 from swarmdsl.output import line_ends
 from swarmdsl.output.changes import PARKED
-from swarmdsl.output.merge import Merge, first_difference
 from swarmdsl.output.names import Names
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import suggest
-from swarmdsl.unified_diff import unified_diff
+
+if TYPE_CHECKING:
+    from swarmdsl.output.merge import Merge
 
 NEW = ".swarmc-new"
 """Ends the name of what would be generated in place of a file that it cannot be merged with."""
@@ -30,6 +32,9 @@ def report_edited(
     place: Path, content: bytes, base: bytes, taken: int, report: Diagnostics
 ) -> None:
     """A generated file has been edited, and `taken` changes were merged into it."""
+    # Imported here because most builds merge nothing, and it is slow; so below.
+    from swarmdsl.output.merge import first_difference
+
     source = _source(place, content)
     at = _line(source, first_difference(base, content))
     changes = "one change" if taken == 1 else f"{taken} changes"
@@ -173,6 +178,8 @@ def changed_below(
         lines += ["", "What its code builds on now:", "", *(f"    {each}" for each in file.facts)]
     text = "\n".join([*lines, ""])
     if base is not None and base != new:
+        from swarmdsl.unified_diff import unified_diff
+
         text += "\nWhat would be generated in its place, before and now:\n\n"
         text += unified_diff(base, new, name, name)
     return text.encode()

@@ -14,7 +14,6 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import content_hash
 from swarmdsl.output import line_ends, remarks
 from swarmdsl.output.changes import PARKED, Action
-from swarmdsl.output.merge import merge
 from swarmdsl.output.moves import renamed
 from swarmdsl.output.names import Names
 from swarmdsl.output.plan import Found, Plan
@@ -114,6 +113,9 @@ def _report_marks(plan: Plan, path: str, content: bytes, new: bytes) -> bool:
 def _merge(
     plan: Plan, path: str, file: OutputFile, filled: bytes, found: Found, of_user: regions.Texts
 ) -> None:
+    # Imported here because most builds merge nothing, and it is slow.
+    from swarmdsl.output.merge import merge
+
     base_hash, neighbour = found.base, f"{path}{NEW}"
     offered = plan.before.files.get(neighbour)
     if offered is not None and plan.disk.content(neighbour) is None:
