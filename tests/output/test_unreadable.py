@@ -1,7 +1,6 @@
 """Lists and files that cannot be read: they are named, and nothing is done to them."""
 
 import os
-from pathlib import Path
 
 import pytest
 
@@ -70,15 +69,15 @@ def test_without_list_and_texts_every_file_is_the_users(tmp_path):
 def locked_away(tmp_path, monkeypatch):
     """A file that was generated and cannot be read, by no user."""
     write_ok(files(a="1", b="1"), tmp_path)
-    read = Path.read_bytes
+    place, opened = tmp_path / "t/a", open
 
-    def read_bytes(path):
-        if path.name == "a":
-            raise PermissionError(13, "Permission denied", str(path))
-        return read(path)
+    def open_others(path, *arguments, **named):
+        if path == str(place):
+            raise PermissionError(13, "Permission denied", path)
+        return opened(path, *arguments, **named)
 
-    monkeypatch.setattr(Path, "read_bytes", read_bytes)
-    return tmp_path / "t/a"
+    monkeypatch.setattr("builtins.open", open_others)
+    return place
 
 
 @pytest.mark.parametrize("names", [{"a": "2"}, {"b": "1"}], ids=["still made", "not any more"])

@@ -34,17 +34,18 @@ def carry_out(plan: Plan) -> None:
     arriving += [*plan.changes, _own(disk, manifest.NAME, listed)]
     with ExitStack() as until_all_is_staged:
         staging = until_all_is_staged.enter_context(Staging())
-        steps = [_step(disk.out, change, staging) for change in arriving]
+        places = {change.path: disk.out / change.path for change in arriving}
+        steps = [_step(change, places[change.path], staging) for change in arriving]
         to_do = Journal(tuple(steps[:-1]), steps[-1], plan.how.renames)
         staging.make_folder(disk.out)
         until_all_is_staged.callback(disk.remove, journal.NAME)
         (disk.out / journal.NAME).write_bytes(journal.to_bytes(to_do))
         for change in arriving:
             if change.after is not None:
-                place = disk.out / change.path
+                place = places[change.path]
                 staging.add(place, change.after, change.executable, change.mode)
         until_all_is_staged.pop_all()
-    left = journal.complete(disk, to_do)
+    left = journal.complete(disk, to_do, resumed=False)
     plan.changes = [change for change in plan.changes if change.path not in left]
     for path in left:
         report_changed_meanwhile(disk.out / path, plan.report)
@@ -60,7 +61,7 @@ def resume(disk: Disk) -> Renames:
         disk.remove(journal.NAME)
         return ()
     if journal.is_to_be_completed(disk, found):
-        journal.complete(disk, found)
+        journal.complete(disk, found, resumed=True)
         return found.renames
     renames = found.renames if journal.is_done(disk, found) else ()
     journal.discard(disk, found)
@@ -78,12 +79,13 @@ def _own(disk: Disk, path: str, content: bytes) -> Change:
     return Change(Action.CHANGE, path, disk.content(path), content)
 
 
-def _step(out: Path, change: Change, staging: Staging) -> Step:
+def _step(change: Change, place: Path, staging: Staging) -> Step:
     """What is done to make a change, with the files as they were when it was decided."""
     before = fingerprint(change.before)
     if change.after is None:
         return Step(change.path, before)
-    staged = staging.beside(out / change.path).relative_to(out).as_posix()
+    folder, slash, _ = change.path.rpartition("/")
+    staged = f"{folder}{slash}{staging.beside(place).name}"
     after = fingerprint(change.after)
     if change.source is None:
         return Step(change.path, before, after, staged)

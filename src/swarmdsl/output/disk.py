@@ -34,11 +34,19 @@ class Disk:
 
     def __init__(self, out: Path) -> None:
         self.out = out
+        self._out = str(out)
         self._inside: dict[str, bool] = {}
+
+    def place(self, path: str) -> str:
+        """Where a file is.
+
+        A build asks for each a few times: a `Path` takes longer to make than to look there.
+        """
+        return os.path.join(self._out, path)  # noqa: PTH118
 
     def leads_inside(self, path: str) -> bool:
         """Whether no symbolic link on the way leads out of the output folder."""
-        place = os.path.join(self.out, path)  # noqa: PTH118
+        place = self.place(path)
         if os.path.islink(place):  # noqa: PTH114 - no error for a name that the disk does not take
             return self._is_inside(place)
         folder = os.path.dirname(place)  # noqa: PTH120
@@ -59,8 +67,7 @@ class Disk:
 
         Raises OSError when it is something else, UnreadableError when it cannot be read.
         """
-        # A build asks for each file a few times: a `Path` takes longer to make than to look there.
-        place = os.path.join(self.out, path)  # noqa: PTH118
+        place = self.place(path)
         try:
             mode = os.stat(place).st_mode  # noqa: PTH116
         except FileNotFoundError:
@@ -73,7 +80,8 @@ class Disk:
             # Reading a pipe or a device could wait forever.
             raise OSError(0, "it is not an ordinary file", str(Path(place)))
         try:
-            return Path(place).read_bytes()
+            with open(place, "rb", buffering=0) as file:  # noqa: PTH123
+                return file.read()
         except OSError as error:
             raise _unreadable(error) from error
 

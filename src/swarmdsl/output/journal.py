@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import os
 from hashlib import sha256
+from pathlib import Path
 
 from swarmdsl import manifest
 from swarmdsl.dataclass import dataclass
@@ -102,20 +103,20 @@ def is_done(disk: Disk, journal: Journal) -> bool:
     return before != after and fingerprint(disk.content(journal.listed.path)) == after
 
 
-def complete(disk: Disk, journal: Journal) -> list[str]:
-    """Make the changes that are not made yet.
+def complete(disk: Disk, journal: Journal, *, resumed: bool) -> list[str]:
+    """Make the changes that are not made yet; some are made where it is `resumed`.
 
     A file that somebody has changed since then stays, and counts as what it was before: these are
     returned.
     """
-    left = [step for step in journal.steps if not _arrive(disk, step)]
+    left = [step for step in journal.steps if not _arrive(disk, step, resumed)]
     for step in journal.steps:
         if step not in left:
             _clear(disk, step)
     if left:
         _list_without(disk, journal.listed, left)
     else:
-        _arrive(disk, journal.listed)
+        _arrive(disk, journal.listed, resumed)
     discard(disk, journal)
     return [step.path for step in left]
 
@@ -127,27 +128,30 @@ def discard(disk: Disk, journal: Journal) -> None:
     done.
     """
     for step in (journal.listed, *journal.steps):
-        if step.staged is not None and disk.content(step.staged) is not None:
+        if step.staged is not None and os.path.lexists(disk.place(step.staged)):
             disk.remove(step.staged)
     disk.remove(NAME)
 
 
-def _arrive(disk: Disk, step: Step) -> bool:
+def _arrive(disk: Disk, step: Step, resumed: bool) -> bool:
     """Put the new content in its place, if it is not there; whether all is as was expected."""
     now = fingerprint(disk.content(step.path))
     if step.staged is None:
         return now in (step.before, None)
-    staged = fingerprint(disk.content(step.staged))
-    if staged is None:
-        return now != step.before or step.before == step.after
-    if staged != step.after or now != step.before:
+    if resumed:
+        staged = fingerprint(disk.content(step.staged))
+        if staged is None:
+            return now != step.before or step.before == step.after
+        if staged != step.after:
+            return False
+    if now != step.before:
         return False
-    place = disk.out / step.path
+    place = disk.place(step.path)
     try:
         # `os.replace` is the one move that is atomic on every system.
-        os.replace(disk.out / step.staged, place)  # noqa: PTH105
+        os.replace(disk.place(step.staged), place)  # noqa: PTH105
     except OSError as error:
-        error.filename, error.filename2 = str(place), None
+        error.filename, error.filename2 = str(Path(place)), None
         raise
     return True
 

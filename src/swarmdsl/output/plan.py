@@ -6,6 +6,7 @@ Nothing on disk changes: `swarmdsl.output.carry_out` does that.
 from __future__ import annotations
 
 from contextlib import suppress
+from functools import cached_property
 
 from swarmdsl import regions
 from swarmdsl.dataclass import dataclass
@@ -14,7 +15,7 @@ from swarmdsl.generator import OutputFile
 from swarmdsl.manifest import Hashes, Manifest, content_hash
 from swarmdsl.map_file import Maps, Positions
 from swarmdsl.output import remarks
-from swarmdsl.output.changes import Action, Change, How, Written
+from swarmdsl.output.changes import PARKED, Action, Change, How, Written
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.names import Names
 from swarmdsl.output.remarks import NEW
@@ -140,6 +141,11 @@ class Plan:
     def leads_inside(self, path: str) -> bool:
         """The same without a report."""
         return self.disk.leads_inside(path)
+
+    @cached_property
+    def parks(self) -> bool:
+        """Whether there is anything that was put aside."""
+        return self.is_there(PARKED)
 
     def is_there(self, path: str) -> bool:
         """Whether there is something of that name."""

@@ -186,7 +186,7 @@ def _found(plan: Plan, path: str) -> Found | None:
     if content is not None:
         return Found(content, base)
     aside = f"{PARKED}/{path}"
-    content = plan.disk.content(aside) if plan.leads_inside(aside) else None
+    content = plan.disk.content(aside) if plan.parks and plan.leads_inside(aside) else None
     if content is None:
         return None
     return Found(content, plan.parked.pop(path, None), aside)
