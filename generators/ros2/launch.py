@@ -71,7 +71,7 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
     """The launch files; there is none for a swarm in which nobody has a behaviour."""
     found: list[Launch] = []
     for swarm in system.swarms:
-        roles = tuple(role for role in _roles(swarm, system, modules) if role.nodes)
+        roles = tuple(role for role in _roles(swarm, system, modules, report) if role.nodes)
         if roles:
             name = fresh(snake_case(swarm.name) or "swarm", (each.name for each in found))
             bringup = bringup_package(system)
@@ -83,7 +83,9 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
     return found
 
 
-def _roles(swarm: Swarm, system: System, modules: Mapping[str, str]) -> Iterator[LaunchedRole]:
+def _roles(
+    swarm: Swarm, system: System, modules: Mapping[str, str], report: Diagnostics
+) -> Iterator[LaunchedRole]:
     components = {component.name: component for component in system.components}
     for role in swarm.roles:
         member = next(each for each in system.members if each.name == role.member)
@@ -94,24 +96,28 @@ def _roles(swarm: Swarm, system: System, modules: Mapping[str, str]) -> Iterator
             max(role.multiplicity.lower, 1),
             role.multiplicity.lower,
             role.multiplicity.upper,
-            tuple(_nodes(member, system, modules)),
+            tuple(_nodes(member, system, modules, report)),
             f"{snake_case(member.name)}.launch.py" if parts else None,
         )
 
 
-def _nodes(member: Member, system: System, modules: Mapping[str, str]) -> Iterator[LaunchedNode]:
+def _nodes(
+    member: Member, system: System, modules: Mapping[str, str], report: Diagnostics
+) -> Iterator[LaunchedNode]:
     machines = {machine.name: machine for machine in system.machines}
     components = {component.name: component for component in system.components}
     if member.behavior is not None:
         machine = machines[member.behavior]
         module = modules[machine.name]
-        yield LaunchedNode(module, module, None, given(machine, member.params, {}, ()))
+        values = given(machine, member.params, {}, (), report)
+        yield LaunchedNode(module, module, None, values)
     wired = wiring(member, system)
     for part in member.parts:
         component = components[part.component]
         if component.behavior is not None:
             machine = machines[component.behavior]
-            values = given(machine, component.params, dict(part.values), member.params)
+            inside = dict(part.values)
+            values = given(machine, component.params, inside, member.params, report)
             name = behavior_name(part, component, member)
             remaps = wired.remaps(part.name)
             yield LaunchedNode(modules[machine.name], name, part.name, values, remaps)

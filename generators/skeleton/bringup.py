@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.exchange.constants import constant, params_by_name
+from swarmdsl.exchange.constants import params_by_name
 from swarmdsl.exchange.nodes import bringup_package, has_node
 from swarmdsl.exchange.wiring import Remaps, Wiring, check_wiring, wiring
 from swarmdsl.ir import Part, System
@@ -14,9 +14,11 @@ from swarmdsl.naming import incoming_topic, is_ros_package_name, snake_case
 from swarmdsl.python_source import comment_lines, file_name
 from swarmdsl.source import Span
 
-from .nodes import TARGET, Node
+from .names import TARGET
+from .nodes import Node
 from .packages import Packages
-from .view import as_float, in_yaml
+from .settings import value_of
+from .view import in_yaml
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Br
         if ros == 2:
             _check_crossing(wired, system, report)
         started = tuple(
-            _started(part, written[part.component], wired)
+            _started(part, written[part.component], wired, ros, report)
             for part in parts
             if part.component in written
         )
@@ -121,14 +123,16 @@ def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
             )
 
 
-def _started(part: Part, node: Node, wired: Wiring) -> Started:
+def _started(part: Part, node: Node, wired: Wiring, ros: int, report: Diagnostics) -> Started:
     settings = {setting.key: setting for setting in node.settings}
     known = params_by_name(wired.member.params)
     values = []
     for name, expression in part.values:
-        value = constant(expression, known)
-        if name in settings and value is not None:
-            values.append((name, in_yaml(as_float(value, settings[name].type))))
+        if name not in settings:
+            continue
+        value = value_of(expression, settings[name].type, known, ros, report)
+        if value is not None:
+            values.append((name, in_yaml(value)))
     return Started(
         part.name,
         node.package,

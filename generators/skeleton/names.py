@@ -8,6 +8,8 @@ from collections.abc import Iterable
 
 from swarmdsl.naming import snake_case
 
+TARGET = "skeleton"
+
 # Words of C++20 (ISO/IEC 14882:2020, 5.11).
 _CPP_WORDS = """
 alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t

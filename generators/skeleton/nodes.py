@@ -9,17 +9,15 @@ from typing import Literal
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.exchange.constants import Value, constant, params_by_name
 from swarmdsl.exchange.nodes import has_node
-from swarmdsl.ir import Array, Component, Function, Named, Param, Primitive, System, Type
+from swarmdsl.ir import Component, Function, Named, Primitive, System, Type
 from swarmdsl.naming import camel_case, is_ros_package_name, snake_case
 from swarmdsl.source import Span
 from swarmdsl.suggest import suggest
 
-from .names import identifiers, is_cpp_word
+from .names import TARGET, identifiers, is_cpp_word
 from .options import Options
-
-TARGET = "skeleton"
+from .settings import Setting, settings_of
 
 # A package of such a name would hide what the nodes need, or is no name in their languages.
 _TAKEN = frozenset(
@@ -70,18 +68,6 @@ class Server:
     paradigm: Literal["action", "service"]
     name: str
     type: Named
-    doc: str
-    origin: Span | None
-
-
-@dataclass(frozen=True)
-class Setting:
-    """A ROS parameter; `key` is its name in ROS, `default` None where one must be given."""
-
-    name: str
-    key: str
-    type: Primitive | Array
-    default: Value | None
     doc: str
     origin: Span | None
 
@@ -172,7 +158,7 @@ def _of_function(function: Function, options: Options, report: Diagnostics) -> N
         servers=(Server("execute", call.paradigm, call.name, call.type, call.doc, call.origin),),
         inputs=tuple(_topics(directions["in"], report)),
         outputs=tuple(_topics(directions["out"], report)),
-        settings=tuple(_settings(function.params, options, report)),
+        settings=tuple(settings_of(function.params, options.ros, report)),
         doc=function.doc,
         origin=function.origin,
     )
@@ -207,7 +193,7 @@ def _of_component(
         servers=servers,
         inputs=tuple(_topics([port for way, port in ports if way != "out"], report)),
         outputs=tuple(_topics([port for way, port in ports if way != "in"], report)),
-        settings=tuple(_settings(component.params, options, report)),
+        settings=tuple(settings_of(component.params, options.ros, report)),
         doc=component.doc,
         origin=component.origin,
     )
@@ -229,25 +215,6 @@ def _message(type_: Type) -> Named | None:
     if isinstance(type_, Primitive) and type_.name in _STANDARD:
         return Named("std_msgs", _STANDARD[type_.name])
     return type_ if isinstance(type_, Named) else None
-
-
-def _settings(
-    params: tuple[Param, ...], options: Options, report: Diagnostics
-) -> Iterator[Setting]:
-    known = params_by_name(params)
-    for param, name in zip(params, identifiers(param.name for param in params), strict=True):
-        type_ = param.type
-        element = type_.element if isinstance(type_, Array) else type_
-        if not isinstance(element, Primitive) or element.name in ("time", "wstring"):
-            _unsupported(f"a param of type `{type_}`", param.origin, report)
-            continue
-        assert isinstance(type_, (Primitive, Array))
-        value = constant(param.default, known) if param.default is not None else None
-        if param.default is not None and value is None:
-            _unsupported("a default whose value is not known", param.origin, report)
-        if options.ros == 1 and isinstance(value, int) and not -(2**31) <= value < 2**31:
-            _unsupported("a param whose default needs more than 32 bits", param.origin, report)
-        yield Setting(name, param.name, type_, value, param.doc, param.origin)
 
 
 def _check_packages(found: Iterable[Node], report: Diagnostics) -> None:

@@ -13,8 +13,8 @@ from swarmdsl.ir import System
 from swarmdsl.naming import is_ros_package_name
 from swarmdsl.source import Span
 
-from .names import is_cpp_word
-from .nodes import TARGET, Node
+from .names import TARGET, is_cpp_word
+from .nodes import Node
 from .options import Options
 
 

@@ -22,7 +22,8 @@ from swarmdsl.xml_text import legal
 from .bringup import bringup
 from .bringup_files import bringup_files
 from .languages import language
-from .nodes import TARGET, Node, nodes
+from .names import TARGET
+from .nodes import Node, nodes
 from .options import Options
 from .packages import generation, packages
 from .readme import tables

@@ -10,14 +10,15 @@ from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.interface_files import parts
-from swarmdsl.ir import Action, Array, Field, Primitive, Service, System
-from swarmdsl.ir.types import DURATION, FLOATS
+from swarmdsl.ir import Action, Field, Service, System
+from swarmdsl.ir.types import DURATION
 from swarmdsl.python_source import comment_lines, comments, file_name
 from swarmdsl.source import Span
 from swarmdsl.source_map import Placed
 
 from .languages import Language
-from .nodes import Node, Server, Setting, Topic
+from .nodes import Node, Server, Topic
+from .settings import Setting
 
 
 @dataclass(frozen=True)
@@ -264,7 +265,7 @@ def _setting(setting: Setting, language: Language) -> SettingView:
     type_ = setting.type
     unit = " in seconds" if type_ == DURATION else ""
     about = " ".join((setting.doc or setting.key).split())
-    value = as_float(setting.default, type_)
+    value = setting.default
     return SettingView(
         name=Placed(setting.name, setting.origin),
         key=setting.key,
@@ -279,12 +280,6 @@ def _setting(setting: Setting, language: Language) -> SettingView:
         example=language.example(type_),
         comments=(*comments(setting.origin, setting.doc), *(("In seconds.",) if unit else ())),
     )
-
-
-def as_float(value: object, type_: Primitive | Array) -> object:
-    """A whole number of a model can be the default of a real one; ROS tells them apart."""
-    is_real = isinstance(type_, Primitive) and type_.name in (*FLOATS, "duration")
-    return float(value) if is_real and isinstance(value, int) else value
 
 
 def in_yaml(value: object) -> str:

@@ -112,7 +112,19 @@ statemachine Work {
             MACHINE.replace("initial", "param big : uint64 = 9223372036854775808\n  initial", 1),
             "unsupported-construct",
             "a param of 9223372036854775808, more than a parameter holds",
-            "",
+            "9223372036854775808",
+        ),
+        (
+            MACHINE.replace("initial", "param big : uint64\n  initial", 1)
+            + """
+            member Uav { behavior Work  param big : uint64 = 9223372036854775807 }
+            controller Worker { behavior Work  param big : uint64 }
+            member Rover { work : Worker { big = 9223372036854775808 } }
+            swarm All { uavs : Uav [1..2]  rovers : Rover [1..2]  others : Rover [1..2] }
+            """,
+            "unsupported-construct",
+            "a param of 9223372036854775808, more than a parameter holds",
+            "9223372036854775808",
         ),
         (
             'swarm event Loud : std_msgs/Empty on "~/loud"\n'

@@ -257,7 +257,7 @@ def test_a_package_of_interfaces_with_the_name_of_a_function_keeps_it(emit: Emit
         ),
         (
             ACTION + 'function go : abstraction { action "g" : a/A  param t : int64 = 3000000000 }',
-            CANNOT + "a param whose default needs more than 32 bits",
+            CANNOT + "a param of 3000000000",
         ),
         (
             ACTION + 'function copy : abstraction { action "g" : a/A }',
@@ -275,6 +275,26 @@ def test_what_no_skeleton_can_be_made_of_is_said(emit: Emit, model: str, said: s
     assert files == {}
     assert [found.message for found in complaints] == [said]
     assert complaints[0].primary is not None
+
+
+@pytest.mark.parametrize(("ros", "bits"), [("1", 32), ("2", 64)])
+def test_whole_numbers_that_no_parameter_holds(emit: Emit, ros: str, bits: int) -> None:
+    greatest = 2 ** (bits - 1) - 1
+    model = f"""
+    package p
+    sensor Gps {{
+      out fixes : std_msgs/Empty
+      param low : int64 = -{greatest} - 1
+      param high : uint64 = {greatest}
+      param real : float64 = {greatest + 1}
+    }}
+    member Uav {{ gps : Gps {{ high = {greatest} }} }}
+    """
+
+    assert emit(model, ros=ros)[1] == []
+    (found,) = emit(model.replace(f"{{ high = {greatest}", f"{{ high = {greatest + 1}"), ros=ros)[1]
+    assert found.message == f"{CANNOT}a param of {greatest + 1}"
+    assert found.help == f"a whole number in a parameter of ROS {ros} is at most {greatest}"
 
 
 def test_words_of_cpp_are_no_fields(emit: Emit) -> None:

@@ -1,0 +1,72 @@
+"""Params of functions and components as parameters of ROS, and the values that the model gives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from swarmdsl.dataclass import dataclass
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.exchange.constants import Value, constant, params_by_name
+from swarmdsl.ir import Array, Expression, Param, Primitive
+from swarmdsl.ir.types import FLOATS
+from swarmdsl.source import Span
+
+from .names import TARGET, identifiers
+
+_BITS = {1: 32, 2: 64}
+"""Of a whole number in a parameter, by the generation of ROS: XML-RPC has less of them."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A ROS parameter; `key` is its name in ROS, `default` None where one must be given."""
+
+    name: str
+    key: str
+    type: Primitive | Array
+    default: Value | None
+    doc: str
+    origin: Span | None
+
+
+def settings_of(params: tuple[Param, ...], ros: int, report: Diagnostics) -> Iterator[Setting]:
+    """The parameters of a node."""
+    known = params_by_name(params)
+    for param, name in zip(params, identifiers(param.name for param in params), strict=True):
+        type_ = param.type
+        element = type_.element if isinstance(type_, Array) else type_
+        if not isinstance(element, Primitive) or element.name in ("time", "wstring"):
+            _unsupported(f"a param of type `{type_}`", param.origin, report)
+            continue
+        assert isinstance(type_, (Primitive, Array))
+        value = None
+        if param.default is not None:
+            value = value_of(param.default, type_, known, ros, report)
+            if value is None:
+                _unsupported("a default whose value is not known", param.origin, report)
+        yield Setting(name, param.name, type_, value, param.doc, param.origin)
+
+
+def value_of(
+    given: Expression,
+    type_: Primitive | Array,
+    known: Mapping[str, Param],
+    ros: int,
+    report: Diagnostics,
+) -> Value | None:
+    """A value as a parameter holds it, None where it is not known; ROS tells 1 and 1.0 apart."""
+    value = constant(given, known)
+    if isinstance(type_, Primitive) and type_.name in (*FLOATS, "duration"):
+        return float(value) if isinstance(value, int) else value
+    greatest = 2 ** (_BITS[ros] - 1) - 1
+    if isinstance(value, int) and not -greatest - 1 <= value <= greatest:
+        bound = f"at least {-greatest - 1}" if value < 0 else f"at most {greatest}"
+        way_out = f"a whole number in a parameter of ROS {ros} is {bound}"
+        _unsupported(f"a param of {value}", given.origin, report, way_out)
+    return value
+
+
+def _unsupported(
+    construct: str, at: Span | None, report: Diagnostics, way_out: str | None = None
+) -> None:
+    report.report("unsupported-construct", at, target=TARGET, construct=construct, help=way_out)
