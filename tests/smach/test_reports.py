@@ -165,6 +165,20 @@ def test_machines_that_get_no_node_may_use_anything(tmp_path: Path) -> None:
     assert _built(tmp_path, {"model": f"{model} member R {{ behavior M }}"}) == []
 
 
+def test_whole_numbers_that_the_parameter_server_does_not_hold(tmp_path: Path) -> None:
+    params = "param big : int64 = 2147483648 param real : float64 = 2147483648"
+    given = "param big : int64 = -2147483649"
+    text = f"{_machine(f'{params} {SMALL}')} member R {{ behavior M }}"
+    other = f"member S {{ behavior M {given} }} member T {{ behavior M {given.replace('9', '8')} }}"
+    assert _built(tmp_path, {"model": f"{text} {other}"}) == [
+        ("unsupported-construct", f"target `smach` cannot express a param of {value}", place)
+        for value, place in [(2147483648, "2147483648"), (-2147483649, "-2147483649")]
+    ]
+    assert _built(tmp_path, {"model": text.replace("8 param", "7 param")}) == []
+    written = tmp_path / "out" / "smach" / "p_behavior" / "param" / "r.yaml"
+    assert "  big: 2147483647\n  real: 2147483648.0\n" in written.read_text(encoding="utf-8")
+
+
 def test_packages_whose_interfaces_need_each_other(tmp_path: Path) -> None:
     first = (
         'package a\nimport "b.swarm"\nmessage A { b : B }\nstruct C { x : int32 }\n'
