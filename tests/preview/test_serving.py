@@ -32,13 +32,13 @@ statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
 NESTED = """package work
 statemachine Rest { initial Nap state Nap { after 1 s -> Awake } final Awake }
 endless statemachine Job {
-  initial Out
+  var naps : int32 initial Out
   state Out {
     initial Dig
     state Dig { after 1 s -> Rest }
     state Rest { after 1 s -> Home }
   }
-  state Home { after 1 s -> Out }
+  state Home { after 1 s / naps = naps + 1 after 2 s -> Out after 3 s -> Out.Rest }
 }
 member Digger { behavior Job }
 swarm Team { digger : Digger[2] }
@@ -56,10 +56,10 @@ WATCH = """
 """
 
 
-def step(member: str, *states: str, taken: tuple[str, ...] = ()) -> str:
-    names = ("entered", "exited", "started", "cancelled", "sent")
-    line = {"t": 0, "member": member, "event": None, "configuration": states, "taken": taken}
-    return json.dumps({**line, **{name: [] for name in names}}) + "\n"
+def step(member: str, *states: str, **more: Any) -> str:
+    names = ("entered", "exited", "taken", "started", "cancelled", "sent")
+    line = {"t": 0, "member": member, "event": None, "configuration": states}
+    return json.dumps({**line, **{name: [] for name in names}, **more}) + "\n"
 
 
 class Browser:
@@ -298,7 +298,26 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         expect(active).to_have_attribute("data-id", "House")
         page.wait_for_function("flashed.length")
         assert page.evaluate("flashed") == ["Out.Rest->0"], "that of whom is chosen"
-        expect(picture.locator(".edge.taken")).to_have_count(0)
+        expect(picture.locator(".taken")).to_have_count(0)
+
+        def flashed(last: str, *states: str, **more: Any) -> set[str]:
+            """What lights up when a robot goes on and then, a transition later, ends."""
+            page.evaluate("flashed.length = 0")
+            with trace.open("a", encoding="utf-8") as file:
+                file.write(step("digger[1]", *states, **more))
+            page.wait_for_function("last => flashed.includes(last)", arg=last)
+            expect(picture.locator(".taken")).to_have_count(0)
+            return set(page.evaluate("flashed"))
+
+        dig = ["Out", "Out.Dig"]
+        begun = flashed("#initial->", "Out.Dig", entered=dig)
+        assert begun == {"#initial->", "Out#initial->"}
+        assert flashed("House->0", "House", event="after", taken=["House->0"]) == {"House->0"}
+        out = flashed("House->1", "Out.Dig", event="after", taken=["House->1"], entered=dig)
+        assert out == {"House->1", "Out#initial->"}
+        rest = ["Out", "Out.Rest", "Out.Dig"]  # on its way it was there, too
+        aside = flashed("House->2", "Out.Dig", event="after", taken=["House->2"], entered=rest)
+        assert aside == {"House->2"}, "it came to Out by another way"
         who.select_option("no lights")
         expect(active).to_have_count(0)
         who.select_option("all 2")

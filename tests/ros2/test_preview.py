@@ -62,10 +62,10 @@ def _hear(port: int, told: SimpleQueue[Any]) -> None:
 
 
 def until(told: SimpleQueue[Any], **wanted: Any) -> None:
-    """Wait until a page is told this; news in between are others'."""
+    """Wait until a page is told this, among other things; news in between are others'."""
     seen: list[Any] = []
     end = time.monotonic() + PATIENCE
-    while wanted not in seen:
+    while not any(wanted.items() <= each.items() for each in seen):
         assert time.monotonic() < end, seen
         seen.append(told.get(timeout=PATIENCE))
 

@@ -2,10 +2,13 @@
 
 /** The innermost active states of members; null of those that are gone. */
 export type Active = Record<string, readonly string[] | null>;
-/** Transitions that members have just taken. */
-export type Taken = Record<string, readonly string[]>;
+/** What members have just done: transitions that they have taken, states that they have entered. */
+export interface Steps {
+  readonly taken?: Record<string, readonly string[]>;
+  readonly entered?: Record<string, readonly string[]>;
+}
 /** Is told who has moved, and how. */
-export type Moved = (active: Active, taken: Taken) => void;
+export type Moved = (active: Active, steps: Steps) => void;
 
 /** Tells of members until it is disposed: then nobody is anywhere any more. */
 export interface Lights {

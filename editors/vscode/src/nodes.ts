@@ -79,12 +79,12 @@ export class Nodes implements Lights {
   }
 
   private hear(line: string): void {
-    const { active, taken } = JSON.parse(line.slice(EVENT.length));
+    const { active, taken, entered } = JSON.parse(line.slice(EVENT.length));
     // Of the diagrams another one tells.
-    if ((active || taken) && !this.disposed) {
+    if ((active || taken || entered) && !this.disposed) {
       const now = Object.entries({ ...this.active, ...active }).filter(([, states]) => states);
       this.active = Object.fromEntries(now) as Active;
-      this.moved(active ?? {}, taken ?? {});
+      this.moved(active ?? {}, { taken, entered });
     }
   }
 }

@@ -78,7 +78,7 @@ export class Preview implements vscode.Disposable {
   /** Light up where members are by what `begin` begins, in place of what did so before. */
   light<Kind extends Lights>(begin: (moved: Moved) => Kind): Kind {
     this.lights?.dispose();
-    const lights = begin((active, taken) => void this.panel?.webview.postMessage({ active, taken }));
+    const lights = begin((active, steps) => void this.panel?.webview.postMessage({ active, ...steps }));
     this.lights = lights;
     return lights;
   }

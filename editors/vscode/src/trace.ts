@@ -2,17 +2,18 @@
 
 import { type FileHandle, open, stat } from "node:fs/promises";
 
-import type { Active, Lights, Moved, Taken } from "./lights.ts";
+import type { Active, Lights, Moved, Steps } from "./lights.ts";
 
 const PAUSE = 100; // milliseconds between two looks at the file
 const CHUNK = 1 << 20;
-const MOMENT = 1000; // milliseconds for which a transition counts as just taken
+const MOMENT = 1000; // milliseconds for which a step counts as just done
 
 interface Step {
   readonly time: number;
   readonly member: string;
   readonly configuration: readonly string[];
   readonly taken: readonly string[];
+  readonly entered: readonly string[];
 }
 
 export class Trace implements Lights {
@@ -95,21 +96,24 @@ export class Trace implements Lights {
     if (steps.length) {
       const found = Object.fromEntries(steps.map((each) => [each.member, each.configuration]));
       this.active = { ...this.active, ...found };
-      this.moved(found, justTaken(steps));
+      this.moved(found, latest(steps));
     }
   }
 
   private step(line: string): Step | undefined {
     try {
-      const { t, member, configuration, taken } = JSON.parse(
+      const { t, member, event, configuration, taken, entered } = JSON.parse(
         Buffer.from(line, "latin1").toString("utf8"),
       );
+      const states = Array.isArray(entered) ? entered : [];
       return Array.isArray(configuration)
         ? {
             time: typeof t === "number" ? t : 0,
             member: member ?? this.alone,
             configuration,
             taken: Array.isArray(taken) ? taken : [],
+            // The machine itself is entered when it begins.
+            entered: event === null && states.length ? ["", ...states] : states,
           }
         : undefined;
     } catch {
@@ -123,12 +127,14 @@ export class Trace implements Lights {
   }
 }
 
-/** What members have taken at the end of some steps: others are long past. */
-function justTaken(steps: readonly Step[]): Taken {
+/** What members have done at the end of some steps: others are long past. */
+function latest(steps: readonly Step[]): Steps {
   const last = steps.reduce((most, { time }) => Math.max(most, time), 0);
   const taken: Record<string, string[]> = {};
+  const entered: Record<string, string[]> = {};
   for (const each of steps.filter(({ time }) => time > last - MOMENT)) {
     (taken[each.member] ??= []).push(...each.taken);
+    (entered[each.member] ??= []).push(...each.entered);
   }
-  return taken;
+  return { taken, entered };
 }

@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import type { Active, Taken } from "../src/lights.ts";
+import type { Active, Steps } from "../src/lights.ts";
 import { Nodes } from "../src/nodes.ts";
 
 // In place of swarmc: it says what it was started with, and serves the news of its page.
@@ -16,7 +16,7 @@ const news = [
   { titles: {} },
   { active: { "uav[0]": ["Höhe"], [process.argv.slice(2).join(" ")]: ["Idle"] } },
   { active: { "uav[0]": null } },
-  { taken: { "uav[1]": ["Höhe->0"] } },
+  { taken: { "uav[1]": ["Höhe->0"] }, entered: { "uav[1]": ["Tal"] } },
 ];
 const server = createServer((asked, answer) => {
   if (asked.url !== "/events") throw new Error(asked.url);
@@ -34,7 +34,7 @@ interface Told {
   readonly nodes: Nodes;
   readonly model: string;
   /** The next of what is told: who has moved and what was taken, or why it has ended. */
-  next(): Promise<[Active, Taken] | string>;
+  next(): Promise<[Active, Steps] | string>;
 }
 
 async function followed(script: string, run: (told: Told) => Promise<void>): Promise<void> {
@@ -42,15 +42,15 @@ async function followed(script: string, run: (told: Told) => Promise<void>): Pro
   const program = join(folder, "swarmc.cjs");
   await writeFile(program, script);
   const launch = { command: process.execPath, args: [program], origin: "", bundled: false };
-  const told: ([Active, Taken] | string)[] = [];
+  const told: ([Active, Steps] | string)[] = [];
   let wake = (): void => undefined;
-  const tell = (news: [Active, Taken] | string): void => {
+  const tell = (news: [Active, Steps] | string): void => {
     told.push(news);
     wake();
   };
   const model = join(folder, "a.swarm");
   const nodes = new Nodes(launch, model, "/sar", (...each) => tell(each), tell);
-  const next = async (): Promise<[Active, Taken] | string> => {
+  const next = async (): Promise<[Active, Steps] | string> => {
     while (!told.length) {
       await new Promise<void>((resolve) => (wake = resolve));
     }
@@ -67,9 +67,11 @@ async function followed(script: string, run: (told: Told) => Promise<void>): Pro
 test("nodes are followed until nobody looks any more", () =>
   followed(SERVES, async ({ nodes, model, next }) => {
     const line = `preview ${model} --follow ros2:/sar`;
-    assert.deepEqual(await next(), [{ "uav[0]": ["Höhe"], [line]: ["Idle"] }, {}]);
-    assert.deepEqual(await next(), [{ "uav[0]": null }, {}]);
-    assert.deepEqual(await next(), [{}, { "uav[1]": ["Höhe->0"] }]);
+    const nothing = { taken: undefined, entered: undefined };
+    assert.deepEqual(await next(), [{ "uav[0]": ["Höhe"], [line]: ["Idle"] }, nothing]);
+    assert.deepEqual(await next(), [{ "uav[0]": null }, nothing]);
+    const steps = { taken: { "uav[1]": ["Höhe->0"] }, entered: { "uav[1]": ["Tal"] } };
+    assert.deepEqual(await next(), [{}, steps]);
     nodes.again();
     assert.deepEqual(await next(), [{ [line]: ["Idle"] }, {}]);
     nodes.dispose();

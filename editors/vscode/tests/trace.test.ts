@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import type { Active, Taken } from "../src/lights.ts";
+import type { Active, Steps } from "../src/lights.ts";
 import { Trace } from "../src/trace.ts";
 
 const DEADLINE = 20_000;
@@ -16,22 +16,25 @@ function step(member: string | null, ...configuration: string[]): string {
 }
 
 function taken(t: number, member: string, ...taken: string[]): string {
-  return `${JSON.stringify({ t, member, event: "Go", configuration: ["End"], taken })}\n`;
+  const event = t > 9_500 ? "Go" : null;
+  const configuration = ["End"];
+  return `${JSON.stringify({ t, member, event, configuration, taken, entered: configuration })}\n`;
 }
 
-test("a trace is followed while it is written, and when it begins anew", async () => {
+test("a trace is followed while it is written, and when it begins anew", async (test) => {
   const folder = await mkdtemp(join(tmpdir(), "trace-"));
   const path = join(folder, "trace.jsonl");
   const told: Active[] = [];
-  const steps: Taken[] = [];
-  const trace = new Trace(path, "Alone", (active, taken) => {
+  const steps: Steps[] = [];
+  const trace = new Trace(path, "Alone", (active, done) => {
     if (Object.keys(active).length) {
       told.push(active);
     }
-    if (Object.keys(taken).length) {
-      steps.push(taken);
+    if (Object.keys(done).length) {
+      steps.push(done);
     }
   });
+  test.after(() => trace.dispose()); // else it looks for ever
   const next = async (): Promise<Active | undefined> => {
     const end = Date.now() + DEADLINE;
     while (!told.length && Date.now() < end) {
@@ -55,11 +58,14 @@ test("a trace is followed while it is written, and when it begins anew", async (
   assert.deepEqual(await next(), { "uav[0]": null, "uav[1]": null, ü: null, Alone: null });
   assert.deepEqual(await next(), { "uav[0]": ["Start"] });
 
-  assert.ok(steps.every((each) => Object.values(each).every((ids) => !ids.length)));
+  assert.ok(steps.every(({ taken }) => Object.values(taken ?? {}).every((ids) => !ids.length)));
   const long = [taken(100, "uav[1]", "A->0"), taken(9_500, "uav[0]", "A->0", "B->1")];
   await appendFile(path, long.join("") + taken(10_000, "uav[0]", "C->0"));
   assert.deepEqual(await next(), { "uav[0]": ["End"], "uav[1]": ["End"] });
-  assert.deepEqual(steps.at(-1), { "uav[0]": ["A->0", "B->1", "C->0"] });
+  assert.deepEqual(steps.at(-1), {
+    taken: { "uav[0]": ["A->0", "B->1", "C->0"] },
+    entered: { "uav[0]": ["", "End", "End"] },
+  });
   await writeFile(path, step("uav[0]", "Start"));
   assert.deepEqual(await next(), { "uav[0]": null, "uav[1]": null });
   assert.deepEqual(await next(), { "uav[0]": ["Start"] });

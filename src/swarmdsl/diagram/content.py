@@ -22,7 +22,8 @@ _RULE = 5
 class Text:
     """A line of text: where its base line is from the top of the block, and how wide it is.
 
-    It begins at `x` or, if that is None, is in the middle of the box, however wide that is.
+    It begins at `x` or, if that is None, is in the middle of the box, however wide that is. What
+    it shows may have an id.
     """
 
     text: str
@@ -30,6 +31,7 @@ class Text:
     x: int | None
     y: int
     width: int
+    id: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,14 +83,18 @@ def _stacked(node: Node, x: int | None) -> Block:
         for line in wrapped(text, style, _NAME_MOST):
             texts.append(Text(line, style, x, y + _base(style), width(line, style)))
             y += LINE_HEIGHTS[style]
+    left = sum(map(len, node.compartments))
     for group in node.compartments:
         rules.append(y + _RULE)
         y += 2 * _RULE
         for text in group:
+            id_ = node.internal[-left] if left <= len(node.internal) else ""
+            left -= 1
             for number, line in enumerate(wrapped(text, "line", _LINE_MOST)):
                 indent = _INDENT if number else 0
                 base = y + _base("line")
-                texts.append(Text(line, "line", PADDING + indent, base, width(line, "line")))
+                long = width(line, "line")
+                texts.append(Text(line, "line", PADDING + indent, base, long, id_))
                 y += LINE_HEIGHTS["line"]
     if node.hides_states:
         y += _MARK

@@ -42,7 +42,7 @@ def _folds(node: Node, ids: Collection[str]) -> bool:
 
 def _folded(node: Node, ids: Collection[str]) -> Node:
     if _folds(node, ids):
-        return replace(node, nodes=(), compartments=(), folded=True)
+        return replace(node, nodes=(), compartments=(), internal=(), folded=True)
     return replace(node, nodes=tuple(_folded(child, ids) for child in node.nodes))
 
 

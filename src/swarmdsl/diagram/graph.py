@@ -41,6 +41,7 @@ class Node:
 
     `keyword` is what UML writes in guillemets, `compartments` are groups of lines below
     the name, each with a line above it. Both and the nodes inside are left out if it is `folded`.
+    The last of these lines are the transitions `internal`, by their ids.
     """
 
     id: str
@@ -53,6 +54,7 @@ class Node:
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
     folded: bool = False
+    internal: tuple[str, ...] = ()
 
     @property
     def foldable(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl.ir import (
     Array,
@@ -52,10 +52,16 @@ def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
         lines.append(f"do / {activity_text(state.activity, state.activity.function)}")
     if state.exit:
         lines.append(f"exit {' '.join(effects_label(state.exit))}")
-    for each in state.transitions:
-        if each.target is None:
-            lines.append(" ".join(transition_label(each, state)))
+    for _, each in internal_transitions(state):
+        lines.append(" ".join(transition_label(each, state)))
     return tuple(lines)
+
+
+def internal_transitions(state: State) -> Iterator[tuple[str, Transition]]:
+    """The transitions that a state stays for, by the ids that traces have for them."""
+    for number, each in enumerate(state.transitions):
+        if each.target is None:
+            yield f"{state.id}->{number}", each
 
 
 def param_line(param: Param) -> str:

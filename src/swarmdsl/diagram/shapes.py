@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.dataclass import dataclass, replace
 from swarmdsl.diagram.content import Block, Text, box_block, header_block
 from swarmdsl.diagram.graph import Node, Port
 from swarmdsl.diagram.measure import LINE_HEIGHTS, width
@@ -109,5 +109,5 @@ def port_text(port: Port) -> str:
 
 
 def _moved(block: Block, down: int) -> Block:
-    texts = tuple(Text(t.text, t.style, t.x, t.y + down, t.width) for t in block.texts)
+    texts = tuple(replace(each, y=each.y + down) for each in block.texts)
     return Block(block.width, block.height, texts, block.rules)

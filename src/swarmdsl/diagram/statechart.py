@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from swarmdsl.diagram.graph import Diagram, Edge, Node, NodeKind
 from swarmdsl.diagram.labels import (
     behaviour_lines,
+    internal_transitions,
     param_line,
     transition_label,
     value_lines,
@@ -74,6 +75,7 @@ def _node(state: State, uses: Mapping[str, Use]) -> Node:
         kind,
         name,
         compartments=compartments,
+        internal=tuple(id_ for id_, _ in internal_transitions(state)),
         nodes=inside,
         doc=state.doc,
         origin=state.origin,

@@ -67,10 +67,10 @@ def svg(diagram: Diagram) -> str:
 def draw(picture: Picture, link: Callable[[Span | None], str | None] | None = None) -> str:
     """The text of an SVG file, or with a `link` that of a part of an HTML page with `style()`.
 
-    Elements have the id of what they show as `data-id`. A file has its place in the model as
-    `data-place`, so that a program that shows the picture can lead there, and whether what can be
-    folded is `open` or `closed` as `data-fold`; a page links to where `link` says that it is
-    described.
+    Elements have the id of what they show as `data-id`, edges that of their target as `data-to`. A
+    file has its place in the model as `data-place`, so that a program that shows the picture can
+    lead there, and whether what can be folded is `open` or `closed` as `data-fold`; a page links to
+    where `link` says that it is described.
     """
     return "\n".join([*_Drawing(picture, link).lines(), ""])
 
@@ -202,11 +202,12 @@ class _Drawing:
     def block(self, block: Block, x: int, y: int, wide: int) -> Iterator[str]:
         for text in block.texts:
             left = x + (text.x if text.x is not None else (wide - text.width) // 2)
-            yield _words(text.text, text.style, left, y + text.y, text.width)
+            yield _words(text.text, text.style, left, y + text.y, text.width, text.id)
 
     def edge(self, line: Line) -> Iterator[str]:
         edge, points = line.edge, list(line.points)
-        yield f"<g{self.about(f'edge {edge.kind}', edge.id, edge.origin)}>"
+        about = self.about(f"edge {edge.kind}", edge.id, edge.origin)
+        yield f"<g{about} data-to={_quoted(edge.target)}>"
         if edge.doc:
             yield f"<title>{_text(edge.doc)}</title>"
         yield f'<path d="{_rounded(points)}"/>'
@@ -258,10 +259,11 @@ def style() -> str:
     return "\n" + "\n".join(lines) + "\n"
 
 
-def _words(text: str, style: str, x: int, y: int, wide: int) -> str:
+def _words(text: str, style: str, x: int, y: int, wide: int, id_: str = "") -> str:
     """A line of text, as wide as was reckoned in whatever font there is."""
     fitted = f' textLength="{wide}" lengthAdjust="spacingAndGlyphs"' if len(text) > 1 else ""
-    return f'<text class="{style}" x="{x}" y="{y}"{fitted}>{_text(text)}</text>'
+    about = f" data-id={_quoted(id_)}" if id_ else ""
+    return f'<text class="{style}"{about} x="{x}" y="{y}"{fitted}>{_text(text)}</text>'
 
 
 def _rounded(points: list[tuple[int, int]]) -> str:

@@ -9,8 +9,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from threading import Thread
 from time import sleep
+from typing import Any
 
 from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.preview.pictures import Steps
 from swarmdsl.preview.serving import News
 from swarmdsl.simulate.trace_line import read_line
 
@@ -20,6 +22,8 @@ _PAUSE = 0.1
 _CHUNK = 1 << 20
 _MOMENT = 1000
 """Milliseconds for which a transition counts as just taken."""
+_ROOT = ""
+"""The id of a machine itself, which is entered when it begins."""
 
 
 def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]) -> None:
@@ -72,7 +76,7 @@ class Follower:
     def hear(self, lines: Iterable[str | bytes]) -> None:
         """Some more lines, whole ones."""
         active: dict[str, Sequence[str] | None] = {}
-        steps: list[tuple[int, str, Sequence[str]]] = []
+        steps: list[tuple[int, str, dict[str, Any]]] = []
         for line in lines:
             self._lines += 1
             if not line.strip():
@@ -88,11 +92,11 @@ class Follower:
                     active[str(self._called)] = None
                 self._called = member
             active[member] = value["configuration"]
-            steps.append((value["t"], member, value.get("taken", ())))
+            steps.append((value["t"], member, value))
         if active:
-            self._news.move(self._name, active, _just_taken(steps))
+            self._news.move(self._name, active, _latest(steps))
 
-    def _machine(self, value: dict[str, list[str]]) -> str:
+    def _machine(self, value: dict[str, Any]) -> str:
         """The name of a machine alone: the only one that has all states that it was in."""
         if self._alone:
             return self._alone
@@ -115,14 +119,19 @@ class Follower:
             self._tell(report)
 
 
-def _just_taken(steps: Sequence[tuple[int, str, Sequence[str]]]) -> dict[str, list[str]]:
-    """The transitions that members have taken at the end of some steps: others are long past."""
+def _latest(steps: Sequence[tuple[int, str, dict[str, Any]]]) -> Steps:
+    """What members have done at the end of some steps: others are long past."""
     taken: dict[str, list[str]] = {}
+    entered: dict[str, list[str]] = {}
     last = max((time for time, _, _ in steps), default=0)
-    for time, member, ids in steps:
-        if ids and time > last - _MOMENT:
-            taken.setdefault(member, []).extend(ids)
-    return taken
+    for time, member, step in steps:
+        if time > last - _MOMENT:
+            begun = [_ROOT] if step["event"] is None and step["entered"] else []
+            if ids := step.get("taken"):
+                taken.setdefault(member, []).extend(ids)
+            if ids := [*begun, *step["entered"]]:
+                entered.setdefault(member, []).extend(ids)
+    return {"taken": taken, "entered": entered}
 
 
 def _chunks(path: Path) -> Iterator[list[bytes] | None]:

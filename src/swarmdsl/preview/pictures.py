@@ -19,14 +19,23 @@ from swarmdsl.source import Span
 _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state machine"}
 
 
-class Message(TypedDict, total=False):
+class Steps(TypedDict, total=False):
+    """What members have just done, as a `Message` says it."""
+
+    taken: Mapping[str, Sequence[str]]
+    entered: Mapping[str, Sequence[str]]
+
+
+class Message(Steps, total=False):
     """News for a page: titles of all diagrams by their ids, one drawn, or why there is nothing new.
 
     `broken` is the number of mistakes. An id stays the same while its subject has its name.
     `runs` says of the diagram of a state machine who runs it, each with what the ids of its states
     begin with where it is reused: a role, `uav`, a part of one, `uav.camera`, or by its own name
     the machine alone. `active` are the innermost active states of members; None, of those that
-    are gone. `taken` are transitions that members have just taken, by their ids.
+    are gone. `taken` are transitions that members have just taken, by their ids, and `entered` the
+    states that they have entered with that, also those they have left since; the empty id is that
+    of a machine that has begun.
     """
 
     titles: dict[str, str]
@@ -35,7 +44,6 @@ class Message(TypedDict, total=False):
     svg: str
     broken: int
     active: Mapping[str, Sequence[str] | None]
-    taken: Mapping[str, Sequence[str]]
 
 
 class Pictures:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 from collections import deque
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -13,7 +13,7 @@ from pathlib import Path
 from urllib.parse import parse_qs
 
 from swarmdsl.preview.editors import Editor, Opened, file_of
-from swarmdsl.preview.pictures import Message, Pictures
+from swarmdsl.preview.pictures import Message, Pictures, Steps
 
 PAGE = Path(__file__).resolve().parent / "page"
 _HOST = "127.0.0.1"
@@ -26,7 +26,7 @@ _POLICY = (
 )
 # After so many seconds without news a connection is tried, to notice that a page is gone.
 _PULSE = 15.0
-# Moves whose transitions a page may still be told that is slow to hear.
+# Moves of which a page that is slow to hear may still be told what was done.
 _REMEMBERED = 100
 _LONGEST = 1 << 16
 """Bytes of a message of a page, at most."""
@@ -42,8 +42,8 @@ class News:
         # By traces: the innermost active states of members.
         self._active: dict[str, dict[str, Sequence[str]]] = {}
         self._moves = 0
-        # The number of a move, and transitions that were taken in it.
-        self._taken: deque[tuple[int, Mapping[str, Sequence[str]]]] = deque(maxlen=_REMEMBERED)
+        # The number of a move, and what was done in it.
+        self._steps: deque[tuple[int, Steps]] = deque(maxlen=_REMEMBERED)
 
     def tell(self, made: Pictures | Message) -> None:
         """Show something in all pages."""
@@ -60,11 +60,11 @@ class News:
         self,
         trace: str,
         active: Mapping[str, Sequence[str] | None],
-        taken: Mapping[str, Sequence[str]],
+        latest: Steps,
     ) -> None:
         """Show where members are now, of which a trace says so; None is for those that are gone.
 
-        `taken` are transitions that they have just taken, for pages that are there to see it.
+        `latest` is what they have just done, for pages that are there to see it.
         """
         with self._changed:
             there = self._active.setdefault(trace, {})
@@ -74,7 +74,7 @@ class News:
                 else:
                     there[member] = states
             self._moves += 1
-            self._taken.append((self._moves, taken))
+            self._steps.append((self._moves, latest))
             self._changed.notify_all()
 
     def forget(self, trace: str) -> None:
@@ -99,20 +99,34 @@ class News:
                 self._changed.wait_for(is_new, _PULSE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
                 sent, moves = self._messages, self._moves
-                steps = [step for number, step in self._taken if number > seen]
+                steps = [step for number, step in self._steps if number > seen]
                 seen = moves
                 now = {who: at for trace in self._active.values() for who, at in trace.items()}
             moved: dict[str, Sequence[str] | None] = dict.fromkeys(active.keys() - now.keys())
             moved.update((who, at) for who, at in now.items() if active.get(who) is not at)
             active = now
-            taken: dict[str, list[str]] = {}
-            for who, ids in (each for step in steps for each in step.items()):
-                taken.setdefault(who, []).extend(ids)
             if moved:
                 new.append({"active": moved})
-            if taken:
-                new.append({"taken": taken})
+            if done := _together(steps):
+                new.append(done)
             yield new
+
+
+def _together(steps: Iterable[Steps]) -> Message:
+    """What was done in some steps; nothing of which there is none."""
+    taken: dict[str, list[str]] = {}
+    entered: dict[str, list[str]] = {}
+    for step in steps:
+        for who, ids in step.get("taken", {}).items():
+            taken.setdefault(who, []).extend(ids)
+        for who, ids in step.get("entered", {}).items():
+            entered.setdefault(who, []).extend(ids)
+    done: Message = {}
+    if taken:
+        done["taken"] = taken
+    if entered:
+        done["entered"] = entered
+    return done
 
 
 @contextmanager

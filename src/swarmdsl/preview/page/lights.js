@@ -6,6 +6,7 @@ const EVERYONE = "*";
 const NOBODY = "-";
 const MOST_NAMED = 12;
 const MOMENT = 1500; // milliseconds
+const INITIAL = "#initial->"; // how the ids of arrows to what is entered first end
 
 export class Lights {
   #who; // the list of members
@@ -82,18 +83,26 @@ export class Lights {
     }
   }
 
-  /** Light up the transitions that members have just taken, by their ids, for a moment. */
-  flash(picture, diagram, taken) {
+  /**
+   * Light up for a moment the transitions that members have just taken, by their ids, and the
+   * arrows to what they have `entered` first in a state or a machine.
+   */
+  flash(picture, diagram, taken, entered) {
     const edges = new Map(
       Array.from(picture.querySelectorAll(".edge"), (each) => [each.dataset.id, each]),
     );
+    const lines = Array.from(picture.querySelectorAll("text[data-id]")); // in the boxes of states
     const chosen = this.#who.value;
-    for (const [member, ids] of Object.entries(taken)) {
+    for (const member of new Set([...Object.keys(taken), ...Object.keys(entered)])) {
       const prefixes = [EVERYONE, member].includes(chosen) ? this.#prefixes(diagram, member) : [];
       for (const prefix of prefixes) {
-        ids
-          .filter((id) => id.startsWith(prefix) && edges.has(id.slice(prefix.length)))
-          .forEach((id) => this.#flash(edges.get(id.slice(prefix.length))));
+        const ids = here(taken[member] ?? [], prefix);
+        const states = here(entered[member] ?? [], prefix);
+        [
+          ...ids.flatMap((id) => edges.get(id) ?? []),
+          ...lines.filter((each) => ids.includes(each.dataset.id)),
+          ...Array.from(edges.values()).filter((each) => begins(each, states, ids, edges)),
+        ].forEach((each) => this.#flash(each));
       }
     }
   }
@@ -150,6 +159,32 @@ export class Lights {
 /** The state around a state; empty for one at the top. */
 function above(id) {
   return id.slice(0, Math.max(id.lastIndexOf("."), 0));
+}
+
+/** Of some ids those in a diagram, where all have a prefix elsewhere; empty, that of its machine. */
+function here(ids, prefix) {
+  const machine = prefix.slice(0, -1);
+  return ids.flatMap((id) => {
+    const isInside = id.startsWith(prefix) && id !== machine;
+    return isInside ? id.slice(prefix.length) : id === machine ? "" : [];
+  });
+}
+
+/**
+ * Whether an edge leads to what is entered first in a state, and was taken: of the transitions
+ * that were, none leads from outside of the state to one in it.
+ */
+function begins(edge, entered, taken, edges) {
+  const { id, to } = edge.dataset;
+  if (!id.endsWith(INITIAL)) {
+    return false;
+  }
+  const around = id.slice(0, -INITIAL.length);
+  const isInside = (state) => !around || state.startsWith(`${around}.`);
+  const entersElsewhere = taken.some(
+    (each) => isInside(edges.get(each)?.dataset.to ?? "") && !isInside(each),
+  );
+  return entered.includes(around) && entered.includes(to) && !entersElsewhere;
 }
 
 /** How many are in a node, and who they are. */

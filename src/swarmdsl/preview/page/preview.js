@@ -2,8 +2,8 @@
 //
 // From outside come `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with one of them drawn,
 // `{ broken }` with a number while the text has mistakes (the picture stays), `{ active }` with the
-// states in which robots are, `{ taken }` with transitions that they have just taken,
-// `{ cursor: { file, line } }`, and `{ show: ID }`.
+// states in which robots are, `{ taken, entered }` with transitions that they have just taken and
+// states that they have entered with that, `{ cursor: { file, line } }`, and `{ show: ID }`.
 
 import { Folding } from "./folding.js";
 import * as host from "./host.js";
@@ -92,8 +92,8 @@ function receive(message) {
   } else if (message.active) {
     light();
   }
-  if (message.taken) {
-    lights.flash(picture, shown, message.taken);
+  if (message.taken || message.entered) {
+    lights.flash(picture, shown, message.taken ?? {}, message.entered ?? {});
   }
   if (message.show) {
     show(message.show);
