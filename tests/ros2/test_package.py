@@ -10,6 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+HERE = Path(__file__).resolve().parent
 Variant = Callable[..., Path]
 WORK = ("/lab/work", "lab_msgs/action/Work")
 ASK = ("/lab/ask", "lab_msgs/srv/Ask")
@@ -19,7 +20,11 @@ CONFIGURE, CLEAN_UP, ACTIVATE, DEACTIVATE = 1, 2, 3, 4
 
 
 def test_colcon_builds_and_tests_it(ros: Any, variant: Variant, tmp_path: Path) -> None:
-    package = variant("examples/search_and_rescue", copyright="2026 Example Robotics")
+    model, holder = "examples/search_and_rescue", "2026 Example Robotics"
+    package = variant(model, copyright=holder)
+    in_smach = variant(model, target="smach", ros="2", package="sar_smach", copyright=holder)
+    for stand_in in (HERE.parent / "smach" / "stand_in", HERE / "smach_stand_in"):
+        ros.prefer(stand_in)
     bin_ = ros.python.parent
     environment = {**ros.environment, "PATH": f"{bin_}{os.pathsep}{os.environ['PATH']}"}
 
@@ -35,33 +40,41 @@ def test_colcon_builds_and_tests_it(ros: Any, variant: Variant, tmp_path: Path) 
         assert ran.returncode == 0, ran.stdout + ran.stderr
         return ran.stdout
 
-    here = ("--base-paths", str(package), "--packages-select", "sar_behavior")
+    here = ("--base-paths", str(package), str(in_smach))
     colcon("build", *here)
     # The linters of ROS are in no package index; what they run is run by test_output.
-    colcon("test", *here, "--pytest-args", "test/test_machines.py")
-    assert "2 tests, 0 errors, 0 failures, 0 skipped" in colcon("test-result", "--all")
+    linters = (f" --ignore=test/test_{each}.py" for each in ("copyright", "flake8", "pep257"))
+    colcon("test", *here, "--pytest-args", *linters, "test")
+    assert "6 tests, 0 errors, 0 failures, 0 skipped" in colcon("test-result", "--all")
 
-    installed = tmp_path / "install" / "sar_behavior"
-    share = installed / "share" / "sar_behavior"
+    nodes = [_installed(ros, tmp_path / "install", name) for name in ("sar_behavior", "sar_smach")]
+    for node, trace in nodes:
+        end = time.monotonic() + 60
+        while not (trace.exists() and trace.read_text()) and time.monotonic() < end:
+            assert node.poll() is None
+            time.sleep(0.05)
+        node.terminate()
+        assert node.wait(20) == 0
+        assert '"Mission.Idle"' in trace.read_text()
+
+
+def _installed(ros: Any, folder: Path, package: str) -> tuple[subprocess.Popen[str], Path]:
+    """Start a node of a package that is installed there, which writes a trace."""
+    prefix = folder / package
+    share = prefix / "share" / package
     assert (share / "launch" / "search_and_rescue.launch.py").exists()
     assert (share / "config" / "search_and_rescue" / "uav_0.yaml").exists()
-    assert (installed / "share" / "ament_index" / "resource_index" / "packages").is_dir()
-    (site,) = installed.glob("lib/python3.*/site-packages")
-    ros.environment["PYTHONPATH"] = f"{site}{os.pathsep}{ros.environment['PYTHONPATH']}"
+    assert (prefix / "share" / "ament_index" / "resource_index" / "packages").is_dir()
+    (site,) = prefix.glob("lib/python3.*/site-packages")
+    ros.prefer(site)
+    trace = folder / f"{package}.jsonl"
     node = ros.start(
-        installed / "lib" / "sar_behavior" / "uav_search",
+        prefix / "lib" / package / "uav_search",
         *("--ros-args", "--params-file"),
         share / "config" / "search_and_rescue" / "uav.yaml",
-        *("-p", "trace.file:=installed.jsonl"),
+        *("-p", f"trace.file:={trace}"),
     )
-    trace = tmp_path / "installed.jsonl"
-    end = time.monotonic() + 60
-    while not (trace.exists() and trace.read_text()) and time.monotonic() < end:
-        assert node.poll() is None
-        time.sleep(0.05)
-    node.terminate()
-    assert node.wait(20) == 0
-    assert '"Mission.Idle"' in trace.read_text()
+    return node, trace
 
 
 class Managed:
