@@ -6,17 +6,11 @@ an expression ends. Both are followed here at once; tests hold the three against
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.expressions import (
-    MARKS,
-    Language,
-    Match,
-    is_too_large,
-    quantity_value,
-    unquoted,
-)
+from swarmdsl.expressions import UNITS, Language, is_too_large, quantity_value, unquoted
 from swarmdsl.parsed import NESTING_LIMIT
 from swarmdsl.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
 from swarmdsl.source import Source, Span
@@ -30,6 +24,7 @@ from swarmdsl.syntax import (
     Word,
     depth,
 )
+from swarmdsl.tokens import MARKS, Tokens
 
 # The tokens that can begin an operator, as a whole or in part.
 _OPERATORS = frozenset({*BINDING, "=", "!"})
@@ -37,16 +32,19 @@ _OPERATORS = frozenset({*BINDING, "=", "!"})
 _DELAY_OPERATORS = frozenset({"+", "-", "*"})
 _PARTS_OF_COMPARISONS = frozenset("=!<>")
 _PREFIXES = frozenset({"not", "-"})
-_SIMPLE_NUMBER = 9  # characters: no such number is too large
+# Before these a number may go on; before those an expression that begins with one or a name.
+_IN_NUMBERS = UNITS.keys() | {"."}
+_GOES_ON = _OPERATORS | _IN_NUMBERS | {"("}
+_SIMPLE_NUMBER = 9  # digits: no such number is too large
 
 # To call the classes takes longer.
 new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
 
-# A tree, where it begins and ends with the parentheses around it, the last match of it
-# and the match of what follows.
-_Found = tuple[ExpressionTree, int, int, Match, Match]
+# A tree, where it begins and ends with the parentheses around it, and the number of the
+# token that follows.
+_Found = tuple[ExpressionTree, int, int, int]
 
 
 class TooDeepError(Exception):
@@ -54,48 +52,74 @@ class TooDeepError(Exception):
 
 
 class ExpressionParser:
-    """Parses the expressions of a file: each method from the match of the first token on.
+    """Parses the expressions of a file: each method from the token of a number on.
 
-    A method returns an expression, its last match and the one of what follows; None where
-    there is no expression. One that is wrong has no tree, but its first fault is added to
-    `faults`. Raises TooDeepError for more parentheses in each other than `limit`.
+    A method returns an expression and the number of the token that follows; None where there
+    is no expression. One that is wrong has no tree, but its first fault is added to `faults`.
+    Raises TooDeepError for more parentheses in each other than `limit`.
     """
 
     __slots__ = (
-        *("faults", "_language", "_token", "_not_a_name", "_source", "_text", "_limit"),
-        *("_level", "_size", "_fault", "_large"),
+        *("faults", "_language", "_not_a_name", "_tokens", "_ends", "_source"),
+        *("_limit", "_level", "_size", "_fault", "_large"),
     )
 
-    def __init__(self, language: Language, source: Source, limit: int) -> None:
+    def __init__(self, language: Language, source: Source, tokens: Tokens, limit: int) -> None:
         self.faults: list[Fault] = []
         self._language = language
-        self._token = language.token
         self._not_a_name = language.not_a_name
+        self._tokens, self._ends = tokens
         self._source = source
-        self._text = source.text
         self._limit = limit
         self._level = 0
         self._size = 0
         self._fault: Fault | None = None
         self._large: Span | None = None
 
-    def expression(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
+    def expression(self, at: int) -> tuple[Expression, int] | None:
         """Parse a whole expression."""
-        return self._finished(self._binary(ahead, _OPERATORS))
+        return self._simple(at) or self._finished(self._binary(at, _OPERATORS))
 
-    def delay(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
+    def delay(self, at: int) -> tuple[Expression, int] | None:
         """Parse a delay, which has no division."""
-        return self._finished(self._binary(ahead, _DELAY_OPERATORS))
+        return self._finished(self._binary(at, _DELAY_OPERATORS))
 
-    def operand(self, ahead: Match) -> tuple[Expression, Match, Match] | None:
+    def operand(self, at: int) -> tuple[Expression, int] | None:
         """Parse what can stand on one side of an operator."""
-        return self._finished(self._binary(ahead, frozenset()))
+        return self._simple(at) or self._finished(self._binary(at, frozenset()))
 
-    def _finished(self, found: _Found | None) -> tuple[Expression, Match, Match] | None:
+    def _simple(self, at: int) -> tuple[Expression, int] | None:
+        """Parse what most expressions are: one token, of which nothing behind it is a part."""
+        tokens = self._tokens
+        token = tokens[at]
+        at += 1
+        if tokens[at] in _GOES_ON:
+            return None
+        tree: ExpressionTree
+        if token >= "A":
+            if token in self._not_a_name:
+                return None
+            tree = new_node(NameUse)
+            tree.name = token
+            tree.target = None
+        else:
+            value = _simple_value(token)
+            if value is None:
+                return None
+            tree = new_node(Value)
+            tree.value = value
+            tree.unit = ""
+        end = self._ends[at]
+        made = new_node(Expression)
+        made.span = tree.span = new_span(Span, (self._source, end - len(token), end))
+        made.tree = tree
+        return made, at
+
+    def _finished(self, found: _Found | None) -> tuple[Expression, int] | None:
         if found is None:
             self._fault = self._large = None
             return None
-        tree, start, end, behind, ahead = found
+        tree, start, end, following = found
         span = tree.span
         if span[1] != start or span[2] != end:  # else it is the same, which is kept once
             span = new_span(Span, (self._source, start, end))
@@ -115,7 +139,7 @@ class ExpressionParser:
             made.tree = None
             self.faults.append(self._fault)
             self._fault = self._large = None
-        return made, behind, ahead
+        return made, following
 
     def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
         if self._fault is None and depth(tree) > NESTING_LIMIT:
@@ -123,19 +147,20 @@ class ExpressionParser:
             fields = {"limit": NESTING_LIMIT, "help": help_}
             self._fault = Fault(span, "nested-too-deeply", fields)
 
-    def _binary(self, ahead: Match, operators: frozenset[str]) -> _Found | None:
+    def _binary(self, at: int, operators: frozenset[str]) -> _Found | None:
         """Operands with operators between them, or one operand."""
+        tokens = self._tokens
         prefixes: Sequence[Operator] = ()
-        if ahead[1] in _PREFIXES:
-            prefixes, ahead = self._prefixes(ahead)
-        first = last = self._primary(ahead)
+        if tokens[at] in _PREFIXES:
+            prefixes, at = self._prefixes(at)
+        first = last = self._primary(at)
         if last is None or first is None:
             return None
-        if last[4][1] not in operators and not prefixes:
+        if tokens[last[3]] not in operators and not prefixes:
             return first
         operations: list[Operation[_Found]] = []
-        while last[4][1] in operators:
-            operation = self._operation(last[4])
+        while tokens[last[3]] in operators:
+            operation = self._operation(last[3])
             if operation is None:
                 break
             operations.append(operation)
@@ -146,143 +171,157 @@ class ExpressionParser:
         tree, start, end, fault = join(prefixes, first, operations)
         if fault is not None:
             self._blame(fault)
-        return tree, start, end, last[3], last[4]
+        return tree, start, end, last[3]
 
-    def _operation(self, ahead: Match) -> Operation[_Found] | None:
+    def _operation(self, at: int) -> Operation[_Found] | None:
         """An operator with its operand; an operator that none follows is not part of it."""
-        token = ahead[1]
-        match = ahead
-        if token in _PARTS_OF_COMPARISONS:
-            comparison = self._language.comparison(self._text, ahead.start())
-            if comparison is None:
-                return None
-            token, match = comparison[1], comparison
-        elif token == "-" and self._is_arrow(ahead):
+        tokens = self._tokens
+        token = tokens[at]
+        if token == "-" and self._is_arrow(at):
             return None
+        at += 1
+        end = self._ends[at]
+        if token in _PARTS_OF_COMPARISONS:
+            if tokens[at] == "=" and self._ends[at + 1] == end + 1:
+                token += "="
+                at += 1
+                end += 1
+            if token not in BINDING:
+                return None
         before = self._fault, self._large
         prefixes: Sequence[Operator] = ()
-        ahead = self._token(self._text, match.end())
-        if ahead[1] in _PREFIXES:
-            prefixes, ahead = self._prefixes(ahead)
-        found = self._primary(ahead)
+        if tokens[at] in _PREFIXES:
+            prefixes, at = self._prefixes(at)
+        found = self._primary(at)
         if found is None:
             self._fault, self._large = before
             return None
-        return (BINDING[token], self._word(match), False), prefixes, found
+        return (BINDING[token], self._word(token, end), False), prefixes, found
 
-    def _prefixes(self, ahead: Match) -> tuple[Sequence[Operator], Match]:
-        """Each `not` and each sign, and the match of what follows them."""
+    def _prefixes(self, at: int) -> tuple[Sequence[Operator], int]:
+        """Each `not` and each sign, and the number of the token that follows them."""
         prefixes: list[Operator] = []
-        while (token := ahead[1]) in _PREFIXES and not (token == "-" and self._is_arrow(ahead)):
-            prefixes.append((NOT if token == "not" else SIGN, self._word(ahead), True))
-            ahead = self._token(self._text, ahead.end())
-        return prefixes, ahead
+        while (token := self._tokens[at]) in _PREFIXES and not (
+            token == "-" and self._is_arrow(at)
+        ):
+            at += 1
+            word = self._word(token, self._ends[at])
+            prefixes.append((NOT if token == "not" else SIGN, word, True))
+        return prefixes, at
 
-    def _primary(self, ahead: Match) -> _Found | None:
+    def _primary(self, at: int) -> _Found | None:
         """A value, a name, a call, or an expression in parentheses."""
-        token = ahead[1]
+        tokens = self._tokens
+        token = tokens[at]
+        if token < "A":
+            return self._parenthesised(at) if token == "(" else self._literal(at)
         if token not in self._not_a_name:
-            following = self._token(self._text, ahead.end())
-            if following[1] == "(":
-                call = self._call(ahead, following)
+            following = tokens[at + 1]
+            if following == "(":
+                call = self._call(at)
                 if call is not None:
                     return call
-            if following[1] == ".":
-                return self._path(ahead, following)
-            start, end = ahead.span(1)
+            if following == ".":
+                return self._path(at)
+            at += 1
+            end = self._ends[at]
+            start = end - len(token)
             name = new_node(NameUse)
             name.span = new_span(Span, (self._source, start, end))
             name.name = token
             name.target = None
-            return name, start, end, ahead, following
-        start = ahead.start()
-        if token == "":
-            quantity = self._language.quantity(self._text, start)
-            return self._quantity(quantity) if quantity is not None else None
+            return name, start, end, at
         match token:
             case "event":
-                return self._path(ahead, self._token(self._text, ahead.end()))
+                return self._path(at)
             case "true" | "false":
-                return self._value(ahead, token == "true")
-            case '"':
-                quoted = self._language.quoted(self._text, start)
-                return self._value(quoted, unquoted(quoted[1])) if quoted else None
-            case "(":
-                return self._parenthesised(ahead)
+                return self._value(at, self._ends[at + 1], token == "true")
         return None
 
-    def _parenthesised(self, ahead: Match) -> _Found | None:
+    def _parenthesised(self, at: int) -> _Found | None:
         self._descend()
-        found = self._binary(self._token(self._text, ahead.end()), _OPERATORS)
+        found = self._binary(at + 1, _OPERATORS)
         self._level -= 1
-        if found is None or found[4][1] != ")":
+        if found is None or self._tokens[found[3]] != ")":
             return None
-        closing = found[4]
-        following = self._token(self._text, closing.end())
-        return found[0], ahead.start(), closing.end(1), closing, following
+        following = found[3] + 1
+        return found[0], self._start(at), self._ends[following], following
 
-    def _call(self, ahead: Match, opening: Match) -> _Found | None:
+    def _call(self, at: int) -> _Found | None:
         """A call; None where what follows the name are no arguments."""
         before = self._fault, self._large
+        tokens = self._tokens
         self._descend()
         arguments: list[ExpressionTree] = []
-        following = self._token(self._text, opening.end())
-        while following[1] != ")" or arguments:
-            if arguments and following[1] != ",":
+        following = at + 2
+        while tokens[following] != ")" or arguments:
+            if arguments and tokens[following] != ",":
                 break
-            begin = self._token(self._text, following.end()) if arguments else following
-            found = self._binary(begin, _OPERATORS)
+            found = self._binary(following + 1 if arguments else following, _OPERATORS)
             if found is None:
                 break
             arguments.append(found[0])
-            following = found[4]
+            following = found[3]
         self._level -= 1
-        if following[1] != ")":
+        if tokens[following] != ")":
             self._fault, self._large = before
             return None
-        behind, following = following, self._token(self._text, following.end())
-        start, end = ahead.start(), behind.end(1)
+        following += 1
+        end = self._ends[following]
         self._size += 1
-        tree = Call(self._span(start, end), self._word(ahead), tuple(arguments))
-        return tree, start, end, behind, following
+        function = self._word(tokens[at], self._ends[at + 1])
+        start = function.span[1]
+        return Call(self._span(start, end), function, tuple(arguments)), start, end, following
 
-    def _path(self, behind: Match, ahead: Match) -> _Found:
+    def _path(self, at: int) -> _Found:
         """A name, and fields of what it means."""
-        start, end = behind.span(1)
-        tree: ExpressionTree = NameUse(self._span(start, end), behind[1])
-        while ahead[1] == ".":
-            field = self._token(self._text, ahead.end())
-            if not field[1] or field[1] in MARKS:
+        tokens, start = self._tokens, self._start(at)
+        end = self._ends[at + 1]
+        tree: ExpressionTree = NameUse(self._span(start, end), tokens[at])
+        at += 1
+        while tokens[at] == ".":
+            field = tokens[at + 1]
+            if field < "A" or field in MARKS:
                 break
-            behind, ahead = field, self._token(self._text, field.end())
-            end = behind.end(1)
-            tree = FieldUse(self._span(start, end), tree, self._word(behind))
+            at += 2
+            end = self._ends[at]
+            tree = FieldUse(self._span(start, end), tree, self._word(field, end))
             self._size += 1
-        return tree, start, end, behind, ahead
+        return tree, start, end, at
 
-    def _value(self, match: Match, value: bool | float | str, unit: str = "") -> _Found:
-        start, end = match.span(1)
+    def _value(self, at: int, end: int, value: bool | float | str, unit: str = "") -> _Found:
+        ends = self._ends
+        start = ends[at + 1] - len(self._tokens[at])
         made = new_node(Value)
         made.span = new_span(Span, (self._source, start, end))
         made.value = value
         made.unit = unit
-        return made, start, end, match, self._token(self._text, match.end())
+        while ends[at] < end:
+            at += 1
+        return made, start, end, at
 
-    def _quantity(self, match: Match) -> _Found:
-        digits, unit = match[2], match[3] or ""
-        if len(digits) < _SIMPLE_NUMBER and not unit:
-            if digits.isdigit():
-                return self._value(match, int(digits))
-            if "e" not in digits and "E" not in digits:
-                return self._value(match, float(digits))
-        if not is_too_large(match[1], digits, unit):
-            return self._value(match, quantity_value(digits), unit)
+    def _literal(self, at: int) -> _Found | None:
+        """A text, a number or a duration."""
+        token, start = self._tokens[at], self._start(at)
+        if token[:1] == '"' or self._tokens[at + 1] not in _IN_NUMBERS:
+            value = _simple_value(token)
+            if value is not None:
+                return self._value(at, self._ends[at + 1], value)
+        number = self._language.quantity(self._source.text, start)
+        return self._quantity(at, number) if number else None
+
+    def _quantity(self, at: int, match: re.Match[str]) -> _Found:
+        written, digits, unit = match.group(0, 1, 2)
+        end = match.end()
+        unit = unit or ""
+        if not is_too_large(written, digits, unit):
+            return self._value(at, end, quantity_value(digits), unit)
         if self._large is None:
-            self._large = self._span(*match.span(1))
-        return self._value(match, 0, unit)
+            self._large = self._span(*match.span())
+        return self._value(at, end, 0, unit)
 
-    def _is_arrow(self, ahead: Match) -> bool:
-        return self._text.startswith("->", ahead.start())
+    def _is_arrow(self, at: int) -> bool:
+        return self._tokens[at + 1] == ">" and self._ends[at + 2] == self._ends[at + 1] + 1
 
     def _descend(self) -> None:
         self._level += 1
@@ -294,19 +333,32 @@ class ExpressionParser:
         if self._fault is None or fault.span.start < self._fault.span.start:
             self._fault = fault
 
-    def _word(self, match: Match) -> Word:
-        word = new_word(Word, match[1])
-        start, end = match.span(1)
-        word.span = new_span(Span, (self._source, start, end))
+    def _start(self, at: int) -> int:
+        return self._ends[at + 1] - len(self._tokens[at])
+
+    def _word(self, text: str, end: int) -> Word:
+        word = new_word(Word, text)
+        word.span = new_span(Span, (self._source, end - len(text), end))
         return word
 
     def _span(self, start: int, end: int) -> Span:
         return new_span(Span, (self._source, start, end))
 
 
+def _simple_value(token: str) -> int | float | str | None:
+    """The value of a text, or of a number without exponent and unit; None of all else."""
+    if token[:1] == '"':
+        return unquoted(token) if token != '"' else None
+    digits = token.replace(".", "", 1)
+    if not digits.isdigit() or len(digits) > _SIMPLE_NUMBER:
+        return None
+    return int(token) if digits == token else float(token)
+
+
 def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
     """Report what is wrong with the expression at a span."""
-    parser = ExpressionParser(language, span.source, NESTING_LIMIT)
-    parser.expression(language.token(span.source.text, span.start))
+    tokens = language.tokens.cut(span.source.text, span.start, span.end)
+    parser = ExpressionParser(language, span.source, tokens, NESTING_LIMIT)
+    parser.expression(0)
     for fault in parser.faults:
         report.report(fault.name, fault.span, **fault.fields)

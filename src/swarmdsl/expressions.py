@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from math import isinf
-from typing import Any
+
+from swarmdsl.tokens import MARKS, Cutter
 
 # Nanoseconds in each unit of durations.
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
@@ -15,22 +16,17 @@ _ESCAPE = r"\\(.)"
 # More would take Python long to read, and nobody needs them.
 _MOST_DIGITS = 400
 _ESCAPED = {"n": "\n", "t": "\t"}
-MARKS = frozenset("!\"#$%&'()*+,-./:;<=>?@[\\]^`{|}~")
-# A match of a token with the blanks behind it; group 1 is the token.
-Match = re.Match[str]
 
 
 class Language:
-    """The words and blanks of the language, which the grammar of files says."""
+    """The tokens and words of the language, which the grammar of files says."""
 
-    def __init__(self, token: Any, blank: str, reserved: Iterable[str]) -> None:
-        self.token: Callable[[str, int], Match] = token
-        self.not_a_name = frozenset(reserved) | MARKS | {""}
+    def __init__(self, tokens: Cutter, reserved: Iterable[str]) -> None:
+        self.tokens = tokens
+        self.not_a_name = frozenset(reserved) | MARKS
         self.quantity = re.compile(
-            r"((\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]*(us|ms|s|min|h))?)\b(?!\.\d)" + blank
+            r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]*(us|ms|s|min|h))?\b(?!\.\d)"
         ).match
-        self.quoted = re.compile(r'("(?:[^"\\\n]|\\[^\n])*")' + blank).match
-        self.comparison = re.compile("([=!<>]=|<|>)" + blank).match
 
 
 def unquoted(text: str) -> str:

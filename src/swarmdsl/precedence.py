@@ -22,7 +22,7 @@ _new_span = tuple.__new__  # Span itself takes twice as long to make one
 # How an operator binds, its word, and whether it is a prefix.
 Operator = tuple[int, Word, bool]
 # A tree, and where it begins and ends with the parentheses around it; the rest is not asked for.
-Operand = tuple[ExpressionTree, int, int, Any, Any]
+Operand = tuple[ExpressionTree, int, int, Any]
 O = TypeVar("O", bound=Operand)  # noqa: E741
 # An operator, the prefixes of the operand behind it, and that operand.
 Operation = tuple[Operator, Sequence[Operator], O]
@@ -45,8 +45,8 @@ def join(
     A fault is the first operator that cannot stand where it does; the tree is none then.
     """
     if len(operations) == 1 and not prefixes and not operations[0][1]:
-        (_, word, _), _, (right, _, end, _, _) = operations[0]
-        tree, start, _, _, _ = first
+        (_, word, _), _, (right, _, end, _) = operations[0]
+        tree, start, _, _ = first
         return _operation(first[0].span, start, end, word, (tree, right)), start, end, None
     joining = _Joining()
     joining.add(prefixes, first)

@@ -9,6 +9,7 @@ from swarmdsl.expression_parser import ExpressionParser, TooDeepError
 from swarmdsl.expressions import Language, unquoted
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
+from swarmdsl.tokens import Cutter
 
 GRAMMAR = 2103831784
 new_node = object.__new__
@@ -16,92 +17,75 @@ new_span = tuple.__new__
 new_word = str.__new__
 
 BLANK = '[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*'
-TOKEN = re.compile('([A-Za-z_][A-Za-z0-9_]*\\b|[!-/:-@\\[-^`{-~]|)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)').match
+BLANKS = re.compile(BLANK).match
+TOKENS = Cutter('\t\n\r ', re.compile('[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)(?:[^\\x00-@\\[-^`{-\\x7f][^\\x00-/:-@\\[-^`{-\\x7f]*|[0-9]+(?:\\.[0-9]+)?[^\\x00-/:-@\\[-^`{-\\x7f]*|"(?:[^"\\\\\\n]|\\\\[^\\n])*"|/\\*(?s:.*)|(?s:.)|\\Z)').findall, BLANKS)
 
 def REGEX0(text, at):
     global REGEX0
-    REGEX0 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+    REGEX0 = re.compile('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*', re.MULTILINE).match
     return REGEX0(text, at)
 
 
 def REGEX1(text, at):
     global REGEX1
-    REGEX1 = re.compile('("(?:[^"\\\\\\n]|\\\\[^\\n])*")' + BLANK, re.MULTILINE).match
+    REGEX1 = re.compile('"(?:[^"\\\\\\n]|\\\\[^\\n])*"', re.MULTILINE).match
     return REGEX1(text, at)
 
 
 def REGEX2(text, at):
     global REGEX2
-    REGEX2 = re.compile('((?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?)' + BLANK, re.MULTILINE).match
+    REGEX2 = re.compile('(?:\\.[A-Za-z_][A-Za-z0-9_]*\\b)*(?:\\.\\*)?', re.MULTILINE).match
     return REGEX2(text, at)
 
 
 def REGEX3(text, at):
     global REGEX3
-    REGEX3 = re.compile('((?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?)' + BLANK, re.MULTILINE).match
+    REGEX3 = re.compile('(?:\\/[A-Za-z_][A-Za-z0-9_]*\\b)?', re.MULTILINE).match
     return REGEX3(text, at)
 
 
 def REGEX4(text, at):
     global REGEX4
-    REGEX4 = re.compile('((?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*)' + BLANK, re.MULTILINE).match
+    REGEX4 = re.compile('(?:[.\\/][A-Za-z_][A-Za-z0-9_]*\\b)*', re.MULTILINE).match
     return REGEX4(text, at)
 
 
 def REGEX5(text, at):
     global REGEX5
-    REGEX5 = re.compile('(<=?\\s*-?\\d+\\b)' + BLANK, re.MULTILINE).match
+    REGEX5 = re.compile('<=?\\s*-?\\d+\\b', re.MULTILINE).match
     return REGEX5(text, at)
 
 
 def REGEX6(text, at):
     global REGEX6
-    REGEX6 = re.compile('((?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+)' + BLANK, re.MULTILINE).match
+    REGEX6 = re.compile('(?:\\[\\s*(?:<=?\\s*)?(?:-?\\d[\\d.]*|\\*)?\\s*\\])+', re.MULTILINE).match
     return REGEX6(text, at)
 
 
 def REGEX7(text, at):
     global REGEX7
-    REGEX7 = re.compile('(-?\\d+\\b(?!\\.\\d))' + BLANK, re.MULTILINE).match
+    REGEX7 = re.compile('-?\\d+\\b(?!\\.\\d)', re.MULTILINE).match
     return REGEX7(text, at)
 
 
 def REGEX8(text, at):
     global REGEX8
-    REGEX8 = re.compile('(\\.\\.)' + BLANK, re.MULTILINE).match
+    REGEX8 = re.compile('\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b', re.MULTILINE).match
     return REGEX8(text, at)
 
 
 def REGEX9(text, at):
     global REGEX9
-    REGEX9 = re.compile('(\\->)' + BLANK, re.MULTILINE).match
+    REGEX9 = re.compile('\\d+\\b|\\*', re.MULTILINE).match
     return REGEX9(text, at)
-
-
-def REGEX10(text, at):
-    global REGEX10
-    REGEX10 = re.compile('(\\d+(?:\\.\\d+)?[ \\t]*(?:km|cm|mm|m)\\b)' + BLANK, re.MULTILINE).match
-    return REGEX10(text, at)
-
-
-def REGEX11(text, at):
-    global REGEX11
-    REGEX11 = re.compile('(\\d+\\b|\\*)' + BLANK, re.MULTILINE).match
-    return REGEX11(text, at)
-
-
-def REGEX12(text, at):
-    global REGEX12
-    REGEX12 = re.compile('(=>)' + BLANK, re.MULTILINE).match
-    return REGEX12(text, at)
 
 SET0 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'optimize', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
 SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
-SET2 = frozenset(['', '!', '"', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~'])
-SET3 = frozenset(['', '!', '"', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', '{', '|', '}', '~'])
+SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
+SET3 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', '{', '|', '}', '~', '\x7f'])
 SET4 = frozenset(['abstraction', 'swarm'])
 SET5 = frozenset(['actuator', 'controller', 'sensor', 'virtual'])
-SET6 = frozenset(['', '.', '/'])
+SET6 = frozenset(['.', '/'])
 SET7 = frozenset(['evaluations', 'seed', 'steps'])
 SET8 = frozenset(['action', 'service'])
 SET9 = frozenset(['in', 'out'])
@@ -1278,64 +1262,64 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     `limit`.
     """
     text = source.text
-    depth = 0
-    ahead = behind = TOKEN(text, re.match(BLANK, text).end())
-    token = ahead[1]
-    expressions = ExpressionParser(LANGUAGE, source, limit)
+    depth = at = 0
+    tokens, ends = TOKENS.cut(text)
+    token = tokens[0]
+    expressions = ExpressionParser(LANGUAGE, source, (tokens, ends), limit)
     expression = expressions.expression
     operand = expressions.operand
     delay = expressions.delay
 
     def r_Model():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         package_ = None
         imports_ = []
         declarations_ = []
         optimizations_ = []
         if token == 'package':
-            ahead1, behind2 = ahead, behind
+            before1 = at
             while True:
                 value = r_Package()
-                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                if value is None: at = before1; token = tokens[at]; break
                 package_ = value
                 break
         while True:
-            ahead3, behind4 = ahead, behind
+            before2 = at
             rule = Import_RULES.get(token)
-            if rule is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            if value is None: at = before2; token = tokens[at]; break
             imports_.append(value)
         while token in SET0:
-            ahead5, behind6 = ahead, behind
-            before7 = len(declarations_)
-            before8 = len(optimizations_)
+            before3 = at
+            before4 = len(declarations_)
+            before5 = len(optimizations_)
             if token in SET1:
                 rule = Declaration_RULES.get(token)
-                if rule is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                if rule is None: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 value = rule()
-                if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                if value is None: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 declarations_.append(value)
                 while True:
-                    ahead9, behind10 = ahead, behind
+                    before6 = at
                     rule = Declaration_RULES.get(token)
-                    if rule is None: ahead = ahead9; token = ahead[1]; behind = behind10; break
+                    if rule is None: at = before6; token = tokens[at]; break
                     value = rule()
-                    if value is None: ahead = ahead9; token = ahead[1]; behind = behind10; break
+                    if value is None: at = before6; token = tokens[at]; break
                     declarations_.append(value)
             elif token == 'optimize':
                 value = r_Optimization()
-                if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+                if value is None: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 optimizations_.append(value)
                 while token == 'optimize':
-                    ahead11, behind12 = ahead, behind
+                    before7 = at
                     value = r_Optimization()
-                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    if value is None: at = before7; token = tokens[at]; break
                     optimizations_.append(value)
-            else: ahead = ahead5; token = ahead[1]; behind = behind6; del declarations_[before7:]; del optimizations_[before8:]; break
+            else: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
         made = new_node(Model)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.package = package_
         made.imports = imports_
         made.declarations = declarations_
@@ -1343,64 +1327,70 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Package():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         name_ = None
         if not (token == 'package'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_word(Word, text1)
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        value.span = new_span(Span, (source, first, ends[at]))
         name_ = value
         made = new_node(Package)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Optimization():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 8
         swarm_ = None
         items_ = []
         if not (token == 'optimize'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Swarm'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         swarm_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead3, behind4 = ahead, behind
+            before4 = at
             rule = OptimizationItem_RULES.get(token, r_ParamRange)
-            if rule is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            if rule is None: at = before4; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+            if value is None: at = before4; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Optimization)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.swarm = swarm_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
@@ -1408,92 +1398,98 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_ImportRos():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         path_ = None
         if not (token == 'import'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token == 'ros'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        match1 = REGEX1(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match1[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         path_ = value
         made = new_node(ImportRos)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.path = path_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ImportFile():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         path_ = None
         if not (token == 'import'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        match1 = REGEX1(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match1[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         path_ = value
         made = new_node(ImportFile)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.path = path_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ImportLibrary():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         name_ = None
         if not (token == 'import'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX2(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX2(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         name_ = text1
         made = new_node(ImportLibrary)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_StructType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         name_ = None
         fields_ = []
         if not (token == 'struct'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        while token not in SET3:
-            ahead1, behind2 = ahead, behind
+        at += 1; token = tokens[at]
+        while token >= 'A' and token not in SET3:
+            before2 = at
             value = r_Field()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             fields_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(StructType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.fields = fields_
         made.doc = docs.pop(start) if start in docs else ''
@@ -1501,39 +1497,38 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_EnumType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 4
         name_ = None
         underlying_ = None
         values_ = []
         if not (token == 'enum'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if token == ':':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = underlying_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 value = r_TypeRef()
-                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; underlying_ = before3; break
+                if value is None: at = before2; token = tokens[at]; underlying_ = before3; break
                 underlying_ = value
                 break
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        while token not in SET2:
-            ahead4, behind5 = ahead, behind
+        at += 1; token = tokens[at]
+        while token >= 'A' and token not in SET2:
+            before4 = at
             value = r_EnumValue()
-            if value is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+            if value is None: at = before4; token = tokens[at]; break
             values_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(EnumType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.underlying = underlying_
         made.values = values_
@@ -1543,25 +1538,24 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_AliasType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 4
         name_ = None
         type_ = None
         if not (token == 'type'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '='): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(AliasType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.doc = docs.pop(start) if start in docs else ''
@@ -1569,32 +1563,31 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Constant():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         name_ = None
         type_ = None
         value_ = None
         if not (token == 'const'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         if not (token == '='): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(Constant)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.value = value_
@@ -1603,63 +1596,66 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_MessageType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         name_ = None
         constants_ = []
         fields_ = []
         if not (token == 'message'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '/':
-            match2 = REGEX3(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX3(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_word(Word, text1)
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        value.span = new_span(Span, (source, first, ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        while token not in SET3:
-            ahead3, behind4 = ahead, behind
+        at += 1; token = tokens[at]
+        while token >= 'A' and token not in SET3:
+            before4 = at
             before5 = len(constants_)
             before6 = len(fields_)
             chosen7 = False
             if not chosen7 and token == 'const':
-                ahead8, behind9 = ahead, behind
+                before8 = at
                 while True:
                     value = r_Constant()
-                    if value is None: ahead = ahead8; token = ahead[1]; behind = behind9; break
+                    if value is None: at = before8; token = tokens[at]; break
                     constants_.append(value)
                     while token == 'const':
-                        ahead10, behind11 = ahead, behind
+                        before9 = at
                         value = r_Constant()
-                        if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                        if value is None: at = before9; token = tokens[at]; break
                         constants_.append(value)
                     chosen7 = True
                     break
-            if not chosen7 and token not in SET3:
-                ahead12, behind13 = ahead, behind
+            if not chosen7 and token >= 'A' and token not in SET3:
+                before10 = at
                 while True:
                     value = r_Field()
-                    if value is None: ahead = ahead12; token = ahead[1]; behind = behind13; break
+                    if value is None: at = before10; token = tokens[at]; break
                     fields_.append(value)
-                    while token not in SET3:
-                        ahead14, behind15 = ahead, behind
+                    while token >= 'A' and token not in SET3:
+                        before11 = at
                         value = r_Field()
-                        if value is None: ahead = ahead14; token = ahead[1]; behind = behind15; break
+                        if value is None: at = before11; token = tokens[at]; break
                         fields_.append(value)
                     chosen7 = True
                     break
-            if not chosen7: ahead = ahead3; token = ahead[1]; behind = behind4; del constants_[before5:]; del fields_[before6:]; break
+            if not chosen7: at = before4; token = tokens[at]; del constants_[before5:]; del fields_[before6:]; break
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(MessageType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.constants = constants_
         made.fields = fields_
@@ -1668,61 +1664,64 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_ServiceType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         name_ = None
         request_ = []
         response_ = []
         if not (token == 'service'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '/':
-            match2 = REGEX3(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX3(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_word(Word, text1)
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        value.span = new_span(Span, (source, first, ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if token == 'request':
-            ahead3, behind4 = ahead, behind
+            before4 = at
             before5 = len(request_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if not (token == '{'): ahead = ahead3; token = ahead[1]; behind = behind4; del request_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead6, behind7 = ahead, behind
+                at += 1; token = tokens[at]
+                if not (token == '{'): at = before4; token = tokens[at]; del request_[before5:]; break
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before6 = at
                     value = r_Field()
-                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    if value is None: at = before6; token = tokens[at]; break
                     request_.append(value)
-                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del request_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before4; token = tokens[at]; del request_[before5:]; break
+                at += 1; token = tokens[at]
                 break
         if token == 'response':
-            ahead8, behind9 = ahead, behind
-            before10 = len(response_)
+            before7 = at
+            before8 = len(response_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if not (token == '{'): ahead = ahead8; token = ahead[1]; behind = behind9; del response_[before10:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead11, behind12 = ahead, behind
+                at += 1; token = tokens[at]
+                if not (token == '{'): at = before7; token = tokens[at]; del response_[before8:]; break
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before9 = at
                     value = r_Field()
-                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    if value is None: at = before9; token = tokens[at]; break
                     response_.append(value)
-                if not (token == '}'): ahead = ahead8; token = ahead[1]; behind = behind9; del response_[before10:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before7; token = tokens[at]; del response_[before8:]; break
+                at += 1; token = tokens[at]
                 break
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(ServiceType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.request = request_
         made.response = response_
@@ -1731,77 +1730,80 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_ActionType():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         name_ = None
         goal_ = []
         result_ = []
         feedback_ = []
         if not (token == 'action'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '/':
-            match2 = REGEX3(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX3(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_word(Word, text1)
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        value.span = new_span(Span, (source, first, ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if token == 'goal':
-            ahead3, behind4 = ahead, behind
+            before4 = at
             before5 = len(goal_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if not (token == '{'): ahead = ahead3; token = ahead[1]; behind = behind4; del goal_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead6, behind7 = ahead, behind
+                at += 1; token = tokens[at]
+                if not (token == '{'): at = before4; token = tokens[at]; del goal_[before5:]; break
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before6 = at
                     value = r_Field()
-                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    if value is None: at = before6; token = tokens[at]; break
                     goal_.append(value)
-                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del goal_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before4; token = tokens[at]; del goal_[before5:]; break
+                at += 1; token = tokens[at]
                 break
         if token == 'result':
-            ahead8, behind9 = ahead, behind
-            before10 = len(result_)
+            before7 = at
+            before8 = len(result_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if not (token == '{'): ahead = ahead8; token = ahead[1]; behind = behind9; del result_[before10:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead11, behind12 = ahead, behind
+                at += 1; token = tokens[at]
+                if not (token == '{'): at = before7; token = tokens[at]; del result_[before8:]; break
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before9 = at
                     value = r_Field()
-                    if value is None: ahead = ahead11; token = ahead[1]; behind = behind12; break
+                    if value is None: at = before9; token = tokens[at]; break
                     result_.append(value)
-                if not (token == '}'): ahead = ahead8; token = ahead[1]; behind = behind9; del result_[before10:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before7; token = tokens[at]; del result_[before8:]; break
+                at += 1; token = tokens[at]
                 break
         if token == 'feedback':
-            ahead13, behind14 = ahead, behind
-            before15 = len(feedback_)
+            before10 = at
+            before11 = len(feedback_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if not (token == '{'): ahead = ahead13; token = ahead[1]; behind = behind14; del feedback_[before15:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead16, behind17 = ahead, behind
+                at += 1; token = tokens[at]
+                if not (token == '{'): at = before10; token = tokens[at]; del feedback_[before11:]; break
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before12 = at
                     value = r_Field()
-                    if value is None: ahead = ahead16; token = ahead[1]; behind = behind17; break
+                    if value is None: at = before12; token = tokens[at]; break
                     feedback_.append(value)
-                if not (token == '}'): ahead = ahead13; token = ahead[1]; behind = behind14; del feedback_[before15:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before10; token = tokens[at]; del feedback_[before11:]; break
+                at += 1; token = tokens[at]
                 break
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(ActionType)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.goal = goal_
         made.result = result_
@@ -1811,44 +1813,45 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Event():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         swarm_ = False
         name_ = None
         type_ = None
         topic_ = None
         if token == 'swarm':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             swarm_ = True
         if not (token == 'event'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         if token == 'on':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = topic_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                match4 = REGEX1(text, ahead.start())
-                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; topic_ = before3; break
-                behind = match4
-                ahead = TOKEN(text, match4.end()); token = ahead[1]
-                value = new_word(Word, unquoted(match4[1]))
-                value.span = new_span(Span, (source, at, behind.end(1)))
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                match4 = REGEX1(text, ends[at + 1] - len(token))
+                if match4 is None: at = before2; token = tokens[at]; topic_ = before3; break
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; topic_ = before3; break
+                token = tokens[at]
+                value = new_word(Word, unquoted(match4[0]))
+                value.span = new_span(Span, (source, first, ends[at]))
                 topic_ = value
                 break
         made = new_node(Event)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.swarm = swarm_
         made.name = name_
         made.type = type_
@@ -1858,37 +1861,36 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Function():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 8
         name_ = None
         category_ = None
         items_ = []
         if not (token == 'function'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token in SET4): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        category_ = behind[1]
+        taken2 = token; at += 1; token = tokens[at]
+        category_ = taken2
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before3 = at
             rule = FunctionItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before3; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before3; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Function)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.category = category_
         made.items = items_
@@ -1897,55 +1899,57 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Component():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         kind_ = None
         name_ = None
         base_ = None
         items_ = []
         if not (token in SET5): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        kind_ = behind[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        taken1 = token; at += 1; token = tokens[at]
+        kind_ = taken1
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken2)
+        value.span = new_span(Span, (source, ends[at] - len(taken2), ends[at]))
         name_ = value
         if token == 'extends':
-            ahead1, behind2 = ahead, behind
-            before3 = base_
+            before3 = at
+            before4 = base_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; base_ = before3; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                text4 = behind[1]
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before3; token = tokens[at]; base_ = before4; break
+                taken6 = token; at += 1; token = tokens[at]
+                text5 = taken6
                 if token == '.':
-                    match5 = REGEX0(text, ahead.start())
-                    if match5[1]:
-                        text4 += match5[1]; behind = match5
-                        ahead = TOKEN(text, match5.end()); token = ahead[1]
+                    match7 = REGEX0(text, ends[at + 1] - len(token))
+                    if match7[0]:
+                        text5 += match7[0]
+                        end = match7.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before3; token = tokens[at]; base_ = before4; break
+                        token = tokens[at]
                 value = new_node(Ref)
-                value.name = text4
+                value.name = text5
                 value.kind = 'Component'
-                value.span = new_span(Span, (source, at, at + len(text4)))
+                value.span = new_span(Span, (source, first, first + len(text5)))
                 value.target = None
                 base_ = value
                 break
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead6, behind7 = ahead, behind
+            before8 = at
             rule = ComponentItem_RULES.get(token)
-            if rule is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            if rule is None: at = before8; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            if value is None: at = before8; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Component)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.kind = kind_
         made.name = name_
         made.base = base_
@@ -1955,53 +1959,55 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Member():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         name_ = None
         base_ = None
         items_ = []
         if not (token == 'member'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if token == 'extends':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = base_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; base_ = before3; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                text4 = behind[1]
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; base_ = before3; break
+                taken5 = token; at += 1; token = tokens[at]
+                text4 = taken5
                 if token == '.':
-                    match5 = REGEX0(text, ahead.start())
-                    if match5[1]:
-                        text4 += match5[1]; behind = match5
-                        ahead = TOKEN(text, match5.end()); token = ahead[1]
+                    match6 = REGEX0(text, ends[at + 1] - len(token))
+                    if match6[0]:
+                        text4 += match6[0]
+                        end = match6.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before2; token = tokens[at]; base_ = before3; break
+                        token = tokens[at]
                 value = new_node(Ref)
                 value.name = text4
                 value.kind = 'Member'
-                value.span = new_span(Span, (source, at, at + len(text4)))
+                value.span = new_span(Span, (source, first, first + len(text4)))
                 value.target = None
                 base_ = value
                 break
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead6, behind7 = ahead, behind
+            before7 = at
             rule = MemberItem_RULES.get(token, r_Part)
-            if rule is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            if rule is None: at = before7; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+            if value is None: at = before7; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Member)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.base = base_
         made.items = items_
@@ -2010,35 +2016,34 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_StateMachine():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         endless_ = False
         name_ = None
         items_ = []
         if token == 'endless':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             endless_ = True
         if not (token == 'statemachine'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = MachineItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(StateMachine)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.endless = endless_
         made.name = name_
         made.items = items_
@@ -2047,31 +2052,30 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Swarm():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         name_ = None
         items_ = []
         if not (token == 'swarm'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = SwarmItem_RULES.get(token, r_Role)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Swarm)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
@@ -2079,31 +2083,30 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Environment():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 11
         name_ = None
         items_ = []
         if not (token == 'environment'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = EnvironmentItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Environment)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
@@ -2111,31 +2114,30 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Fitness():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         name_ = None
         items_ = []
         if not (token == 'fitness'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = FitnessItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Fitness)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
@@ -2143,63 +2145,69 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Field():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         type_ = None
-        at = ahead.start()
-        if not (token not in SET3): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET3): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(Field)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_TypeRef():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         bound_ = None
         array_ = None
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token in SET6:
-            match2 = REGEX4(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX4(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         name_ = text1
         if token == '<':
-            ahead3, behind4 = ahead, behind
+            before4 = at
             while True:
-                match5 = REGEX5(text, ahead.start())
-                if match5 is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
-                behind = match5
-                ahead = TOKEN(text, match5.end()); token = ahead[1]
-                bound_ = match5[1]
+                match5 = REGEX5(text, ends[at + 1] - len(token))
+                if match5 is None: at = before4; token = tokens[at]; break
+                end = match5.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before4; token = tokens[at]; break
+                token = tokens[at]
+                bound_ = match5[0]
                 break
         if token == '[':
-            ahead6, behind7 = ahead, behind
+            before6 = at
             while True:
-                match8 = REGEX6(text, ahead.start())
-                if match8 is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
-                behind = match8
-                ahead = TOKEN(text, match8.end()); token = ahead[1]
-                array_ = match8[1]
+                match7 = REGEX6(text, ends[at + 1] - len(token))
+                if match7 is None: at = before6; token = tokens[at]; break
+                end = match7.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before6; token = tokens[at]; break
+                token = tokens[at]
+                array_ = match7[0]
                 break
         made = new_node(TypeRef)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.bound = bound_
         made.array = array_
@@ -2207,88 +2215,86 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_EnumValue():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         value_ = None
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if token == '=':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = value_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                match4 = REGEX7(text, ahead.start())
-                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; value_ = before3; break
-                behind = match4
-                ahead = TOKEN(text, match4.end()); token = ahead[1]
-                value_ = match4[1]
+                at += 1; token = tokens[at]
+                match4 = REGEX7(text, ends[at + 1] - len(token))
+                if match4 is None: at = before2; token = tokens[at]; value_ = before3; break
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; value_ = before3; break
+                token = tokens[at]
+                value_ = match4[0]
                 break
         made = new_node(EnumValue)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.value = value_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Setting():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         value_ = None
         if not (token in SET7): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        name_ = behind[1]
-        found = expression(ahead)
+        taken1 = token; at += 1; token = tokens[at]
+        name_ = taken1
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(Setting)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.value = value_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_CountRange():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         role_ = None
         lower_ = None
         upper_ = None
         if not (token == 'count'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token == 'of'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
         value = new_node(Ref)
-        value.name = behind[1]
+        value.name = taken1
         value.kind = 'Role'
-        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         value.target = None
         role_ = value
         if not (token == 'in'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         lower_ = value
-        match1 = REGEX8(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        found = expression(ahead)
+        if not (token == '.' and tokens[at + 1] == '.' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         upper_ = value
         made = new_node(CountRange)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.role = role_
         made.lower = lower_
         made.upper = upper_
@@ -2296,59 +2302,55 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_ParamRange():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         role_ = None
         param_ = None
         lower_ = None
         upper_ = None
         step_ = None
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
         value = new_node(Ref)
-        value.name = behind[1]
+        value.name = taken1
         value.kind = 'Role'
-        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         value.target = None
         role_ = value
         if not (token == '.'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
         value = new_node(Ref)
-        value.name = behind[1]
+        value.name = taken2
         value.kind = 'Param'
-        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.span = new_span(Span, (source, ends[at] - len(taken2), ends[at]))
         value.target = None
         param_ = value
         if not (token == 'in'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         lower_ = value
-        match1 = REGEX8(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        found = expression(ahead)
+        if not (token == '.' and tokens[at + 1] == '.' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         upper_ = value
         if token == 'step':
-            ahead2, behind3 = ahead, behind
+            before3 = at
             before4 = step_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                found = expression(ahead)
-                if found is None: ahead = ahead2; token = ahead[1]; behind = behind3; step_ = before4; break
-                value, behind, ahead = found; token = ahead[1]
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before3; token = tokens[at]; step_ = before4; break
+                value, at = found; token = tokens[at]
                 step_ = value
                 break
         made = new_node(ParamRange)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.role = role_
         made.param = param_
         made.lower = lower_
@@ -2358,29 +2360,31 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Communication():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         paradigm_ = None
         name_ = None
         type_ = None
         if not (token in SET8): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        paradigm_ = behind[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        taken1 = token; at += 1; token = tokens[at]
+        paradigm_ = taken1
+        first = ends[at + 1] - len(token)
+        match2 = REGEX1(text, ends[at + 1] - len(token))
+        if match2 is None: return None
+        end = match2.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match2[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(Communication)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.paradigm = paradigm_
         made.name = name_
         made.type = type_
@@ -2388,29 +2392,31 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_FunctionPort():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         direction_ = None
         topic_ = None
         type_ = None
         if not (token in SET9): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        direction_ = behind[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        taken1 = token; at += 1; token = tokens[at]
+        direction_ = taken1
+        first = ends[at + 1] - len(token)
+        match2 = REGEX1(text, ends[at + 1] - len(token))
+        if match2 is None: return None
+        end = match2.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match2[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         topic_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(FunctionPort)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.direction = direction_
         made.topic = topic_
         made.type = type_
@@ -2418,36 +2424,35 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Param():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         name_ = None
         type_ = None
         default_ = None
         if not (token == 'param'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         if token == '=':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = default_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                found = expression(ahead)
-                if found is None: ahead = ahead1; token = ahead[1]; behind = behind2; default_ = before3; break
-                value, behind, ahead = found; token = ahead[1]
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before2; token = tokens[at]; default_ = before3; break
+                value, at = found; token = tokens[at]
                 default_ = value
                 break
         made = new_node(Param)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.default = default_
@@ -2455,42 +2460,43 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Port():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         direction_ = None
         name_ = None
         type_ = None
         topic_ = None
         if not (token in SET10): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        direction_ = behind[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        taken1 = token; at += 1; token = tokens[at]
+        direction_ = taken1
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken2)
+        value.span = new_span(Span, (source, ends[at] - len(taken2), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         if token == 'on':
-            ahead1, behind2 = ahead, behind
-            before3 = topic_
+            before3 = at
+            before4 = topic_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                match4 = REGEX1(text, ahead.start())
-                if match4 is None: ahead = ahead1; token = ahead[1]; behind = behind2; topic_ = before3; break
-                behind = match4
-                ahead = TOKEN(text, match4.end()); token = ahead[1]
-                value = new_word(Word, unquoted(match4[1]))
-                value.span = new_span(Span, (source, at, behind.end(1)))
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                match5 = REGEX1(text, ends[at + 1] - len(token))
+                if match5 is None: at = before3; token = tokens[at]; topic_ = before4; break
+                end = match5.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before3; token = tokens[at]; topic_ = before4; break
+                token = tokens[at]
+                value = new_word(Word, unquoted(match5[0]))
+                value.span = new_span(Span, (source, first, ends[at]))
                 topic_ = value
                 break
         made = new_node(Port)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.direction = direction_
         made.name = name_
         made.type = type_
@@ -2499,166 +2505,167 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Operation():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 9
         name_ = None
         parameters_ = []
         if not (token == 'operation'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '('): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        if token not in SET3:
-            ahead1, behind2 = ahead, behind
+        at += 1; token = tokens[at]
+        if token >= 'A' and token not in SET3:
+            before2 = at
             while True:
                 value = r_Parameter()
-                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                if value is None: at = before2; token = tokens[at]; break
                 parameters_.append(value)
                 while token == ',':
-                    ahead3, behind4 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before3 = at
+                    at += 1; token = tokens[at]
                     value = r_Parameter()
-                    if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+                    if value is None: at = before3; token = tokens[at]; break
                     parameters_.append(value)
                 break
         if not (token == ')'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Operation)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.parameters = parameters_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_BehaviorUse():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 8
         machine_ = None
         if not (token == 'behavior'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'StateMachine'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         machine_ = value
         made = new_node(BehaviorUse)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.machine = machine_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_CommunicationSettings():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 13
         technology_ = None
         values_ = []
         if not (token == 'communication'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         technology_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        while token not in SET3:
-            ahead1, behind2 = ahead, behind
+        at += 1; token = tokens[at]
+        while token >= 'A' and token not in SET3:
+            before2 = at
             value = r_PartValue()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             values_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(CommunicationSettings)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.technology = technology_
         made.values = values_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Connector():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         source_ = None
         target_ = None
         if not (token == 'connect'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_PortRef()
         if value is None: return None
         source_ = value
-        match1 = REGEX9(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
+        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
         value = r_PortRef()
         if value is None: return None
         target_ = value
         made = new_node(Connector)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.source = source_
         made.target = target_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Part():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         component_ = None
         values_ = []
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken3 = token; at += 1; token = tokens[at]
+        text2 = taken3
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match4 = REGEX0(text, ends[at + 1] - len(token))
+            if match4[0]:
+                text2 += match4[0]
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
-        value.name = text1
+        value.name = text2
         value.kind = 'Component'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text2)))
         value.target = None
         component_ = value
         if token == '{':
-            ahead3, behind4 = ahead, behind
-            before5 = len(values_)
+            before5 = at
+            before6 = len(values_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                while token not in SET3:
-                    ahead6, behind7 = ahead, behind
+                at += 1; token = tokens[at]
+                while token >= 'A' and token not in SET3:
+                    before7 = at
                     value = r_PartValue()
-                    if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                    if value is None: at = before7; token = tokens[at]; break
                     values_.append(value)
-                if not (token == '}'): ahead = ahead3; token = ahead[1]; behind = behind4; del values_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before5; token = tokens[at]; del values_[before6:]; break
+                at += 1; token = tokens[at]
                 break
         made = new_node(Part)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.component = component_
         made.values = values_
@@ -2666,36 +2673,35 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Variable():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 3
         name_ = None
         type_ = None
         initial_ = None
         if not (token == 'var'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         if token == '=':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = initial_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                found = expression(ahead)
-                if found is None: ahead = ahead1; token = ahead[1]; behind = behind2; initial_ = before3; break
-                value, behind, ahead = found; token = ahead[1]
+                at += 1; token = tokens[at]
+                found = expression(at)
+                if found is None: at = before2; token = tokens[at]; initial_ = before3; break
+                value, at = found; token = tokens[at]
                 initial_ = value
                 break
         made = new_node(Variable)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.initial = initial_
@@ -2703,128 +2709,139 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Initial():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         target_ = None
         if not (token == 'initial'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Vertex'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         target_ = value
         made = new_node(Initial)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.target = target_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_EnvironmentUse():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 11
         environment_ = None
         if not (token == 'environment'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Environment'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         environment_ = value
         made = new_node(EnvironmentUse)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.environment = environment_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_FitnessUse():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         fitness_ = None
         if not (token == 'fitness'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Fitness'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         fitness_ = value
         made = new_node(FitnessUse)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.fitness = fitness_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Role():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         member_ = None
         multiplicity_ = None
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken3 = token; at += 1; token = tokens[at]
+        text2 = taken3
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match4 = REGEX0(text, ends[at + 1] - len(token))
+            if match4[0]:
+                text2 += match4[0]
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
-        value.name = text1
+        value.name = text2
         value.kind = 'Member'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text2)))
         value.target = None
         member_ = value
         if token == '[':
-            ahead3, behind4 = ahead, behind
-            before5 = multiplicity_
+            before5 = at
+            before6 = multiplicity_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 value = r_Multiplicity()
-                if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; multiplicity_ = before5; break
+                if value is None: at = before5; token = tokens[at]; multiplicity_ = before6; break
                 multiplicity_ = value
-                if not (token == ']'): ahead = ahead3; token = ahead[1]; behind = behind4; multiplicity_ = before5; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == ']'): at = before5; token = tokens[at]; multiplicity_ = before6; break
+                at += 1; token = tokens[at]
                 break
         made = new_node(Role)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.member = member_
         made.multiplicity = multiplicity_
@@ -2832,58 +2849,66 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_World():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         file_ = None
         if not (token == 'world'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        match1 = REGEX1(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match1[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         file_ = value
         made = new_node(World)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.file = file_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Size():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 4
         width_ = None
         depth_ = None
         height_ = None
         if not (token == 'size'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        match1 = REGEX10(text, ahead.start())
+        at += 1; token = tokens[at]
+        match1 = REGEX8(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        width_ = match1[1]
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        width_ = match1[0]
         if not (token == 'x'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        match2 = REGEX10(text, ahead.start())
+        at += 1; token = tokens[at]
+        match2 = REGEX8(text, ends[at + 1] - len(token))
         if match2 is None: return None
-        behind = match2
-        ahead = TOKEN(text, match2.end()); token = ahead[1]
-        depth_ = match2[1]
+        end = match2.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        depth_ = match2[0]
         if token == 'x':
-            ahead3, behind4 = ahead, behind
-            before5 = height_
+            before3 = at
+            before4 = height_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                match6 = REGEX10(text, ahead.start())
-                if match6 is None: ahead = ahead3; token = ahead[1]; behind = behind4; height_ = before5; break
-                behind = match6
-                ahead = TOKEN(text, match6.end()); token = ahead[1]
-                height_ = match6[1]
+                at += 1; token = tokens[at]
+                match5 = REGEX8(text, ends[at + 1] - len(token))
+                if match5 is None: at = before3; token = tokens[at]; height_ = before4; break
+                end = match5.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before3; token = tokens[at]; height_ = before4; break
+                token = tokens[at]
+                height_ = match5[0]
                 break
         made = new_node(Size)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.width = width_
         made.depth = depth_
         made.height = height_
@@ -2891,89 +2916,86 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_FitnessInput():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 2
         name_ = None
         type_ = None
         if not (token == 'in'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(FitnessInput)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.type = type_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Objective():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 8
         goal_ = None
         value_ = None
         if not (token in SET11): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        goal_ = behind[1]
-        found = expression(ahead)
+        taken1 = token; at += 1; token = tokens[at]
+        goal_ = taken1
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(Objective)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.goal = goal_
         made.value = value_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Parameter():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         direction_ = None
         name_ = None
         type_ = None
         chosen1 = False
         if not chosen1 and token in SET9:
-            ahead2, behind3 = ahead, behind
-            before4 = direction_
-            before5 = name_
+            before2 = at
+            before3 = direction_
+            before4 = name_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                direction_ = behind[1]
-                at = ahead.start()
-                if not (token not in SET3): ahead = ahead2; token = ahead[1]; behind = behind3; direction_ = before4; name_ = before5; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                value = new_word(Word, behind[1])
-                value.span = new_span(Span, (source, at, behind.end(1)))
+                taken5 = token; at += 1; token = tokens[at]
+                direction_ = taken5
+                if not (token >= 'A' and token not in SET3): at = before2; token = tokens[at]; direction_ = before3; name_ = before4; break
+                taken6 = token; at += 1; token = tokens[at]
+                value = new_word(Word, taken6)
+                value.span = new_span(Span, (source, ends[at] - len(taken6), ends[at]))
                 name_ = value
                 chosen1 = True
                 break
-        if not chosen1 and token not in SET3:
-            ahead6, behind7 = ahead, behind
+        if not chosen1 and token >= 'A' and token not in SET3:
+            before7 = at
             while True:
-                at = ahead.start()
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                value = new_word(Word, behind[1])
-                value.span = new_span(Span, (source, at, behind.end(1)))
+                taken8 = token; at += 1; token = tokens[at]
+                value = new_word(Word, taken8)
+                value.span = new_span(Span, (source, ends[at] - len(taken8), ends[at]))
                 name_ = value
                 chosen1 = True
                 break
         if not chosen1: return None
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(Parameter)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.direction = direction_
         made.name = name_
         made.type = type_
@@ -2981,142 +3003,141 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_PartValue():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         value_ = None
-        at = ahead.start()
-        if not (token not in SET3): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET3): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '='): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(PartValue)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.value = value_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_PortRef():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         part_ = None
         port_ = None
-        if token not in SET2:
-            ahead1, behind2 = ahead, behind
-            before3 = part_
+        if token >= 'A' and token not in SET2:
+            before1 = at
+            before2 = part_
             while True:
-                at = ahead.start()
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                taken3 = token; at += 1; token = tokens[at]
                 value = new_node(Ref)
-                value.name = behind[1]
+                value.name = taken3
                 value.kind = 'Part'
-                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.span = new_span(Span, (source, ends[at] - len(taken3), ends[at]))
                 value.target = None
                 part_ = value
-                if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; part_ = before3; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '.'): at = before1; token = tokens[at]; part_ = before2; break
+                at += 1; token = tokens[at]
                 break
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        if not (token >= 'A' and token not in SET2): return None
+        taken4 = token; at += 1; token = tokens[at]
         value = new_node(Ref)
-        value.name = behind[1]
+        value.name = taken4
         value.kind = 'Port'
-        value.span = new_span(Span, (source, at, at + len(behind[1])))
+        value.span = new_span(Span, (source, ends[at] - len(taken4), ends[at]))
         value.target = None
         port_ = value
         made = new_node(PortRef)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.part = part_
         made.port = port_
         return made
 
     def r_State():
-        nonlocal ahead, token, behind, depth
+        nonlocal at, token, depth
         depth += 1
         if depth > limit: raise TooDeepError
-        start = ahead.start()
+        start = ends[at + 1] - 5
         name_ = None
         machine_ = None
         bindings_ = []
         items_ = []
         if not (token == 'state'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): depth -= 1; return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if token == '=':
-            ahead1, behind2 = ahead, behind
+            before2 = at
             before3 = machine_
             before4 = len(bindings_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                if not (token not in SET2): ahead = ahead1; token = ahead[1]; behind = behind2; machine_ = before3; del bindings_[before4:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                text5 = behind[1]
+                at += 1; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): at = before2; token = tokens[at]; machine_ = before3; del bindings_[before4:]; break
+                taken6 = token; at += 1; token = tokens[at]
+                text5 = taken6
                 if token == '.':
-                    match6 = REGEX0(text, ahead.start())
-                    if match6[1]:
-                        text5 += match6[1]; behind = match6
-                        ahead = TOKEN(text, match6.end()); token = ahead[1]
+                    match7 = REGEX0(text, ends[at + 1] - len(token))
+                    if match7[0]:
+                        text5 += match7[0]
+                        end = match7.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: at = before2; token = tokens[at]; machine_ = before3; del bindings_[before4:]; break
+                        token = tokens[at]
                 value = new_node(Ref)
                 value.name = text5
                 value.kind = 'StateMachine'
-                value.span = new_span(Span, (source, at, at + len(text5)))
+                value.span = new_span(Span, (source, first, first + len(text5)))
                 value.target = None
                 machine_ = value
                 if token == '(':
-                    ahead7, behind8 = ahead, behind
+                    before8 = at
                     before9 = len(bindings_)
                     while True:
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                        if token not in SET3:
-                            ahead10, behind11 = ahead, behind
+                        at += 1; token = tokens[at]
+                        if token >= 'A' and token not in SET3:
+                            before10 = at
                             while True:
                                 value = r_Argument()
-                                if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                                if value is None: at = before10; token = tokens[at]; break
                                 bindings_.append(value)
                                 while token == ',':
-                                    ahead12, behind13 = ahead, behind
-                                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                                    before11 = at
+                                    at += 1; token = tokens[at]
                                     value = r_Argument()
-                                    if value is None: ahead = ahead12; token = ahead[1]; behind = behind13; break
+                                    if value is None: at = before11; token = tokens[at]; break
                                     bindings_.append(value)
                                 break
-                        if not (token == ')'): ahead = ahead7; token = ahead[1]; behind = behind8; del bindings_[before9:]; break
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        if not (token == ')'): at = before8; token = tokens[at]; del bindings_[before9:]; break
+                        at += 1; token = tokens[at]
                         break
                 break
         if token == '{':
-            ahead14, behind15 = ahead, behind
-            before16 = len(items_)
+            before12 = at
+            before13 = len(items_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 while True:
-                    ahead17, behind18 = ahead, behind
+                    before14 = at
                     rule = StateItem_RULES.get(token)
-                    if rule is None: ahead = ahead17; token = ahead[1]; behind = behind18; break
+                    if rule is None: at = before14; token = tokens[at]; break
                     value = rule()
-                    if value is None: ahead = ahead17; token = ahead[1]; behind = behind18; break
+                    if value is None: at = before14; token = tokens[at]; break
                     items_.append(value)
-                if not (token == '}'): ahead = ahead14; token = ahead[1]; behind = behind15; del items_[before16:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '}'): at = before12; token = tokens[at]; del items_[before13:]; break
+                at += 1; token = tokens[at]
                 break
         depth -= 1
         made = new_node(State)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.machine = machine_
         made.bindings = bindings_
@@ -3125,108 +3146,106 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Parallel():
-        nonlocal ahead, token, behind, depth
+        nonlocal at, token, depth
         depth += 1
         if depth > limit: raise TooDeepError
-        start = ahead.start()
+        start = ends[at + 1] - 8
         name_ = None
         items_ = []
         if not (token == 'parallel'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token == 'state'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): depth -= 1; return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = ParallelItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         depth -= 1
         made = new_node(Parallel)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Choice():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 6
         name_ = None
         branches_ = []
         if not (token == 'choice'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while token in SET12:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             value = r_Branch()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             branches_.append(value)
         if not (token == '}'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         made = new_node(Choice)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.branches = branches_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_History():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         deep_ = False
         name_ = None
         target_ = None
         if token == 'deep':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             deep_ = True
         if not (token == 'history'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
-        match1 = REGEX9(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text2 = behind[1]
+        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken3 = token; at += 1; token = tokens[at]
+        text2 = taken3
         if token == '.':
-            match3 = REGEX0(text, ahead.start())
-            if match3[1]:
-                text2 += match3[1]; behind = match3
-                ahead = TOKEN(text, match3.end()); token = ahead[1]
+            match4 = REGEX0(text, ends[at + 1] - len(token))
+            if match4[0]:
+                text2 += match4[0]
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text2
         value.kind = 'Vertex'
-        value.span = new_span(Span, (source, at, at + len(text2)))
+        value.span = new_span(Span, (source, first, first + len(text2)))
         value.target = None
         target_ = value
         made = new_node(History)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.deep = deep_
         made.name = name_
         made.target = target_
@@ -3234,135 +3253,136 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_FinalState():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         name_ = None
         if not (token == 'final'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         made = new_node(FinalState)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Multiplicity():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         lower_ = None
         upper_ = None
-        match1 = REGEX11(text, ahead.start())
+        match1 = REGEX9(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        lower_ = match1[1]
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        lower_ = match1[0]
         if token == '.':
-            ahead2, behind3 = ahead, behind
-            before4 = upper_
+            before2 = at
+            before3 = upper_
             while True:
-                match5 = REGEX8(text, ahead.start())
-                if match5 is None: ahead = ahead2; token = ahead[1]; behind = behind3; upper_ = before4; break
-                behind = match5
-                ahead = TOKEN(text, match5.end()); token = ahead[1]
-                match6 = REGEX11(text, ahead.start())
-                if match6 is None: ahead = ahead2; token = ahead[1]; behind = behind3; upper_ = before4; break
-                behind = match6
-                ahead = TOKEN(text, match6.end()); token = ahead[1]
-                upper_ = match6[1]
+                if not (token == '.' and tokens[at + 1] == '.' and ends[at + 2] == ends[at + 1] + 1): at = before2; token = tokens[at]; upper_ = before3; break
+                at += 2; token = tokens[at]
+                match4 = REGEX9(text, ends[at + 1] - len(token))
+                if match4 is None: at = before2; token = tokens[at]; upper_ = before3; break
+                end = match4.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: at = before2; token = tokens[at]; upper_ = before3; break
+                token = tokens[at]
+                upper_ = match4[0]
                 break
         made = new_node(Multiplicity)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.lower = lower_
         made.upper = upper_
         return made
 
     def r_Argument():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         name_ = None
         value_ = None
-        at = ahead.start()
-        if not (token not in SET3): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET3): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '='): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(Argument)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.value = value_
         return made
 
     def r_Branch():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         guard_ = None
         otherwise_ = ''
         effects_ = []
         target_ = None
         if token == '[':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-            found = expression(ahead)
+            at += 1; token = tokens[at]
+            found = expression(at)
             if found is None: return None
-            value, behind, ahead = found; token = ahead[1]
+            value, at = found; token = tokens[at]
             guard_ = value
             if not (token == ']'): return None
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
         elif token == 'else':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             otherwise_ = 'else'
         else: return None
         if token == '/':
-            ahead1, behind2 = ahead, behind
-            before3 = len(effects_)
+            before1 = at
+            before2 = len(effects_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 rule = Effect_RULES.get(token, r_Assignment)
-                if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; del effects_[before3:]; break
+                if rule is None: at = before1; token = tokens[at]; del effects_[before2:]; break
                 value = rule()
-                if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; del effects_[before3:]; break
+                if value is None: at = before1; token = tokens[at]; del effects_[before2:]; break
                 effects_.append(value)
                 while token == ',':
-                    ahead4, behind5 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before3 = at
+                    at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+                    if rule is None: at = before3; token = tokens[at]; break
                     value = rule()
-                    if value is None: ahead = ahead4; token = ahead[1]; behind = behind5; break
+                    if value is None: at = before3; token = tokens[at]; break
                     effects_.append(value)
                 break
-        match6 = REGEX9(text, ahead.start())
-        if match6 is None: return None
-        behind = match6
-        ahead = TOKEN(text, match6.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text7 = behind[1]
+        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken5 = token; at += 1; token = tokens[at]
+        text4 = taken5
         if token == '.':
-            match8 = REGEX0(text, ahead.start())
-            if match8[1]:
-                text7 += match8[1]; behind = match8
-                ahead = TOKEN(text, match8.end()); token = ahead[1]
+            match6 = REGEX0(text, ends[at + 1] - len(token))
+            if match6[0]:
+                text4 += match6[0]
+                end = match6.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
-        value.name = text7
+        value.name = text4
         value.kind = 'Vertex'
-        value.span = new_span(Span, (source, at, at + len(text7)))
+        value.span = new_span(Span, (source, first, first + len(text4)))
         value.target = None
         target_ = value
         made = new_node(Branch)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.guard = guard_
         made.otherwise = otherwise_
         made.effects = effects_
@@ -3371,104 +3391,105 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Activity():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 2
         function_ = None
         goal_callback_ = None
         arguments_ = []
         result_callback_ = None
         results_ = []
         if not (token == 'do'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Function'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         function_ = value
         if token == '(':
-            ahead3, behind4 = ahead, behind
+            before4 = at
             before5 = goal_callback_
             before6 = len(arguments_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 chosen7 = False
                 if not chosen7 and token == 'by':
-                    ahead8, behind9 = ahead, behind
-                    before10 = goal_callback_
+                    before8 = at
+                    before9 = goal_callback_
                     while True:
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                        at = ahead.start()
-                        if not (token not in SET2): ahead = ahead8; token = ahead[1]; behind = behind9; goal_callback_ = before10; break
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                        value = new_word(Word, behind[1])
-                        value.span = new_span(Span, (source, at, behind.end(1)))
+                        at += 1; token = tokens[at]
+                        if not (token >= 'A' and token not in SET2): at = before8; token = tokens[at]; goal_callback_ = before9; break
+                        taken10 = token; at += 1; token = tokens[at]
+                        value = new_word(Word, taken10)
+                        value.span = new_span(Span, (source, ends[at] - len(taken10), ends[at]))
                         goal_callback_ = value
                         chosen7 = True
                         break
                 if not chosen7 and True:
-                    ahead11, behind12 = ahead, behind
-                    before13 = len(arguments_)
+                    before11 = at
+                    before12 = len(arguments_)
                     while True:
-                        if token not in SET3:
-                            ahead14, behind15 = ahead, behind
+                        if token >= 'A' and token not in SET3:
+                            before13 = at
                             while True:
                                 value = r_Argument()
-                                if value is None: ahead = ahead14; token = ahead[1]; behind = behind15; break
+                                if value is None: at = before13; token = tokens[at]; break
                                 arguments_.append(value)
                                 while token == ',':
-                                    ahead16, behind17 = ahead, behind
-                                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                                    before14 = at
+                                    at += 1; token = tokens[at]
                                     value = r_Argument()
-                                    if value is None: ahead = ahead16; token = ahead[1]; behind = behind17; break
+                                    if value is None: at = before14; token = tokens[at]; break
                                     arguments_.append(value)
                                 break
                         chosen7 = True
                         break
-                if not chosen7: ahead = ahead3; token = ahead[1]; behind = behind4; goal_callback_ = before5; del arguments_[before6:]; break
-                if not (token == ')'): ahead = ahead3; token = ahead[1]; behind = behind4; goal_callback_ = before5; del arguments_[before6:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not chosen7: at = before4; token = tokens[at]; goal_callback_ = before5; del arguments_[before6:]; break
+                if not (token == ')'): at = before4; token = tokens[at]; goal_callback_ = before5; del arguments_[before6:]; break
+                at += 1; token = tokens[at]
                 break
         if token == 'gives':
-            ahead18, behind19 = ahead, behind
-            before20 = result_callback_
-            before21 = len(results_)
+            before15 = at
+            before16 = result_callback_
+            before17 = len(results_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 if token == 'by':
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                    at = ahead.start()
-                    if not (token not in SET2): ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                    value = new_word(Word, behind[1])
-                    value.span = new_span(Span, (source, at, behind.end(1)))
+                    at += 1; token = tokens[at]
+                    if not (token >= 'A' and token not in SET2): at = before15; token = tokens[at]; result_callback_ = before16; del results_[before17:]; break
+                    taken18 = token; at += 1; token = tokens[at]
+                    value = new_word(Word, taken18)
+                    value.span = new_span(Span, (source, ends[at] - len(taken18), ends[at]))
                     result_callback_ = value
                 elif token == '(':
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    at += 1; token = tokens[at]
                     value = r_ResultMapping()
-                    if value is None: ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                    if value is None: at = before15; token = tokens[at]; result_callback_ = before16; del results_[before17:]; break
                     results_.append(value)
                     while token == ',':
-                        ahead22, behind23 = ahead, behind
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        before19 = at
+                        at += 1; token = tokens[at]
                         value = r_ResultMapping()
-                        if value is None: ahead = ahead22; token = ahead[1]; behind = behind23; break
+                        if value is None: at = before19; token = tokens[at]; break
                         results_.append(value)
-                    if not (token == ')'): ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                else: ahead = ahead18; token = ahead[1]; behind = behind19; result_callback_ = before20; del results_[before21:]; break
+                    if not (token == ')'): at = before15; token = tokens[at]; result_callback_ = before16; del results_[before17:]; break
+                    at += 1; token = tokens[at]
+                else: at = before15; token = tokens[at]; result_callback_ = before16; del results_[before17:]; break
                 break
         made = new_node(Activity)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.function = function_
         made.goal_callback = goal_callback_
         made.arguments = arguments_
@@ -3479,228 +3500,231 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Entry():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         effects_ = []
         if not (token == 'entry'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token == '/'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         rule = Effect_RULES.get(token, r_Assignment)
         if rule is None: return None
         value = rule()
         if value is None: return None
         effects_.append(value)
         while token == ',':
-            ahead1, behind2 = ahead, behind
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            before1 = at
+            at += 1; token = tokens[at]
             rule = Effect_RULES.get(token, r_Assignment)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before1; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before1; token = tokens[at]; break
             effects_.append(value)
         made = new_node(Entry)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.effects = effects_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Exit():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 4
         effects_ = []
         if not (token == 'exit'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if not (token == '/'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         rule = Effect_RULES.get(token, r_Assignment)
         if rule is None: return None
         value = rule()
         if value is None: return None
         effects_.append(value)
         while token == ',':
-            ahead1, behind2 = ahead, behind
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            before1 = at
+            at += 1; token = tokens[at]
             rule = Effect_RULES.get(token, r_Assignment)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before1; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before1; token = tokens[at]; break
             effects_.append(value)
         made = new_node(Exit)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.effects = effects_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_Transition():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         internal_ = False
         triggers_ = []
         guard_ = None
         effects_ = []
         target_ = None
         if token == 'internal':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             internal_ = True
         if token in SET13:
             if token == 'on':
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
                 if rule is None: return None
                 value = rule()
                 if value is None: return None
                 triggers_.append(value)
                 while token == ',':
-                    ahead1, behind2 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before1 = at
+                    at += 1; token = tokens[at]
                     rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
-                    if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                    if rule is None: at = before1; token = tokens[at]; break
                     value = rule()
-                    if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+                    if value is None: at = before1; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'after':
                 value = r_TimeTrigger()
                 if value is None: return None
                 triggers_.append(value)
                 while token == ',':
-                    ahead3, behind4 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before2 = at
+                    at += 1; token = tokens[at]
                     value = r_TimeTrigger()
-                    if value is None: ahead = ahead3; token = ahead[1]; behind = behind4; break
+                    if value is None: at = before2; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'monitor':
                 value = r_MonitorTrigger()
                 if value is None: return None
                 triggers_.append(value)
                 while token == ',':
-                    ahead5, behind6 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before3 = at
+                    at += 1; token = tokens[at]
                     value = r_MonitorTrigger()
-                    if value is None: ahead = ahead5; token = ahead[1]; behind = behind6; break
+                    if value is None: at = before3; token = tokens[at]; break
                     triggers_.append(value)
             else: return None
             if token == '[':
-                ahead7, behind8 = ahead, behind
-                before9 = guard_
+                before4 = at
+                before5 = guard_
                 while True:
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                    found = expression(ahead)
-                    if found is None: ahead = ahead7; token = ahead[1]; behind = behind8; guard_ = before9; break
-                    value, behind, ahead = found; token = ahead[1]
+                    at += 1; token = tokens[at]
+                    found = expression(at)
+                    if found is None: at = before4; token = tokens[at]; guard_ = before5; break
+                    value, at = found; token = tokens[at]
                     guard_ = value
-                    if not (token == ']'): ahead = ahead7; token = ahead[1]; behind = behind8; guard_ = before9; break
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    if not (token == ']'): at = before4; token = tokens[at]; guard_ = before5; break
+                    at += 1; token = tokens[at]
                     break
             if token == '/':
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
                 rule = Effect_RULES.get(token, r_Assignment)
                 if rule is None: return None
                 value = rule()
                 if value is None: return None
                 effects_.append(value)
                 while token == ',':
-                    ahead10, behind11 = ahead, behind
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    before6 = at
+                    at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                    if rule is None: at = before6; token = tokens[at]; break
                     value = rule()
-                    if value is None: ahead = ahead10; token = ahead[1]; behind = behind11; break
+                    if value is None: at = before6; token = tokens[at]; break
                     effects_.append(value)
                 if token == '-':
-                    ahead12, behind13 = ahead, behind
-                    before14 = target_
+                    before7 = at
+                    before8 = target_
                     while True:
-                        match15 = REGEX9(text, ahead.start())
-                        if match15 is None: ahead = ahead12; token = ahead[1]; behind = behind13; target_ = before14; break
-                        behind = match15
-                        ahead = TOKEN(text, match15.end()); token = ahead[1]
-                        at = ahead.start()
-                        if not (token not in SET2): ahead = ahead12; token = ahead[1]; behind = behind13; target_ = before14; break
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                        text16 = behind[1]
+                        if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): at = before7; token = tokens[at]; target_ = before8; break
+                        at += 2; token = tokens[at]
+                        first = ends[at + 1] - len(token)
+                        if not (token >= 'A' and token not in SET2): at = before7; token = tokens[at]; target_ = before8; break
+                        taken10 = token; at += 1; token = tokens[at]
+                        text9 = taken10
                         if token == '.':
-                            match17 = REGEX0(text, ahead.start())
-                            if match17[1]:
-                                text16 += match17[1]; behind = match17
-                                ahead = TOKEN(text, match17.end()); token = ahead[1]
+                            match11 = REGEX0(text, ends[at + 1] - len(token))
+                            if match11[0]:
+                                text9 += match11[0]
+                                end = match11.end()
+                                while ends[at] < end: at += 1
+                                if ends[at] > end: at = before7; token = tokens[at]; target_ = before8; break
+                                token = tokens[at]
                         value = new_node(Ref)
-                        value.name = text16
+                        value.name = text9
                         value.kind = 'Vertex'
-                        value.span = new_span(Span, (source, at, at + len(text16)))
+                        value.span = new_span(Span, (source, first, first + len(text9)))
                         value.target = None
                         target_ = value
                         break
             elif token == '-':
-                match18 = REGEX9(text, ahead.start())
-                if match18 is None: return None
-                behind = match18
-                ahead = TOKEN(text, match18.end()); token = ahead[1]
-                at = ahead.start()
-                if not (token not in SET2): return None
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                text19 = behind[1]
+                if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+                at += 2; token = tokens[at]
+                first = ends[at + 1] - len(token)
+                if not (token >= 'A' and token not in SET2): return None
+                taken13 = token; at += 1; token = tokens[at]
+                text12 = taken13
                 if token == '.':
-                    match20 = REGEX0(text, ahead.start())
-                    if match20[1]:
-                        text19 += match20[1]; behind = match20
-                        ahead = TOKEN(text, match20.end()); token = ahead[1]
+                    match14 = REGEX0(text, ends[at + 1] - len(token))
+                    if match14[0]:
+                        text12 += match14[0]
+                        end = match14.end()
+                        while ends[at] < end: at += 1
+                        if ends[at] > end: return None
+                        token = tokens[at]
                 value = new_node(Ref)
-                value.name = text19
+                value.name = text12
                 value.kind = 'Vertex'
-                value.span = new_span(Span, (source, at, at + len(text19)))
+                value.span = new_span(Span, (source, first, first + len(text12)))
                 value.target = None
                 target_ = value
             else: return None
         elif token == '[':
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-            found = expression(ahead)
+            at += 1; token = tokens[at]
+            found = expression(at)
             if found is None: return None
-            value, behind, ahead = found; token = ahead[1]
+            value, at = found; token = tokens[at]
             guard_ = value
             if not (token == ']'): return None
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+            at += 1; token = tokens[at]
             if token == '/':
-                ahead21, behind22 = ahead, behind
-                before23 = len(effects_)
+                before15 = at
+                before16 = len(effects_)
                 while True:
-                    behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                    at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: ahead = ahead21; token = ahead[1]; behind = behind22; del effects_[before23:]; break
+                    if rule is None: at = before15; token = tokens[at]; del effects_[before16:]; break
                     value = rule()
-                    if value is None: ahead = ahead21; token = ahead[1]; behind = behind22; del effects_[before23:]; break
+                    if value is None: at = before15; token = tokens[at]; del effects_[before16:]; break
                     effects_.append(value)
                     while token == ',':
-                        ahead24, behind25 = ahead, behind
-                        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                        before17 = at
+                        at += 1; token = tokens[at]
                         rule = Effect_RULES.get(token, r_Assignment)
-                        if rule is None: ahead = ahead24; token = ahead[1]; behind = behind25; break
+                        if rule is None: at = before17; token = tokens[at]; break
                         value = rule()
-                        if value is None: ahead = ahead24; token = ahead[1]; behind = behind25; break
+                        if value is None: at = before17; token = tokens[at]; break
                         effects_.append(value)
                     break
-            match26 = REGEX9(text, ahead.start())
-            if match26 is None: return None
-            behind = match26
-            ahead = TOKEN(text, match26.end()); token = ahead[1]
-            at = ahead.start()
-            if not (token not in SET2): return None
-            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-            text27 = behind[1]
+            if not (token == '-' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+            at += 2; token = tokens[at]
+            first = ends[at + 1] - len(token)
+            if not (token >= 'A' and token not in SET2): return None
+            taken19 = token; at += 1; token = tokens[at]
+            text18 = taken19
             if token == '.':
-                match28 = REGEX0(text, ahead.start())
-                if match28[1]:
-                    text27 += match28[1]; behind = match28
-                    ahead = TOKEN(text, match28.end()); token = ahead[1]
+                match20 = REGEX0(text, ends[at + 1] - len(token))
+                if match20[0]:
+                    text18 += match20[0]
+                    end = match20.end()
+                    while ends[at] < end: at += 1
+                    if ends[at] > end: return None
+                    token = tokens[at]
             value = new_node(Ref)
-            value.name = text27
+            value.name = text18
             value.kind = 'Vertex'
-            value.span = new_span(Span, (source, at, at + len(text27)))
+            value.span = new_span(Span, (source, first, first + len(text18)))
             value.target = None
             target_ = value
         else: return None
         made = new_node(Transition)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.internal = internal_
         made.triggers = triggers_
         made.guard = guard_
@@ -3710,295 +3734,297 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         return made
 
     def r_Region():
-        nonlocal ahead, token, behind, depth
+        nonlocal at, token, depth
         depth += 1
         if depth > limit: raise TooDeepError
-        start = ahead.start()
+        start = ends[at + 1] - 6
         name_ = None
         items_ = []
         if not (token == 'region'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        at += 1; token = tokens[at]
+        if not (token >= 'A' and token not in SET2): depth -= 1; return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         name_ = value
         if not (token == '{'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         while True:
-            ahead1, behind2 = ahead, behind
+            before2 = at
             rule = RegionItem_RULES.get(token)
-            if rule is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
-            if value is None: ahead = ahead1; token = ahead[1]; behind = behind2; break
+            if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
         if not (token == '}'): depth -= 1; return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         depth -= 1
         made = new_node(Region)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.name = name_
         made.items = items_
         made.doc = docs.pop(start) if start in docs else ''
         return made
 
     def r_ResultMapping():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         field_ = None
         target_ = None
-        at = ahead.start()
-        if not (token not in SET3): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        value = new_word(Word, behind[1])
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        if not (token >= 'A' and token not in SET3): return None
+        taken1 = token; at += 1; token = tokens[at]
+        value = new_word(Word, taken1)
+        value.span = new_span(Span, (source, ends[at] - len(taken1), ends[at]))
         field_ = value
-        match1 = REGEX12(text, ahead.start())
-        if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        found = operand(ahead)
+        if not (token == '=' and tokens[at + 1] == '>' and ends[at + 2] == ends[at + 1] + 1): return None
+        at += 2; token = tokens[at]
+        found = operand(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         target_ = value
         made = new_node(ResultMapping)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.field = field_
         made.target = target_
         return made
 
     def r_TimeTrigger():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 5
         delay_ = None
         if not (token == 'after'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = delay(ahead)
+        at += 1; token = tokens[at]
+        found = delay(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         delay_ = value
         made = new_node(TimeTrigger)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.delay = delay_
         return made
 
     def r_MonitorTrigger():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 7
         topic_ = None
         type_ = None
         if not (token == 'monitor'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        match1 = REGEX1(text, ahead.start())
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        match1 = REGEX1(text, ends[at + 1] - len(token))
         if match1 is None: return None
-        behind = match1
-        ahead = TOKEN(text, match1.end()); token = ahead[1]
-        value = new_word(Word, unquoted(match1[1]))
-        value.span = new_span(Span, (source, at, behind.end(1)))
+        end = match1.end()
+        while ends[at] < end: at += 1
+        if ends[at] > end: return None
+        token = tokens[at]
+        value = new_word(Word, unquoted(match1[0]))
+        value.span = new_span(Span, (source, first, ends[at]))
         topic_ = value
         if not (token == ':'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         value = r_TypeRef()
         if value is None: return None
         type_ = value
         made = new_node(MonitorTrigger)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.topic = topic_
         made.type = type_
         return made
 
     def r_Send():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - 4
         event_ = None
         arguments_ = []
         if not (token == 'send'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        at += 1; token = tokens[at]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Event'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         event_ = value
         if token == '(':
-            ahead3, behind4 = ahead, behind
+            before4 = at
             before5 = len(arguments_)
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                if token not in SET3:
-                    ahead6, behind7 = ahead, behind
+                at += 1; token = tokens[at]
+                if token >= 'A' and token not in SET3:
+                    before6 = at
                     while True:
                         value = r_Argument()
-                        if value is None: ahead = ahead6; token = ahead[1]; behind = behind7; break
+                        if value is None: at = before6; token = tokens[at]; break
                         arguments_.append(value)
                         while token == ',':
-                            ahead8, behind9 = ahead, behind
-                            behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                            before7 = at
+                            at += 1; token = tokens[at]
                             value = r_Argument()
-                            if value is None: ahead = ahead8; token = ahead[1]; behind = behind9; break
+                            if value is None: at = before7; token = tokens[at]; break
                             arguments_.append(value)
                         break
-                if not (token == ')'): ahead = ahead3; token = ahead[1]; behind = behind4; del arguments_[before5:]; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == ')'): at = before4; token = tokens[at]; del arguments_[before5:]; break
+                at += 1; token = tokens[at]
                 break
         made = new_node(Send)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.event = event_
         made.arguments = arguments_
         return made
 
     def r_Assignment():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         target_ = None
         value_ = None
-        found = operand(ahead)
+        found = operand(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         target_ = value
         if not (token == '='): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        found = expression(ahead)
+        at += 1; token = tokens[at]
+        found = expression(at)
         if found is None: return None
-        value, behind, ahead = found; token = ahead[1]
+        value, at = found; token = tokens[at]
         value_ = value
         made = new_node(Assignment)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.target = target_
         made.value = value_
         return made
 
     def r_OutcomeTrigger():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         outcome_ = None
         if not (token in SET14): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        outcome_ = behind[1]
+        taken1 = token; at += 1; token = tokens[at]
+        outcome_ = taken1
         made = new_node(OutcomeTrigger)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.outcome = outcome_
         return made
 
     def r_DoneTrigger():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         region_ = None
         final_ = None
-        if token not in SET2:
-            ahead1, behind2 = ahead, behind
-            before3 = region_
+        if token >= 'A' and token not in SET2:
+            before1 = at
+            before2 = region_
             while True:
-                at = ahead.start()
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                taken3 = token; at += 1; token = tokens[at]
                 value = new_node(Ref)
-                value.name = behind[1]
+                value.name = taken3
                 value.kind = 'Region'
-                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.span = new_span(Span, (source, ends[at] - len(taken3), ends[at]))
                 value.target = None
                 region_ = value
-                if not (token == '.'): ahead = ahead1; token = ahead[1]; behind = behind2; region_ = before3; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                if not (token == '.'): at = before1; token = tokens[at]; region_ = before2; break
+                at += 1; token = tokens[at]
                 break
         if not (token == 'done'): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+        at += 1; token = tokens[at]
         if token == '.':
-            ahead4, behind5 = ahead, behind
-            before6 = final_
+            before4 = at
+            before5 = final_
             while True:
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-                at = ahead.start()
-                if not (token not in SET2): ahead = ahead4; token = ahead[1]; behind = behind5; final_ = before6; break
-                behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
+                at += 1; token = tokens[at]
+                if not (token >= 'A' and token not in SET2): at = before4; token = tokens[at]; final_ = before5; break
+                taken6 = token; at += 1; token = tokens[at]
                 value = new_node(Ref)
-                value.name = behind[1]
+                value.name = taken6
                 value.kind = 'FinalState'
-                value.span = new_span(Span, (source, at, at + len(behind[1])))
+                value.span = new_span(Span, (source, ends[at] - len(taken6), ends[at]))
                 value.target = None
                 final_ = value
                 break
         made = new_node(DoneTrigger)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.region = region_
         made.final = final_
         return made
 
     def r_EventTrigger():
-        nonlocal ahead, token, behind
-        start = ahead.start()
+        nonlocal at, token
+        start = ends[at + 1] - len(token)
         event_ = None
-        at = ahead.start()
-        if not (token not in SET2): return None
-        behind = ahead; ahead = TOKEN(text, ahead.end()); token = ahead[1]
-        text1 = behind[1]
+        first = ends[at + 1] - len(token)
+        if not (token >= 'A' and token not in SET2): return None
+        taken2 = token; at += 1; token = tokens[at]
+        text1 = taken2
         if token == '.':
-            match2 = REGEX0(text, ahead.start())
-            if match2[1]:
-                text1 += match2[1]; behind = match2
-                ahead = TOKEN(text, match2.end()); token = ahead[1]
+            match3 = REGEX0(text, ends[at + 1] - len(token))
+            if match3[0]:
+                text1 += match3[0]
+                end = match3.end()
+                while ends[at] < end: at += 1
+                if ends[at] > end: return None
+                token = tokens[at]
         value = new_node(Ref)
         value.name = text1
         value.kind = 'Event'
-        value.span = new_span(Span, (source, at, at + len(text1)))
+        value.span = new_span(Span, (source, first, first + len(text1)))
         value.target = None
         event_ = value
         made = new_node(EventTrigger)
-        made.span = new_span(Span, (source, start, behind.end(1)))
+        made.span = new_span(Span, (source, start, ends[at]))
         made.event = event_
         return made
 
     def try_ImportRos_ImportFile_ImportLibrary():
-        nonlocal ahead, token, behind
-        ahead1, behind1 = ahead, behind
+        nonlocal at, token
+        before = at
         made = r_ImportRos()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         made = r_ImportFile()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         return r_ImportLibrary()
 
     def try_Event_Swarm():
-        nonlocal ahead, token, behind
-        ahead1, behind1 = ahead, behind
+        nonlocal at, token
+        before = at
         made = r_Event()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         return r_Swarm()
 
     def try_CountRange_ParamRange():
-        nonlocal ahead, token, behind
-        ahead1, behind1 = ahead, behind
+        nonlocal at, token
+        before = at
         made = r_CountRange()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         return r_ParamRange()
 
     def try_Setting_ParamRange():
-        nonlocal ahead, token, behind
-        ahead1, behind1 = ahead, behind
+        nonlocal at, token
+        before = at
         made = r_Setting()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         return r_ParamRange()
 
     def try_DoneTrigger_EventTrigger():
-        nonlocal ahead, token, behind
-        ahead1, behind1 = ahead, behind
+        nonlocal at, token
+        before = at
         made = r_DoneTrigger()
         if made is not None: return made
-        ahead = ahead1; token = ahead[1]; behind = behind1
+        at = before; token = tokens[at]
         return r_EventTrigger()
 
     Import_RULES = {'import': try_ImportRos_ImportFile_ImportLibrary}
@@ -4013,17 +4039,17 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     FitnessItem_RULES = {'in': r_FitnessInput, 'maximize': r_Objective, 'minimize': r_Objective, 'param': r_Param}
     StateItem_RULES = {'[': r_Transition, 'after': r_Transition, 'choice': r_Choice, 'deep': r_History, 'do': r_Activity, 'entry': r_Entry, 'exit': r_Exit, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'parallel': r_Parallel, 'state': r_State}
     ParallelItem_RULES = {'[': r_Transition, 'after': r_Transition, 'entry': r_Entry, 'exit': r_Exit, 'internal': r_Transition, 'monitor': r_Transition, 'on': r_Transition, 'region': r_Region}
-    Effect_RULES = {'': r_Assignment, '"': r_Assignment, '(': r_Assignment, '-': r_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'send': r_Send, 'true': r_Assignment}
+    Effect_RULES = {'(': r_Assignment, '-': r_Assignment, 'event': r_Assignment, 'false': r_Assignment, 'not': r_Assignment, 'send': r_Send, 'true': r_Assignment}
     Trigger_RULES = {'aborted': r_OutcomeTrigger, 'done': r_DoneTrigger, 'preempted': r_OutcomeTrigger, 'succeeded': r_OutcomeTrigger}
     RegionItem_RULES = {'choice': r_Choice, 'deep': r_History, 'final': r_FinalState, 'history': r_History, 'initial': r_Initial, 'parallel': r_Parallel, 'state': r_State}
 
     try:
         model = r_Model()
-        if model is None or ahead.start() < len(text):
+        if model is None or BLANKS(text, ends[at]).end() < len(text):
             return None
         return model, len(expressions.faults)
     finally:
         # They refer to each other: so they are gone at once, without the garbage collector.
         r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_Send = r_Assignment = r_OutcomeTrigger = r_DoneTrigger = r_EventTrigger = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
-LANGUAGE = Language(TOKEN, BLANK, RESERVED)
+LANGUAGE = Language(TOKENS, RESERVED)

@@ -160,8 +160,9 @@ def test_levels(text: str, levels: int) -> None:
 
 def test_what_failed_leaves_no_fault_behind() -> None:
     source = Source("", "a + (b < c < d")  # the expression is `a`
-    parser = ExpressionParser(swarm_parser.LANGUAGE, source, NESTING_LIMIT)
-    found = parser.expression(swarm_parser.TOKEN(source.text, 0))
+    tokens = swarm_parser.TOKENS.cut(source.text)
+    parser = ExpressionParser(swarm_parser.LANGUAGE, source, tokens, NESTING_LIMIT)
+    found = parser.expression(0)
 
     assert found is not None
     assert found[0].span.text == "a"

@@ -17,6 +17,7 @@ from swarmdsl.peg.module import definitions
 from swarmdsl.peg.target import Target
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word
+from swarmdsl.tokens import Cutter
 
 NAME = r"N: /(?!(?:no)\b)[A-Za-z_][A-Za-z0-9_]*\b/;"
 
@@ -66,6 +67,7 @@ def made(text: str) -> Any:
         name: make_dataclass(name, ["span", *attributes]) for name, attributes in nodes.items()
     }
     names |= {"re": re, "Span": Span, "Word": Word, "Ref": Ref, "TooDeepError": TooDeepError}
+    names["Cutter"] = Cutter
     exec(f"from __future__ import annotations\n{source}", names)
     return names
 

@@ -8,7 +8,6 @@ from string import ascii_letters
 from typing import Any
 
 from swarmdsl.dataclass import dataclass
-from swarmdsl.expressions import MARKS
 from swarmdsl.peg.grammar import (
     Assign,
     Choice,
@@ -23,6 +22,7 @@ from swarmdsl.peg.grammar import (
     inside,
     parts,
 )
+from swarmdsl.tokens import MARKS
 
 try:
     from re import _parser as sre
@@ -136,6 +136,8 @@ class Analysis:
     def _refuse_surprises(self, rule: str, expression: Expression) -> None:
         """Refuse where Arpeggio takes a match of nothing for something else."""
         match expression:
+            case Terminal(literal='"'):
+                raise UnsupportedError(rule, "a quotation mark can only begin a text")
             case Choice(alternatives):
                 last = alternatives[-1]
                 other = alternatives if not isinstance(last, Repetition) else alternatives[:-1]
@@ -217,7 +219,7 @@ def _set(members: Any) -> Any:
 
     def has(character: str) -> bool:
         if character == _OTHERS:
-            return True
+            return negated or any(str(op) != "LITERAL" or value > 127 for op, value in members)
         within = any(_in_member(str(op), value, character) for op, value in members)
         return within != negated
 

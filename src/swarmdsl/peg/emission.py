@@ -1,10 +1,12 @@
 """The Python source of a recursive-descent parser for a grammar.
 
-Each rule of nodes becomes a function, nested in `parse` so that they share where they
-are: `ahead` is the match of the next token, `token` its text, `behind` the match before
-it, and every match takes the blanks behind it along. What the next token cannot begin is
-not tried; for the rest alternatives are tried in order, and what an attempt has changed
-is taken back, which is what a PEG means.
+The text is cut into tokens at once, which is much faster than to match each one where it may
+stand: `tokens` are their texts, and `ends` says where the one before each ends. Each rule of
+nodes becomes a function, nested in `parse` so that they share where they are: `at` is the
+number of the next token, `token` its text. Regular expressions that are no tokens match the
+text itself, and end where a token does. What the next token cannot begin is not tried; for
+the rest alternatives are tried in order, and what an attempt has changed is taken back, which
+is what a PEG means.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ from swarmdsl.peg.grammar import (
 from swarmdsl.peg.lookahead import Lookahead
 from swarmdsl.peg.target import Target
 
-_ADVANCE = "ahead = TOKEN(text, ahead.end()); token = ahead[1]"
+_ADVANCE = "at += 1; token = tokens[at]"
+_START = "ends[at + 1] - len(token)"
 
 
 @dataclass
@@ -49,13 +52,13 @@ class Emission:
         recursive = rule.name in self.look.analysis.recursive
         self._line(f"def r_{rule.name}():")
         with self._block():
-            self._line(f"nonlocal ahead, token, behind{', depth' if recursive else ''}")
+            self._line(f"nonlocal at, token{', depth' if recursive else ''}")
             fail = "return None"
             if recursive:
                 fail = "depth -= 1; return None"
                 self._line("depth += 1")
                 self._line("if depth > limit: raise TooDeepError")
-            self._line("start = ahead.start()")
+            self._line(f"start = {self._start_of(rule.body)}")
             defaults = {"value": "None", "word": "''", "many": "[]", "flag": "False"}
             for attribute, kind in rule.attributes.items():
                 self._line(f"{attribute}_ = {defaults[kind]}")
@@ -72,12 +75,12 @@ class Emission:
         for rules, name in self.look.attempts.items():
             self._line(f"def {name}():")
             with self._block():
-                self._line("nonlocal ahead, token, behind")
-                self._line("ahead1, behind1 = ahead, behind")
+                self._line("nonlocal at, token")
+                self._line("before = at")
                 for rule in rules[:-1]:
                     self._line(f"made = r_{rule}()")
                     self._line("if made is not None: return made")
-                    self._line("ahead = ahead1; token = ahead[1]; behind = behind1")
+                    self._line("at = before; token = tokens[at]")
                 self._line(f"return r_{rules[-1]}()")
             self._line("")
 
@@ -188,23 +191,22 @@ class Emission:
         part = assign.part
         rule = self.look.analysis.grammar.rules[part.rule] if isinstance(part, Use) else None
         if rule is not None and rule.name in self.target.written:
-            self._line(f"found = {self.target.written[rule.name]}(ahead)")
+            self._line(f"found = {self.target.written[rule.name]}(at)")
             self._line(f"if found is None: {fail}")
-            self._line("value, behind, ahead = found; token = ahead[1]")
+            self._line("value, at = found; token = tokens[at]")
             return "value"
         if rule is not None and rule.name in self.target.words:
             assert isinstance(rule.body, Assign)
-            self._line("at = ahead.start()")
-            text = self._text(rule.body.part, fail, known=known)
+            text, start = self._placed(rule.body.part, fail, known=known)
             self._line(f"value = new_word(Word, {self.target.words[rule.name].format(text)})")
-            self._line(f"value.span = {self._span('at')}")
+            self._line(f"value.span = {self._span(start)}")
             return "value"
         if rule is None or rule.kind == "text":
             if assign.refers is None:
                 return self._text(part, fail, known=known)
-            self._line("at = ahead.start()")
-            text = self._text(part, fail, known=known)
-            span = f"new_span(Span, (source, at, at + len({text})))"
+            text, start = self._placed(part, fail, known=known)
+            end = "ends[at]" if self.look.is_token(part) else f"first + len({text})"
+            span = f"new_span(Span, (source, {start}, {end}))"
             fields = {"name": text, "kind": repr(assign.refers), "span": span, "target": "None"}
             self._make("value", "Ref", fields)
             return "value"
@@ -216,6 +218,21 @@ class Emission:
             self._line(f"value = r_{rule.name}()")
         self._line(f"if value is None: {fail}")
         return "value"
+
+    def _start_of(self, body: Expression) -> str:
+        """Where the next token begins, with which a rule of that body does."""
+        first = self.look.analysis.first(body)
+        lengths = set(map(len, first.tokens))
+        known = first.but is None and "" not in first.tokens and len(lengths) == 1
+        return f"ends[at + 1] - {min(lengths)}" if known else _START
+
+    def _placed(self, part: Expression, fail: str, *, known: bool) -> tuple[str, str]:
+        """Code that takes a text; the results are expressions for it and for where it begins."""
+        if self.look.is_token(part):
+            text = self._text(part, fail, known=known)
+            return text, f"ends[at] - len({text})"
+        self._line(f"first = {_START}")
+        return self._text(part, fail, known=known), "first"
 
     def _text(self, part: Expression, fail: str, *, known: bool = False) -> str:
         """Code that takes a text; the result is the expression that has it."""
@@ -229,20 +246,27 @@ class Emission:
                 if len(regexes) < len(parts):
                     raise self._unsupported("a text is too complicated")
                 return self._text(Terminal("|".join(regexes)), fail)
+            case Terminal(literal=literal) if part.is_marks:
+                self._line(f"if not ({_marks(literal)}): {fail}")
+                self._line(f"at += {len(literal)}; token = tokens[at]")
+                return repr(literal)
             case Terminal(regex) if not self.look.is_token(part):
-                match = self._new("match")
-                self._line(f"{match} = {self.look.regex(regex)}(text, ahead.start())")
+                if self.look.analysis.nullable(part):
+                    raise self._unsupported("a text may be nothing at all")
+                match = self._match(regex)
                 self._line(f"if {match} is None: {fail}")
-                self._line(f"behind = {match}")
-                self._line(f"ahead = TOKEN(text, {match}.end()); token = ahead[1]")
-                return f"{match}[1]"
+                self._go_on_behind(match, fail)
+                return f"{match}[0]"
         if not self.look.is_token(part):
             raise self._unsupported("a text is too complicated")
         if not known:
             self._line(f"if not ({self._can_begin(part)}): {fail}")
-        text = repr(part.literal) if isinstance(part, Terminal) and part.literal else "behind[1]"
-        self._line(f"behind = ahead; {_ADVANCE}")
-        return text
+        if isinstance(part, Terminal) and part.literal:
+            self._line(_ADVANCE)
+            return repr(part.literal)
+        taken = self._new("taken")
+        self._line(f"{taken} = token; {_ADVANCE}")
+        return taken
 
     def _joined(self, parts: tuple[Expression, ...], fail: str, *, known: bool) -> str:
         """Code for the parts of a text, which may have blanks between them."""
@@ -254,15 +278,27 @@ class Emission:
                 continue
             if not isinstance(part, Terminal):
                 raise self._unsupported("a text is too complicated")
-            match = self._new("match")
             self._line(f"if {self._can_begin(part)}:")
             with self._block():
-                self._line(f"{match} = {self.look.regex(part.regex)}(text, ahead.start())")
-                self._line(f"if {match}[1]:")
+                match = self._match(part.regex)
+                self._line(f"if {match}[0]:")
                 with self._block():
-                    self._line(f"{text} += {match}[1]; behind = {match}")
-                    self._line(f"ahead = TOKEN(text, {match}.end()); token = ahead[1]")
+                    self._line(f"{text} += {match}[0]")
+                    self._go_on_behind(match, fail)
         return text
+
+    def _match(self, regex: str) -> str:
+        """Code that matches a regular expression; the result is the variable for it."""
+        match = self._new("match")
+        self._line(f"{match} = {self.look.regex(regex)}(text, {_START})")
+        return match
+
+    def _go_on_behind(self, match: str, fail: str) -> None:
+        """Code that passes over the tokens of a match, which ends with one of them."""
+        self._line(f"end = {match}.end()")
+        self._line("while ends[at] < end: at += 1")
+        self._line(f"if ends[at] > end: {fail}")
+        self._line("token = tokens[at]")
 
     def _make(self, variable: str, node: str, fields: Mapping[str, str]) -> None:
         """Make a node; its class would take a third longer for it."""
@@ -274,9 +310,9 @@ class Emission:
 
     def _save(self, part: Expression) -> str:
         """Keep the state before an attempt; the result is the code that takes it back."""
-        ahead, behind = self._new("ahead"), self._new("behind")
-        self._line(f"{ahead}, {behind} = ahead, behind")
-        undo = f"ahead = {ahead}; token = ahead[1]; behind = {behind}"
+        before = self._new("before")
+        self._line(f"{before} = at")
+        undo = f"at = {before}; token = tokens[at]"
         if self._rule is None or isinstance(part, Assign):
             return undo  # it is the last thing that happens
         if isinstance(part, Repetition) and isinstance(part.part, Assign) and part.least:
@@ -296,7 +332,7 @@ class Emission:
         return self.look.test(self.look.analysis.first(part))
 
     def _span(self, start: str) -> str:
-        return f"new_span(Span, (source, {start}, behind.end(1)))"
+        return f"new_span(Span, (source, {start}, ends[at]))"
 
     def _new(self, name: str) -> str:
         self._names += 1
@@ -313,3 +349,11 @@ class Emission:
 
     def _unsupported(self, what: str) -> UnsupportedError:
         return UnsupportedError(self._rule.name if self._rule else "?", what)
+
+
+def _marks(marks: str) -> str:
+    """Whether the next tokens are these marks, with nothing between them."""
+    return f"token == {marks[0]!r}" + "".join(
+        f" and tokens[at + {n}] == {mark!r} and ends[at + {n + 1}] == ends[at + {n}] + 1"
+        for n, mark in enumerate(marks[1:], 1)
+    )

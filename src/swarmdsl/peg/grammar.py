@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from string import punctuation
 from typing import Any, Literal
 
 import arpeggio
@@ -16,6 +15,7 @@ from textx.const import MULT_ONEORMORE, MULT_ZEROORMORE, RULE_ABSTRACT, RULE_MAT
 from textx.lang import ALL_TYPE_NAMES, BASE_TYPE_NAMES
 
 from swarmdsl.dataclass import dataclass
+from swarmdsl.tokens import MARKS
 
 WORD = r"[A-Za-z_][A-Za-z0-9_]*\b"
 _NAME = re.compile(r"(?:\(\?!\(\?:([a-z|]+)\)\\b\))?" + re.escape(WORD))
@@ -51,7 +51,12 @@ class Terminal:
     @property
     def is_mark(self) -> bool:
         """Whether it is one ASCII character that is no part of words."""
-        return len(self.literal) == 1 and self.literal in punctuation and self.literal != "_"
+        return self.literal in MARKS
+
+    @property
+    def is_marks(self) -> bool:
+        """Whether it is several of them, such as an arrow."""
+        return len(self.literal) > 1 and MARKS.issuperset(self.literal)
 
     @property
     def reserved(self) -> frozenset[str] | None:
@@ -130,11 +135,13 @@ class Rule:
 class Grammar:
     """Rules by name, the first one that of a file.
 
-    `blank` are spaces and comments; `no_comment` is the same, and quicker where there is none.
+    `spaces` are characters; `blank` are spaces and comments; `no_comment` is the same, and
+    quicker where there is none.
     """
 
     rules: dict[str, Rule]
     start: str
+    spaces: str
     blank: str
     no_comment: str
 
@@ -158,7 +165,8 @@ def read(metamodel: Any) -> Grammar:
         name = cls.__name__
         if name not in ALL_TYPE_NAMES and cls._tx_peg_rule is not comment:
             rules[name] = _Reader(cls).rule()
-    return Grammar(rules, blueprint.parser_model.nodes[0].rule_name, blank, no_comment)
+    start = blueprint.parser_model.nodes[0].rule_name
+    return Grammar(rules, start, blueprint.ws, blank, no_comment)
 
 
 def _kind(attribute: Any) -> Literal["value", "word", "many", "flag"]:

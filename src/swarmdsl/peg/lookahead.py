@@ -5,17 +5,29 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from swarmdsl.dataclass import dataclass, field
-from swarmdsl.expressions import MARKS
 from swarmdsl.peg.analysis import Analysis, First
-from swarmdsl.peg.grammar import Assign, Choice, Expression, Rule, Terminal, UnsupportedError, Use
+from swarmdsl.peg.grammar import (
+    Assign,
+    Choice,
+    Expression,
+    Rule,
+    Terminal,
+    UnsupportedError,
+    Use,
+    inside,
+)
+from swarmdsl.tokens import MARKS
 
-# ASCII words and marks; the empty text stands for all else, and for the end.
-_TOKEN = r"[A-Za-z_][A-Za-z0-9_]*\b|[!-/:-@\[-^`{-~]|"
+# Words and numbers; what goes on beyond ASCII is one token, too.
+_LETTER, _PART = r"[^\x00-@\[-^`{-\x7f]", r"[^\x00-/:-@\[-^`{-\x7f]"
+_WORDS = (f"{_LETTER}{_PART}*", rf"[0-9]+(?:\.[0-9]+)?{_PART}*")
+# A comment without an end is looked for only once.
+_REST = (r"/\*(?s:.*)", "(?s:.)")
 # Compiled where it is used first: a file has few of them.
 _REGEX = """
 def {name}(text, at):
     global {name}
-    {name} = re.compile({regex!r} + BLANK, re.MULTILINE).match
+    {name} = re.compile({regex!r}, re.MULTILINE).match
     return {name}(text, at)
 """
 
@@ -39,13 +51,24 @@ class Lookahead:
         grammar = self.analysis.grammar
         return [
             f"BLANK = {grammar.blank!r}",
-            f"TOKEN = re.compile({f'({_TOKEN}){grammar.no_comment}'!r}).match",
-            *(
-                _REGEX.format(name=name, regex=f"({regex})")
-                for regex, name in self._regexes.items()
-            ),
+            "BLANKS = re.compile(BLANK).match",
+            f"TOKENS = Cutter({grammar.spaces!r}, re.compile({self._tokens()!r}).findall, BLANKS)",
+            *(_REGEX.format(name=name, regex=regex) for regex, name in self._regexes.items()),
             *(f"{name} = frozenset({sorted(members)!r})" for members, name in self._sets.items()),
         ]
+
+    def _tokens(self) -> str:
+        """A regular expression for the next token, with the blanks before it."""
+        grammar = self.analysis.grammar
+        terminals = (
+            part
+            for rule in grammar.rules.values()
+            for part in inside(rule.body)
+            if isinstance(part, Terminal)
+        )
+        texts = sorted({part.regex for part in terminals if part.regex.startswith('"')})
+        tokens = "|".join([*_WORDS, *texts, *_REST])
+        return rf"{grammar.no_comment}(?:{tokens}|\Z)"
 
     def is_token(self, part: Expression) -> bool:
         """Whether the next token alone decides that it matches, and is the match."""
@@ -66,13 +89,27 @@ class Lookahead:
         return self.is_token(part)
 
     def test(self, first: First) -> str:
-        """Whether something can begin with the next token."""
+        """Whether something can begin with the next token.
+
+        Words and a few marks are not less than `A`; all else is, which makes this quick.
+        """
+        words_and_marks = first.tokens - {""}
         if first.but is not None:
-            others = (MARKS | {""} | first.but) - first.tokens
-            return f"token not in {self._set(others)}"
-        if len(first.tokens) == 1:
-            return f"token == {min(first.tokens)!r}"
-        return f"token in {self._set(first.tokens)}"
+            others = (MARKS | first.but) - first.tokens
+            if "" in first.tokens:
+                return f"token not in {self._set(others)}"
+            test = f"token >= 'A' and token not in {self._set(others)}"
+            words_and_marks = frozenset(token for token in words_and_marks if token < "A")
+        elif "" in first.tokens:
+            test = f"token < 'A' and token not in {self._set(MARKS)}"
+        else:
+            return self._is_in(words_and_marks)
+        return f"({self._is_in(words_and_marks)} or {test})" if words_and_marks else test
+
+    def _is_in(self, members: frozenset[str]) -> str:
+        if len(members) == 1:
+            return f"token == {min(members)!r}"
+        return f"token in {self._set(members)}"
 
     def _set(self, members: frozenset[str]) -> str:
         return self._sets.setdefault(members, f"SET{len(self._sets)}")
@@ -90,16 +127,18 @@ class Lookahead:
         table = f"{rule.name}_RULES"
         leaves = list(self._leaves(rule))
         firsts = {leaf: self.analysis.first(Use(leaf)) for leaf in leaves}
-        named = tuple(leaf for leaf in leaves if firsts[leaf].but is not None)
+        others = tuple(
+            leaf for leaf in leaves if firsts[leaf].but is not None or "" in firsts[leaf].tokens
+        )
         if table not in self.tables:
-            tokens = sorted(set().union(*(first.tokens for first in firsts.values())))
+            tokens = sorted(set().union(*(first.tokens for first in firsts.values())) - {""})
             entries = {
                 token: self._attempt(tuple(leaf for leaf in leaves if firsts[leaf].has(token)))
                 for token in tokens
             }
             content = ", ".join(f"{token!r}: {function}" for token, function in entries.items())
             self.tables[table] = f"{{{content}}}"
-        return f"{table}.get(token{f', {self._attempt(named)}' if named else ''})"
+        return f"{table}.get(token{f', {self._attempt(others)}' if others else ''})"
 
     def _leaves(self, rule: Rule) -> Iterator[str]:
         """The rules that a rule chooses from in the end."""

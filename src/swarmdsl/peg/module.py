@@ -35,16 +35,16 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, in
     `limit`.
     """
     text = source.text
-    depth = 0
-    ahead = behind = TOKEN(text, re.match(BLANK, text).end())
-    token = ahead[1]
+    depth = at = 0
+    tokens, ends = TOKENS.cut(text)
+    token = tokens[0]
 {begin}
 {functions}
 {tables}
 
     try:
         model = r_{start}()
-        if model is None or ahead.start() < len(text):
+        if model is None or BLANKS(text, ends[at]).end() < len(text):
             return None
         return model, {result}
     finally:
@@ -57,7 +57,7 @@ _FUNCTION = re.compile(r" {4}def (\w+)\(")
 def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
     """The source of the definitions, and the classes of nodes that it needs.
 
-    It also needs `re`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
+    It also needs `re`, `Cutter`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
     """
     look = Lookahead(Analysis(grammar), target.nodes)
     emission = Emission(look, target)

@@ -34,7 +34,7 @@ TARGET = Target(
     },
     written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},
     begin="""\
-    expressions = ExpressionParser(LANGUAGE, source, limit)
+    expressions = ExpressionParser(LANGUAGE, source, (tokens, ends), limit)
     expression = expressions.expression
     operand = expressions.operand
     delay = expressions.delay
@@ -53,10 +53,11 @@ from swarmdsl.expression_parser import ExpressionParser, TooDeepError
 from swarmdsl.expressions import Language, unquoted
 from swarmdsl.source import Source, Span
 from swarmdsl.syntax import Ref, Word, {classes}
+from swarmdsl.tokens import Cutter
 
 GRAMMAR = {checksum}
 {definitions}
-LANGUAGE = Language(TOKEN, BLANK, RESERVED)
+LANGUAGE = Language(TOKENS, RESERVED)
 '''
 
 
