@@ -268,6 +268,17 @@ async def test_hover_says_how_many_there_are_and_what_targets_make_of_it(client,
     assert "event, of type `float64`" in found
 
 
+async def test_hover_says_what_the_targets_of_the_project_make_of_it(client, editor, folder):
+    (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
+    model = folder / "lab.swarm"
+    model.write_text("statemachine M { initial A  state A { initial B  final B }  final C }\n")
+    found = await hovered(client, editor, model, "A {")
+    assert found.partition("In targets:\n")[2].splitlines() == [
+        "- `smach` with `ros=2`: exact, a `StateMachine`",
+        "- `yasmin`: exact, a `StateMachine`",
+    ]
+
+
 async def called(client, editor, path, word):
     text = path.read_text(encoding="utf-8")
     [item] = await client.text_document_prepare_call_hierarchy_async(

@@ -37,7 +37,7 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
     found = occurrence_at(workspace, file, offset)
     if found is None:
         return None
-    targets = "\n".join(f"- {line}" for line in support(found.node))
+    targets = "\n".join(f"- {line}" for line in support(found.node, workspace.settings))
     text = described(found.node)
     return found.span, f"{text}\n\nIn targets:\n{targets}" if targets else text
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 
 from swarmdsl import plugins
 from swarmdsl.generator import Generator, Mapped
+from swarmdsl.project import Settings
 from swarmdsl.syntax import (
     Activity,
     Choice,
@@ -22,25 +23,40 @@ from swarmdsl.syntax import (
 )
 
 
-def support(node: Node) -> Iterator[str]:
-    """A line for each target that says what it makes of a construct."""
+def support(node: Node, settings: Settings) -> Iterator[str]:
+    """A line for each target of a project that says what it makes of a construct."""
     wanted = set(_constructs(node))
-    for target in plugins.default_names() if wanted else ():
-        for mapped in _mapping(target):
+    if not wanted:
+        return
+    for target in settings.targets or plugins.default_names():
+        said, rows = _mapping(target, settings.targets.get(target, {}))
+        for mapped in rows:
             if mapped.construct in wanted:
-                yield f"`{target}`: {mapped.support.value}, {mapped.means}"
+                yield f"{said}: {mapped.support.value}, {mapped.means}"
 
 
 def prepare() -> None:
     """Import the targets, for which whoever asks first would have to wait."""
     for target in plugins.default_names():
-        _mapping(target)
+        _generator(target)
 
 
 @cache
-def _mapping(target: str) -> tuple[Mapped, ...]:
-    generator = plugins.load(target)
-    return generator.mapping if isinstance(generator, Generator) else ()
+def _generator(target: str) -> Generator | None:
+    found = plugins.load(target)
+    return found if isinstance(found, Generator) else None
+
+
+def _mapping(target: str, options: Mapping[str, str]) -> tuple[str, tuple[Mapped, ...]]:
+    """What a target with these options is called, and what it makes of constructs."""
+    generator = _generator(target)
+    if generator is None:
+        return f"`{target}`", ()
+    given = {f"{name}={value}" for name, value in options.items()}
+    for option, rows in generator.mapping_with.items():
+        if option in given:
+            return f"`{target}` with `{option}`", rows
+    return f"`{target}`", generator.mapping
 
 
 def _constructs(node: Node) -> Iterator[str]:

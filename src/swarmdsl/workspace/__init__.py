@@ -58,7 +58,7 @@ class Workspace:
         most: int | None = None,
     ) -> None:
         self._paths = paths
-        self._settings = settings
+        self.settings = settings
         self._desk = Desk(settings.levels, within, most)
         for path, text in texts.items():
             self._desk.edit(path, text)
@@ -154,7 +154,7 @@ class Workspace:
         return found
 
     def _collector(self) -> Diagnostics:
-        return Diagnostics(self._settings.levels)
+        return Diagnostics(self.settings.levels)
 
     def _found(self) -> Iterator[Diagnostic]:
         yield from self._loaded
@@ -181,7 +181,7 @@ class Workspace:
         desk.wanted.clear()
         desk.asked.clear()
         self._loaded = self._collector()
-        self.project = load(self._paths, self._loaded, self._settings.libraries, desk)
+        self.project = load(self._paths, self._loaded, self.settings.libraries, desk)
         if not self._paths:
             self._loaded.report("nothing-to-compile", path="[]")
         desk.tidy()
