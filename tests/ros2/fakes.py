@@ -170,7 +170,7 @@ class Fakes(Node):
 
 
 def wait_for(publisher, count=1):
-    end = time.monotonic() + 60
+    end = time.monotonic() + 30
     while publisher.get_subscription_count() < count and time.monotonic() < end:
         time.sleep(_STEP)
 
