@@ -153,12 +153,14 @@ def test_a_machine_alone_is_known_by_its_states(news: News, tmp_path: Path) -> N
     assert Page(news).told() == {"Guarding": ["Lie"]}
 
 
-def test_machines_alone_are_called_as_their_traces(news: News, tmp_path: Path) -> None:
+def test_of_several_machines_alone_each_is_called_as_its_trace_too(
+    news: News, tmp_path: Path
+) -> None:
     names = [str(tmp_path / name) for name in ("a.jsonl", "b.jsonl")]
     for name in names:
         Path(name).write_text(step(None, "Lie"), encoding="utf-8")
     follow(names, news, pytest.fail)
-    Page(news).until({name: ["Lie"] for name in names})
+    Page(news).until({f"Guarding ({name})": ["Lie"] for name in names})
 
 
 def test_a_line_that_is_none_of_a_trace_is_told_once(news: News, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from swarmdsl.preview.ros2 import _Ears
+from swarmdsl.preview.serving import News
 
 
 class Graph:
@@ -37,8 +38,8 @@ class Graph:
     def destroy_subscription(self, topic: str) -> None:
         del self.heard[topic]
 
-    def say(self, topic: str, *configuration: str) -> None:
-        said: dict[str, Any] = {"member": "dog[0]", "configuration": configuration}
+    def say(self, topic: str, *configuration: str, member: str | None = "dog[0]") -> None:
+        said: dict[str, Any] = {"member": member, "configuration": configuration}
         if topic == "transitions":
             names = ("entered", "exited", "taken", "started", "cancelled", "sent")
             said = {"t": 0, "event": None, **{name: [] for name in names}, **said}
@@ -58,13 +59,26 @@ class Told:
         self.places.append(None)
 
 
-@pytest.mark.parametrize("between", [set(), {1, 2}], ids=["ended", "killed"])
-def test_a_node_that_starts_again_between_two_looks(between: set[int]) -> None:
+def listening(graph: Graph, news: Any) -> _Ears:
     qos = SimpleNamespace(
         QoSProfile=lambda **chosen: chosen, DurabilityPolicy=SimpleNamespace(TRANSIENT_LOCAL=1)
     )
+    return _Ears(qos, None, graph, ["/yard"], news, pytest.fail)
+
+
+def test_a_machine_alone_is_called_as_its_node_whoever_else_is_there() -> None:
+    graph, news = Graph(), News()
+    ears = listening(graph, news)
+    graph.there = {1}
+    ears.look()
+    graph.say("transitions", "Lie", member=None)
+    assert next(news.follow()) == [{"active": {"/yard/dog": ["Lie"]}}]
+
+
+@pytest.mark.parametrize("between", [set(), {1, 2}], ids=["ended", "killed"])
+def test_a_node_that_starts_again_between_two_looks(between: set[int]) -> None:
     graph, told = Graph(), Told()
-    ears = _Ears(qos, None, graph, ["/yard"], told, pytest.fail)  # type: ignore[arg-type]
+    ears = listening(graph, told)
     ears.look()
     assert not graph.heard
     graph.there = {1}

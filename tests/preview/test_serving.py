@@ -329,6 +329,14 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
             assert time.monotonic() < deadline
             time.sleep(0.05)
         assert places.read_text(encoding="utf-8") == f"at 8:11 {model}\n"
+
+        # One of several machines alone is where its machine is, and nowhere else.
+        trace.write_text(step("Job (a.jsonl)", "Out.Rest"), encoding="utf-8")
+        expect(active).to_have_attribute("data-id", "Out.Rest")
+        expect(who).to_have_text(re.compile(r"^Job \(a\.jsonl\)"))
+        page.locator("#which").select_option("Rest.statechart")
+        expect(picture).to_contain_text("Nap")
+        expect(who).to_be_hidden()
         chromium.close()
     assert wrong == []
 

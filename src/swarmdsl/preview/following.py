@@ -32,8 +32,7 @@ def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]
     The first line of each that is none of a trace is told.
     """
     for name in names:
-        # A machine alone has no name: of several, each is called as its trace.
-        follower = Follower(name, name if len(names) > 1 else "", news, tell)
+        follower = Follower(name, len(names) > 1, news, tell)
         Thread(target=_read, args=(name, follower), daemon=True).start()
 
 
@@ -49,15 +48,15 @@ def _read(name: str, follower: Follower) -> None:
 class Follower:
     """Tells pages what the lines of one trace say, as they come.
 
-    A machine alone is called `alone`, or as the machine that it must be. The first line that is
-    none of a trace is told.
+    A machine alone is called as the machine that it must be, and is `one_of_several` also as its
+    trace: `Guarding (dog.jsonl)`. The first line that is none of a trace is told.
     """
 
     def __init__(
-        self, name: str, alone: str, news: News, tell: Callable[[Diagnostics], None]
+        self, name: str, one_of_several: bool, news: News, tell: Callable[[Diagnostics], None]
     ) -> None:
         self._name = name
-        self._alone = alone
+        self._one_of_several = one_of_several
         self._news = news
         self._tell = tell
         self._is_right = True
@@ -97,13 +96,14 @@ class Follower:
             self._news.move(self._name, active, _latest(steps))
 
     def _machine(self, value: dict[str, Any]) -> str:
-        """The name of a machine alone: the only one that has all states that it was in."""
-        if self._alone:
-            return self._alone
+        """What a machine alone is called: the only one that has all states that it was in."""
         self._seen.update(value["configuration"], value["entered"])
         states = self._news.pictures.states
         fitting = [name for name, ids in states.items() if self._seen <= ids]
-        return fitting[0] if len(fitting) == 1 else ""
+        machine = fitting[0] if len(fitting) == 1 else ""
+        if not self._one_of_several:
+            return machine
+        return f"{machine} ({self._name})" if machine else self._name
 
     def _complain(self, reason: str) -> None:
         if self._is_right:

@@ -130,8 +130,8 @@ class _Ears:
                 self._node.destroy_subscription(each)
             robot.gone()
         for owner in sorted(speaking.keys() - self._heard.keys()):
-            # Of several machines alone, each is called as its node.
-            robot = _Robot(Follower(owner, owner if self._heard else "", self._news, self._tell))
+            # There may be others, now or later.
+            robot = _Robot(Follower(owner, True, self._news, self._tell))
             listen = self._node.create_subscription
             self._heard[owner] = (
                 robot,

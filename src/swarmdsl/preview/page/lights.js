@@ -115,7 +115,7 @@ export class Lights {
 
   /** What the ids of a member's states begin with where they are in a diagram. */
   #prefixes(diagram, member) {
-    const role = member.replace(/\[\d+\]/, "");
+    const role = member.replace(/\[\d+\]| \(.*\)$/, ""); // dog[1], Guarding (dog.jsonl)
     if (this.#roles.has(role)) {
       return (this.#runs[diagram] ?? []).filter(([each]) => each === role).map((each) => each[1]);
     }
