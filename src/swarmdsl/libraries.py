@@ -11,7 +11,6 @@ from pathlib import Path
 
 from swarmdsl import resources
 from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.foreign import failure
 from swarmdsl.source import Span
 from swarmdsl.suggest import closest, did_you_mean
 from swarmdsl.syntax import Import, ImportLibrary
@@ -109,6 +108,8 @@ def installed_folders(report: Diagnostics) -> list[Path]:
     """The folders of libraries in installed Python packages."""
     # Imported here because it is slow and most models do without.
     from importlib.metadata import entry_points
+
+    from swarmdsl.foreign import failure
 
     found: dict[Path, None] = {}
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):

@@ -6,16 +6,15 @@ import os
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.folders import files_below
 from swarmdsl.graph import cycles
 from swarmdsl.libraries import SUFFIX, Libraries, imported_name, place_of
 from swarmdsl.parse import Parsed, parse
 from swarmdsl.reading import read_source, without_control_characters
 from swarmdsl.ros.interface_file import INTERFACE_KINDS, parse_interface
-from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
 from swarmdsl.source import Source, Span
 from swarmdsl.suggest import did_you_mean
 from swarmdsl.syntax import (
@@ -27,6 +26,9 @@ from swarmdsl.syntax import (
     Model,
     Optimization,
 )
+
+if TYPE_CHECKING:
+    from swarmdsl.ros.package_folder import InterfacePath
 
 _IMPORTED = "`swarmc import` makes a model of SCXML, ADF and AMF"
 _WAYS = {
@@ -208,6 +210,9 @@ class _Loader:
                 place = _relative(folder, wanted)
                 if not self._reader.allows(place, wanted.span, self._report):
                     return
+                # Imported here because most files import no interfaces.
+                from swarmdsl.ros.package_folder import find_interfaces
+
                 found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
@@ -271,6 +276,8 @@ def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
                 expected = f"a model, *{SUFFIX}"
                 report.report("not-a-file", path=path, actual=actual, expected=expected, help=help_)
             continue
+        from swarmdsl.folders import files_below
+
         found = files_below(path, SUFFIX)
         if not found:
             report.report("nothing-to-compile", path=path)

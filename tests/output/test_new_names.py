@@ -18,7 +18,7 @@ def test_a_new_name_is_recognized(tmp_path: Path) -> None:
     file.write_text(file.read_text() + "mine\n", encoding="utf-8")
     climb = skeleton("climb", "input pose: Pose")
     land = skeleton("land", "input state: State")
-    found = build(tmp_path, *climb, *land, command="swarmc build m.swarm")
+    found = build(tmp_path, *climb, *land, command=("swarmc", "build", "m.swarm"))
 
     assert names(found) == ["parked-code", "renamed-element"]
     assert found[1][1].message == "`climb` looks like `rise` under another name"

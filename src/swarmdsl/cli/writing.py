@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 import sys
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
@@ -108,11 +107,11 @@ class Writing:
     renames: tuple[tuple[str, str], ...]
 
     def how(self, *command: object) -> How:
-        """The same for whoever writes; `command` is what a person would repeat."""
+        """The same for whoever writes; `command` are the words that a person would repeat."""
         from swarmdsl.output import How
 
         dry = self.dry_run or self.diff
-        return How(self.force, dry, self.check, self.renames, shlex.join(map(str, command)))
+        return How(self.force, dry, self.check, self.renames, tuple(map(str, command)))
 
     def conclude(self, result: Result, format_: str) -> int:
         """Say what came of it, or what would; return the exit code."""

@@ -92,13 +92,13 @@ class How:
 
     `force` gives up what the user has written where it is in the way, except in files that are
     the user's to fill in. `dry` changes nothing; `check` does not either, and reports what would
-    change. `renames` are elements of the model that had another name. `command` is what a person
-    would repeat, `model` what the model is called.
+    change. `renames` are elements of the model that had another name. `command` are the words
+    that a person would repeat, `model` what the model is called.
     """
 
     force: bool = False
     dry: bool = False
     check: bool = False
     renames: Renames = ()
-    command: str = "swarmc build"
+    command: tuple[str, ...] = ("swarmc", "build")
     model: str = ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -101,9 +101,13 @@ def report_parked(place: Path, aside: Path, report: Diagnostics) -> None:
     report.report("parked-code", path=str(place), help=help_)
 
 
-def report_renamed(old: str, new: str, at: Span | None, command: str, report: Diagnostics) -> None:
+def report_renamed(
+    old: str, new: str, at: Span | None, command: Iterable[str], report: Diagnostics
+) -> None:
     """A new element is like one that is gone."""
-    help_ = f"if it is, `{command} --rename {old}={new}` moves your files"
+    import shlex  # which most builds need not wait for
+
+    help_ = f"if it is, `{shlex.join(command)} --rename {old}={new}` moves your files"
     report.report("renamed-element", at, old=old, new=new, help=help_)
 
 

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostic, Diagnostics, Severity
-from swarmdsl.exchange.scxml.profile import HELP
 from swarmdsl.generator import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
 
@@ -63,6 +62,8 @@ def _report_left_out(
     path: str, machine: StateMachine, found: Diagnostics, report: Diagnostics
 ) -> None:
     """Warn that one of two files is missing, at the first thing that stands in its way."""
+    from swarmdsl.exchange.scxml.profile import HELP
+
     first, *others = _errors(found)
     notes = [first.message]
     if others:
