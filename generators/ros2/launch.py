@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value
-from swarmdsl.exchange.nodes import behavior_name, bringup_package, has_node
+from swarmdsl.exchange.nodes import behavior_nodes, bringup_package, has_node
 from swarmdsl.exchange.wiring import Remaps, check_wiring, wiring
 from swarmdsl.ir import Member, Role, Swarm, System
 from swarmdsl.naming import fresh, snake_case
@@ -104,23 +104,10 @@ def _roles(
 def _nodes(
     member: Member, system: System, modules: Mapping[str, str], report: Diagnostics
 ) -> Iterator[LaunchedNode]:
-    machines = {machine.name: machine for machine in system.machines}
-    components = {component.name: component for component in system.components}
-    if member.behavior is not None:
-        machine = machines[member.behavior]
-        module = modules[machine.name]
-        values = given(machine, member.params, {}, (), report)
-        yield LaunchedNode(module, module, None, values)
-    wired = wiring(member, system)
-    for part in member.parts:
-        component = components[part.component]
-        if component.behavior is not None:
-            machine = machines[component.behavior]
-            inside = dict(part.values)
-            values = given(machine, component.params, inside, member.params, report)
-            name = behavior_name(part, component, member)
-            remaps = wired.remaps(part.name)
-            yield LaunchedNode(modules[machine.name], name, part.name, values, remaps)
+    for node in behavior_nodes(member, system):
+        module = modules[node.machine.name]
+        name = node.name if node.part is not None else module
+        yield LaunchedNode(module, name, node.part, given(node, report), node.remaps)
 
 
 def configuration(role: LaunchedRole, head: Iterable[str]) -> str:

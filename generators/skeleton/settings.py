@@ -8,13 +8,10 @@ from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value, constant, params_by_name
 from swarmdsl.ir import Array, Expression, Param, Primitive
-from swarmdsl.ir.types import FLOATS
+from swarmdsl.ros_parameters import parameter_value
 from swarmdsl.source import Span
 
 from .names import TARGET, identifiers
-
-_BITS = {1: 32, 2: 64}
-"""Of a whole number in a parameter, by the generation of ROS: XML-RPC has less of them."""
 
 
 @dataclass(frozen=True)
@@ -54,19 +51,12 @@ def value_of(
     ros: int,
     report: Diagnostics,
 ) -> Value | None:
-    """A value as a parameter holds it, None where it is not known; ROS tells 1 and 1.0 apart."""
+    """A value that the model gives, as a parameter holds it; None where it is not known."""
     value = constant(given, known)
-    if isinstance(type_, Primitive) and type_.name in (*FLOATS, "duration"):
-        return float(value) if isinstance(value, int) else value
-    greatest = 2 ** (_BITS[ros] - 1) - 1
-    if isinstance(value, int) and not -greatest - 1 <= value <= greatest:
-        bound = f"at least {-greatest - 1}" if value < 0 else f"at most {greatest}"
-        way_out = f"a whole number in a parameter of ROS {ros} is {bound}"
-        _unsupported(f"a param of {value}", given.origin, report, way_out)
-    return value
+    if value is None:
+        return None
+    return parameter_value(value, type_, ros, given.origin, TARGET, report)
 
 
-def _unsupported(
-    construct: str, at: Span | None, report: Diagnostics, way_out: str | None = None
-) -> None:
-    report.report("unsupported-construct", at, target=TARGET, construct=construct, help=way_out)
+def _unsupported(construct: str, at: Span | None, report: Diagnostics) -> None:
+    report.report("unsupported-construct", at, target=TARGET, construct=construct)

@@ -3,35 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 
-from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.exchange.constants import Value
 from swarmdsl.exchange.nodes import Given
-from swarmdsl.ir import Primitive
-from swarmdsl.ir.types import FLOATS
 from swarmdsl.python_source import comment_lines
 
-from .module import TARGET
 from .robots import Fleet, Robot
-
-_LEAST, _GREATEST = -(2**31), 2**31 - 1
-"""What a whole number may be on the parameter server, which is told by XML-RPC."""
-
-
-def check_params(robots: Iterable[Robot], report: Diagnostics) -> None:
-    """Report whole numbers that the parameter server does not hold."""
-    for given in (given for robot in robots for node in robot.nodes for given in node.params):
-        value = _value(given)
-        if isinstance(value, int) and not _LEAST <= value <= _GREATEST:
-            bound = f"at least {_LEAST}" if value < 0 else f"at most {_GREATEST}"
-            report.report(
-                "unsupported-construct",
-                given.expression.origin if given.expression is not None else given.param.origin,
-                target=TARGET,
-                construct=f"a param of {value}",
-                help=f"a whole number in a parameter of ROS 1 is {bound}",
-            )
 
 
 def robot_params(robot: Robot, header: str) -> str:
@@ -55,7 +32,7 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
     ]
     for node in robot.nodes:
         lines += ["#", f"# {node.name}:"]
-        lines += [f"#   {given.param.name}: {_text(_value(given))}" for given in node.params]
+        lines += [f"#   {given.param.name}: {_text(given.value)}" for given in node.params]
         lines.append("#   introspection: true")
     return "\n".join(lines) + "\n"
 
@@ -63,14 +40,7 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
 def _line(given: Given) -> str:
     if given.value is None:
         return f"  # {given.param.name}: needs a value of type {given.param.type}"
-    return f"  {given.param.name}: {_text(_value(given))}"
-
-
-def _value(given: Given) -> Value | None:
-    """The value, a number of a float as such: a greater one is no whole number for ROS."""
-    type_ = given.param.type
-    is_float = isinstance(type_, Primitive) and type_.name in FLOATS
-    return float(given.value) if is_float and isinstance(given.value, int) else given.value
+    return f"  {given.param.name}: {_text(given.value)}"
 
 
 def _text(value: Value | None) -> str:

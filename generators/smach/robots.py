@@ -12,6 +12,7 @@ from swarmdsl.exchange.wiring import check_wiring, wiring
 from swarmdsl.generator import NoOptions
 from swarmdsl.ir import Environment, Member, Role, Swarm, System
 from swarmdsl.naming import snake_case
+from swarmdsl.ros_parameters import with_parameters
 
 from .module import TARGET
 
@@ -70,7 +71,11 @@ def robots(
     components = Components(bringup_package(system), unasked)
     found = []
     for member in system.members:
-        nodes = tuple(n for n in behavior_nodes(member, system) if n.machine.name in machines)
+        nodes = tuple(
+            with_parameters(node, 1, TARGET, report)
+            for node in behavior_nodes(member, system)
+            if node.machine.name in machines
+        )
         name = snake_case(member.name)
         if nodes:
             check_wiring(wiring(member, system), TARGET, report)

@@ -38,7 +38,6 @@ from .launch import world_file
 from .module import TARGET, Container, Function, Module
 from .names import NAMES
 from .options import Options
-from .parameters import check_params
 from .readme import Rows, uses
 from .robots import Components, Fleet, Robot, fleets, robots
 from .statements import STEP
@@ -168,7 +167,6 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
     event_views = _event_views(events, constants, event_imports)
     launched = {machine.name for machine in machines}
     made = robots(system, launched, options.components, report)
-    check_params(made, report)
     bringup = {each.components.package for each in made if each.components is not None}
     depends = [
         ("buildtool_depend", "catkin"),

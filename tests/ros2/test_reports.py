@@ -111,7 +111,7 @@ statemachine Work {
         (
             MACHINE.replace("initial", "param big : uint64 = 9223372036854775808\n  initial", 1),
             "unsupported-construct",
-            "a param of 9223372036854775808, more than a parameter holds",
+            "a param of 9223372036854775808",
             "9223372036854775808",
         ),
         (
@@ -123,7 +123,7 @@ statemachine Work {
             swarm All { uavs : Uav [1..2]  rovers : Rover [1..2]  others : Rover [1..2] }
             """,
             "unsupported-construct",
-            "a param of 9223372036854775808, more than a parameter holds",
+            "a param of 9223372036854775808",
             "9223372036854775808",
         ),
         (

@@ -24,12 +24,14 @@ class Given:
 class BehaviorNode:
     """A machine that runs, what its node is called, and the values of its params there.
 
+    `part` is the part of the member whose behaviour it is; None for that of the member itself.
     `remaps` are those of the topics that connectors put elsewhere.
     """
 
     name: str
     machine: StateMachine
     params: tuple[Given, ...]
+    part: str | None = None
     remaps: Remaps = ()
 
 
@@ -49,7 +51,7 @@ def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
             values, around = dict(part.values), params_by_name(member.params)
             params = _given(machine, component.params, values, around)
             name = behavior_name(part, component, member)
-            yield BehaviorNode(name, machine, params, wired.remaps(part.name))
+            yield BehaviorNode(name, machine, params, part.name, wired.remaps(part.name))
 
 
 def bringup_package(system: System) -> str:
