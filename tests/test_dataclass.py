@@ -49,6 +49,10 @@ class Request:
         return "a request"
 
 @dataclass
+class Tagged(Node):
+    tag: str = ""
+
+@dataclass
 class Counts:
     files: int
     names: dict[str, int] = field(default_factory=dict)
@@ -67,6 +71,7 @@ CALLS = [
     "Request('smach')",
     "Counts(1)",
     "Counts(1, {'a': 2}, more=3)",
+    "Tagged(1, 'x')",
 ]
 WRONG_CALLS = [
     "Node()",

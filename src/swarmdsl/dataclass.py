@@ -146,18 +146,21 @@ def _first_init(frozen: bool) -> Callable[..., None]:
             owner = next(cls for cls in type(self).__mro__ if vars(cls).get("__init__") is first)
             shape = _Shape(owner)
         left -= 1
+        right = len(arguments) <= len(shape.positional)
         values = shape.constants.copy()
         for name, make in shape.factories:
             values[name] = make()
         values.update(zip(shape.positional, arguments))  # noqa: B905 - of fewer or more
-        right = len(arguments) <= len(shape.positional)
         if named:
             values.update(named)
             twice = not named.keys().isdisjoint(shape.positional[: len(arguments)])
             right = right and named.keys() <= shape.accepted and not twice
         if right and len(values) == shape.complete and left >= 0:
-            for name, value in values.items():
-                _set(self, name, value)
+            if shape.in_dict:
+                vars(self).update(values)
+            else:
+                for name, value in values.items():
+                    _set(self, name, value)
         else:
             init = shape.owner.__init__ = _init(shape.owner, frozen)
             init(self, *arguments, **named)
@@ -179,6 +182,8 @@ class _Shape:
         self.factories = [
             (name, of["default_factory"]) for name, of in parts.items() if "default_factory" in of
         ]
+        slots = [name for name in parts if hasattr(getattr(owner, name, None), "__set__")]
+        self.in_dict = owner.__dictoffset__ != 0 and not slots
         self.complete = len({*self.accepted, *self.constants, *dict(self.factories)})
 
 
