@@ -6,7 +6,8 @@ mean is reported and stays None; later phases pass over it without a word.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from typing import Any, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics
@@ -256,6 +257,7 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
     if swarm is None:
         return
     roles = _named(swarm.items, Role)
+    params_of = cache(_params)
     for item in owner.items:
         if not isinstance(item, (CountRange, ParamRange)):
             continue
@@ -267,7 +269,7 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
             continue
         member = item.role.target.member.target
         if isinstance(item, ParamRange) and member is not None:
-            params = _named(all_items(member, Param), Param)
+            params = params_of(member)
             item.param.target = params.get(item.param.name)
             if item.param.target is None and item.param.name not in scope.lost:
                 kind = f"param of member `{member.name}`"
@@ -280,23 +282,23 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
 def _link_member(member: Member, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the two ends of each connector."""
     parts = _named(all_items(member, Part), Part)
-    own = _named(all_items(member, Port), Port)
+    ports = cache(_ports)
     for item in member.items:
         if isinstance(item, Connector):
             for end in (item.source, item.target):
-                _link_port(end, member, parts, own, scope, report)
+                _link_port(end, member, parts, ports, scope, report)
 
 
 def _link_port(
     end: PortRef,
     member: Member,
     parts: Mapping[str, Part],
-    own: Mapping[str, Port],
+    ports: Callable[[Component | Member], Mapping[str, Port]],
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
     if end.part is None:
-        name = end.port.name
+        name, own = end.port.name, ports(member)
         end.port.target = own.get(name)
         kind = f"port of member `{member.name}`"
         if end.port.target is None and name in parts:
@@ -313,8 +315,16 @@ def _link_port(
     component = end.part.target.component.target
     if component is None:
         return
-    ports = _named(all_items(component, Port), Port)
-    end.port.target = ports.get(end.port.name)
+    known = ports(component)
+    end.port.target = known.get(end.port.name)
     if end.port.target is None and end.port.name not in scope.lost:
         kind = f"port of {bare(kind_of(component))} `{component.name}`"
-        report_unresolved(kind, end.port.name, end.port.span, ports, None, report)
+        report_unresolved(kind, end.port.name, end.port.span, known, None, report)
+
+
+def _ports(owner: Component | Member) -> dict[str, Port]:
+    return _named(all_items(owner, Port), Port)
+
+
+def _params(member: Member) -> dict[str, Param]:
+    return _named(all_items(member, Param), Param)

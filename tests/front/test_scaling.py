@@ -104,6 +104,17 @@ MODELS = {
         + repeated("c<i> : C\nd<i> : D\nconnect c<i>.a -> d<i>.a", count)
         + "}"
     ),
+    "connectors of unknown ports": lambda count: (
+        HEAD
+        + f"controller C {{ {repeated('out a<i> : std_msgs/Empty', count)} }}\n"
+        + f"controller D {{ {repeated('in a<i> : std_msgs/Empty', count)} }}\n"
+        + f"member R {{ c : C d : D {repeated('connect c.b<i> -> d.a<i>', count)} }}"
+    ),
+    "unknown params": lambda count: (
+        HEAD
+        + f"controller C {{ {repeated('param a<i> : int32 = 0', count)} }}\n"
+        + f"member R {{ c : C {{ {repeated('b<i> = 1', count)} }} }}"
+    ),
     "unknown types": each("struct S<i> { a : Missing<i> }"),
     "unknown states": machine("state S<i> { on Go -> T<i> }", "initial S0\n<>"),
     "unknown values": each("const K<i> : int32 = missing<i>"),

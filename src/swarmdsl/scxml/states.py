@@ -228,12 +228,10 @@ class _Reader:
         targets = tuple(written.split())
         for target in targets:
             if target not in self.ids:
-                self.report.report(
-                    "unknown-state",
-                    self.document.at(node, attribute, target),
-                    name=target,
-                    help=suggest(target, self.ids, "states"),
-                )
+                place = self.document.at(node, attribute, target)
+                hints = self.report.wants_hint("unknown-state")
+                help_ = suggest(target, self.ids, "states") if hints else None
+                self.report.report("unknown-state", place, name=target, help=help_)
         return targets
 
     def _check_inside(

@@ -166,12 +166,8 @@ def _check_part(part: Part, context: Context) -> None:
     for value in part.values:
         param = params.get(str(value.name))
         if param is None:
-            context.report.report(
-                "unknown-param",
-                value.name.span,
-                owner=f"{bare(kind_of(component))} `{component.name}`",
-                name=value.name,
-                help=suggest(value.name, params, "params"),
+            context.report_unknown_param(
+                value.name, f"{bare(kind_of(component))} `{component.name}`", params
             )
         else:
             context.expect(value.value, param.type.type, context.typing)

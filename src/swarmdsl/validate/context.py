@@ -15,6 +15,7 @@ from swarmdsl.load import Project
 from swarmdsl.ros.interface_file import INTERFACE_KINDS
 from swarmdsl.scopes import kind_of
 from swarmdsl.source import Span
+from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Branch,
     Declaration,
@@ -152,6 +153,12 @@ class Context:
                     item=f"{what} `{name}`",
                     related=(Label(earlier.span, "first given here"),),
                 )
+
+    def report_unknown_param(self, name: Word, owner: str, params: Iterable[str]) -> None:
+        """Report a value for a param that its owner does not have."""
+        hints = self.report.wants_hint("unknown-param")
+        help_ = suggest(name, params, "params") if hints else None
+        self.report.report("unknown-param", name.span, owner=owner, name=name, help=help_)
 
     def check_single(self, places: list[Span], what: str) -> None:
         """Report the second and later ones of something that may be given once."""

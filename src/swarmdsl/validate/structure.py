@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from swarmdsl.diagnostics import Label
 from swarmdsl.link_machines import all_resolved, content, regions
-from swarmdsl.suggest import suggest
 from swarmdsl.syntax import (
     Activity,
     Choice,
@@ -121,13 +120,8 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
     for binding in state.bindings:
         param = params.get(str(binding.name))
         if param is None:
-            context.report.report(
-                "unknown-param",
-                binding.name.span,
-                owner=f"state machine `{machine.name}`",
-                name=binding.name,
-                help=suggest(binding.name, params, "params"),
-            )
+            owner = f"state machine `{machine.name}`"
+            context.report_unknown_param(binding.name, owner, params)
         else:
             context.expect(binding.value, param.type.type, context.typing)
     _check_foreign_params(state.machine, machine, context)

@@ -38,7 +38,7 @@ from swarmdsl.workspace.units import Unit, with_users
 _DEFAULTS = Settings()
 _NO_TEXTS: Mapping[Path, str] = {}
 # What looks for names that may be meant, as long as there are not too many of them.
-_HINTED = ("unresolved-name", "unknown-field")
+_HINTED = ("unresolved-name", "unknown-field", "unknown-param")
 
 
 class Workspace:
