@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 
 from swarmdsl.naming import camel_case, snake_case
@@ -45,11 +44,26 @@ def _upper_case(name: str) -> str:
     return snake_case(name).upper()
 
 
-# What names look like, how that is called, and how another name becomes such a one.
-_Style = tuple[re.Pattern[str], str, Callable[[str], str]]
-_CAMEL: _Style = re.compile(r"[A-Z][A-Za-z0-9]*"), "CamelCase", camel_case
-_SNAKE: _Style = re.compile(r"[a-z][a-z0-9_]*"), "snake_case", snake_case
-_UPPER: _Style = re.compile(r"[A-Z][A-Z0-9_]*"), "UPPER_CASE", _upper_case
+# Names have letters, digits and `_`, all ASCII.
+
+
+def _is_camel_case(name: str) -> bool:
+    return name[:1].isupper() and "_" not in name
+
+
+def _is_snake_case(name: str) -> bool:
+    return name[:1].islower() and name.islower()
+
+
+def _is_upper_case(name: str) -> bool:
+    return name[:1].isupper() and name.isupper()
+
+
+# Whether a name looks so, how that is called, and how another name becomes such a one.
+_Style = tuple[Callable[[str], bool], str, Callable[[str], str]]
+_CAMEL: _Style = _is_camel_case, "CamelCase", camel_case
+_SNAKE: _Style = _is_snake_case, "snake_case", snake_case
+_UPPER: _Style = _is_upper_case, "UPPER_CASE", _upper_case
 
 _STYLES = {
     **dict.fromkeys((StructType, EnumType, AliasType, Event, Component), _CAMEL),
@@ -65,11 +79,11 @@ def check_style(declaration: Declaration, context: Context) -> None:
     for kind, nodes in by_class(declaration).items():
         if kind not in _STYLES:
             continue
-        style, written, better = _STYLES[kind]
+        is_so, written, better = _STYLES[kind]
         for node in nodes:
             name = node.name
             reserved = kind is Event and name in RESERVED_EVENTS
-            if not style.fullmatch(name) and not reserved:
+            if not is_so(name) and not reserved:
                 context.report.report(
                     "naming-style",
                     name.span,
