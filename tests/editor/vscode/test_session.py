@@ -53,15 +53,13 @@ def test_the_server_of_the_extension_runs_with_any_python(window: Window) -> Non
 
 def test_hover(window: Window) -> None:
     window.place("behaviours.swarm", "uav_coverage(")
-    window.command("Show or Focus Hover")
-    hover = window.page.locator(".monaco-hover .hover-contents").last
-    expect(hover).to_contain_text("Sweep the whole area")
+    hover = window.page.locator(".monaco-hover .hover-contents", has_text="Sweep the whole area")
+    window.again(lambda: window.command("Show or Focus Hover"), hover.last)
 
 
 def test_definition(window: Window) -> None:
     window.place("behaviours.swarm", "uav_coverage(")
-    window.press("F12")
-    expect(window.tab("functions.swarm")).to_have_count(1)
+    window.again(lambda: window.press("F12"), window.tab("functions.swarm"))
     line = text(window, "functions.swarm").split("\n").index("function uav_coverage : swarm {") + 1
     window.at(line, len("function ") + 1)
 
@@ -96,10 +94,9 @@ def test_a_mistake_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
     window.page.keyboard.type("a")
     expect(window.page.locator(".squiggly-error").first).to_be_visible()
     expect(window.problems().filter(has_text="no state called")).to_have_count(1)
-    window.command("View: Focus Active Editor Group")
-    window.press("Control+.")
-    action = window.page.locator(".action-widget .monaco-list-row", has_text="Coverage")
-    expect(action.first).to_be_visible()
+    window.focus()
+    window.mend()
+    expect(window.page.locator(".action-widget .focused")).to_contain_text("Coverage")
     window.press("Enter")
     expect(window.page.locator(".squiggly-error")).to_have_count(0)
     window.saved("behaviours.swarm", lambda now: now == before)
@@ -107,10 +104,7 @@ def test_a_mistake_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
 
 def test_rename_across_files(window: Window) -> None:
     window.place("behaviours.swarm", "uav_coverage(")
-    window.press("F2")
-    entry = window.page.locator(".rename-box input")
-    entry.fill("sweep_all")
-    window.press("Enter")
+    window.rename("sweep_all")
     expect(window.line("do sweep_all(altitude")).to_have_count(1)
     window.saved("functions.swarm", lambda now: "function sweep_all : swarm {" in now)
     window.saved(
@@ -139,14 +133,13 @@ def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -
     before = text(window, "behaviours.swarm")
     window.place("behaviours.swarm", "ing", after="on succeeded -> Track")
     window.command("Explorer: Focus on Outline View")
-    window.command("View: Focus Active Editor Group")
+    window.focus()
     window.press("Delete")
-    window.problems()
-    window.command("View: Focus Active Editor Group")
+    expect(window.problems().filter(has_text="no state called")).to_have_count(1)
+    window.focus()
     if pytestconfig.getoption("--bless"):
         window.page.wait_for_timeout(3000)  # what stands between the lines follows later
-    window.press("Control+.")
-    expect(window.page.locator(".action-widget .monaco-list-row")).not_to_have_count(0)
+    window.mend()
     photograph(window, pytestconfig, tmp_path, "vscode")
     window.press("Enter")
     window.saved("behaviours.swarm", lambda now: now == before)
@@ -155,8 +148,7 @@ def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -
 def test_uses_stand_above_a_declaration_and_lead_there(window: Window) -> None:
     window.open("behaviours.swarm")
     lens = window.page.locator(".codelens-decoration a", has_text="1 reference").first
-    lens.click()
-    expect(window.page.locator(".zone-widget")).to_be_visible()
+    window.again(lens.click, window.page.locator(".zone-widget"))
     window.press("Escape")
 
 
@@ -182,9 +174,7 @@ def test_the_preview_follows_the_text_and_leads_to_it(
     window.at(line, len("      state ") + 1)
     expect(picture.locator(".marked")).to_contain_text("Drive")
 
-    window.press("F2")
-    window.page.locator(".rename-box input").fill("Travel")
-    window.press("Enter")
+    window.rename("Travel")
     expect(picture.get_by_text("Travel", exact=True)).to_be_visible()
     window.page.keyboard.type("!")
     expect(page.locator("#state")).to_contain_text("this is how it was before")

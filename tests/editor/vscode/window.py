@@ -16,12 +16,21 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from playwright.sync_api import FrameLocator, Locator, Page, expect, sync_playwright
+from playwright.sync_api import (
+    Error,
+    FrameLocator,
+    Locator,
+    Page,
+    expect,
+    sync_playwright,
+)
 
 from . import environment
 
 # Of what a page does, in milliseconds: machines that do other things besides are slow.
 PATIENCE = 120_000
+# After which what shows nothing is done again: keys may be lost while a page does other things.
+_SOON = 10_000
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
     "chat.disableAIFeatures": True,
@@ -57,25 +66,63 @@ class Window:
         self.folder = folder
         self.press = page.keyboard.press
 
+    def again(self, act: Callable[[], object], seen: Locator) -> None:
+        """Do something until it is seen."""
+        deadline = time.monotonic() + PATIENCE / 1000
+        while True:
+            try:
+                act()
+                expect(seen).to_be_visible(timeout=_SOON)
+                return
+            except (AssertionError, Error):
+                if time.monotonic() > deadline:
+                    raise
+
     def command(self, title: str) -> None:
         """Run a command by its title, as the palette has it."""
-        self._ask("F1", f">{title}").locator(
-            ".monaco-list-row", has=self.page.get_by_text(title, exact=True)
-        ).first.click()
+        self._pick("F1", f">{title}", title)
 
     def open(self, name: str, line: int = 1, column: int = 1) -> None:
         """Open a file of the folder, with the cursor at a place in it."""
-        self._ask("Control+p", f"{name}:{line}:{column}").locator(
-            ".monaco-list-row", has=self.page.get_by_text(name, exact=True)
-        ).first.click()
+        self._pick("Control+p", f"{name}:{line}:{column}", name)
         expect(self.tab(name)).to_have_count(1)
         self.at(line, column)
 
-    def _ask(self, key: str, text: str) -> Locator:
-        """Open the field that a key opens, and write into it."""
-        self.press(key)
-        self._entry.fill(text)
-        return self._asked
+    def _pick(self, key: str, text: str, title: str) -> None:
+        """Write into the field that a key opens, and choose what it lists by its title."""
+        row = self._asked.locator(
+            ".monaco-list-row", has=self.page.get_by_text(title, exact=True)
+        ).first
+
+        def ask() -> None:
+            self.press(key)
+            self._entry.fill(text, timeout=_SOON)
+
+        self.again(ask, row)
+        row.click()
+
+    def focus(self) -> None:
+        """Go back to the text."""
+        self.command("View: Focus Active Editor Group")
+        self._focused()
+
+    def _focused(self) -> None:
+        """Wait until keys go to the text."""
+        expect(self.page.locator(".editor-instance .monaco-editor.focused")).to_have_count(1)
+
+    def mend(self) -> None:
+        """Show the quick fixes at the cursor; the first is chosen."""
+        first = self.page.locator(".action-widget .monaco-list-row.focused")
+        self.again(lambda: self.press("Control+."), first)
+
+    def rename(self, name: str) -> None:
+        """Give what is at the cursor another name."""
+        entry = self.page.locator(".rename-box input")
+        self.again(lambda: self.press("F2"), entry)
+        entry.fill(name)
+        entry.press("Enter")
+        expect(entry).to_be_hidden()
+        self._focused()
 
     @property
     def _asked(self) -> Locator:
@@ -114,7 +161,9 @@ class Window:
 
     def leave(self) -> None:
         """Close what asks for something, and all files; there are no changes to save."""
+        deadline = time.monotonic() + PATIENCE / 1000
         while self._asked.count():
+            assert time.monotonic() < deadline, self._asked.inner_text()
             # Without waiting for it: it may be closing.
             self._entry.evaluate_all("all => all.forEach(each => each.focus())")
             self.press("Escape")
@@ -126,8 +175,9 @@ class Window:
         return self.page.locator(f".tab.active[data-resource-name='{name}']")
 
     def at(self, line: int, column: int) -> None:
-        """Wait until the cursor is at a place."""
+        """Wait until the cursor is at a place, where keys go."""
         expect(self.status("status.editor.selection")).to_contain_text(f"Ln {line}, Col {column}")
+        self._focused()
 
     def place(self, name: str, text: str, after: str = "") -> None:
         """Open a file with the cursor at the first `text` after the first `after`."""
@@ -160,13 +210,13 @@ class Window:
         return self.page.locator(".editor-instance .view-line", has_text=_spaced(text))
 
     def saved(self, name: str, right: Callable[[str], bool]) -> None:
-        """Save all files, and wait until one of them is as it should be."""
-        self.command("File: Save All Files")
+        """Save all files until one of them is as it should be: what changes it may come later."""
         file = self.folder / name
         deadline = time.monotonic() + PATIENCE / 1000
         while not right(file.read_text(encoding="utf-8")):
             assert time.monotonic() < deadline, file.read_text(encoding="utf-8")
-            self.page.wait_for_timeout(50)
+            self.command("File: Save All Files")
+            self.page.wait_for_timeout(100)
 
     @contextmanager
     def settings(self, settings: Mapping[str, object]) -> Iterator[None]:
@@ -174,8 +224,10 @@ class Window:
         file = self.folder / ".vscode" / "settings.json"
         file.parent.mkdir(exist_ok=True)
         file.write_text(json.dumps(settings), encoding="utf-8")
-        yield
-        file.write_text("{}", encoding="utf-8")
+        try:
+            yield
+        finally:
+            file.write_text("{}", encoding="utf-8")
 
     def problems(self) -> Locator:
         """The rows of the view of problems, files and what is wrong in them."""
