@@ -95,11 +95,12 @@ def _parse_carefully(source: Source, report: Diagnostics) -> Parsed:
     if checkout_root() and grammar_checksum() != swarm_parser.GRAMMAR:
         warnings.warn("grammar/*.tx has changed: run `make parser`", stacklevel=3)
     scanned = scan(source, report)
-    whole = None if scanned.faults else _parse_text(source)
+    # What was refused before is wrong or nested deeply: it need not be parsed again to be wrong.
+    whole = None if scanned.faults else _failure(source) or _parse_text(source)
     if isinstance(whole, Model):
         parsed = Parsed(whole)
     else:
-        parsed = parse_with_recovery(source, scanned, _parse_text, report)
+        parsed = parse_with_recovery(source, scanned, _parse_text, report, whole)
     _attach(parsed, scanned.docs, report)
     _report_faults(parsed, report)
     return parsed
@@ -111,11 +112,19 @@ def _parse_text(source: Source) -> Model | Failure:
         model, _ = made
         model.span = Span(source, 0, len(source.text))
         return model
+    failure = _failure(source)
+    assert failure is not None, "the two parsers disagree"
+    return failure
+
+
+def _failure(source: Source) -> Failure | None:
+    """Where a text departs from the grammar, if it does."""
     from swarmdsl.peg.machine import mismatch
     from swarmdsl.syntax_errors import TERMINALS, Failure
 
     found = mismatch(swarm_parser.PROGRAM, swarm_parser.TERMINALS, swarm_parser.BLANK, source.text)
-    assert found is not None, "the two parsers disagree"
+    if found is None:
+        return None
     expected = (
         name if name in TERMINALS else f"`{literal or regex}`"
         for regex, name, literal in found.expected

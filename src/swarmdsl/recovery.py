@@ -40,10 +40,17 @@ _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
 def parse_with_recovery(
-    source: Source, scanned: Scan, parser: Parser, report: Diagnostics
+    source: Source,
+    scanned: Scan,
+    parser: Parser,
+    report: Diagnostics,
+    failure: Failure | None = None,
 ) -> Parsed:
-    """Parse a text with a syntax error, which is reported."""
-    return _Recovery(source, scanned, parser, report).parse()
+    """Parse a text with a syntax error, which is reported.
+
+    `failure` is what the parser says of the text as it is, if that is known.
+    """
+    return _Recovery(source, scanned, parser, report).parse(failure)
 
 
 class _Recovery:
@@ -55,8 +62,8 @@ class _Recovery:
         self._parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
         self._read = 0
 
-    def parse(self) -> Parsed:
-        """Parse what can be read of the text."""
+    def parse(self, failure: Failure | None) -> Parsed:
+        """Parse what can be read of the text, of which the first failure may be known."""
         parsed, source = self._parsed, self._source
         draft = untouched(source.text).repaired(*self._scanned.repairs)
         if self._scanned.hopeless is not None:
@@ -68,7 +75,8 @@ class _Recovery:
         failed: set[int] = set()
         doubtful: list[tuple[int, int]] = []
         for _ in range(_ERRORS_PER_DECLARATION):
-            result = self._parser(Source(source.name, draft.text))
+            result = failure or self._parser(Source(source.name, draft.text))
+            failure = None
             if isinstance(result, Model):
                 parsed.repaired |= draft.restore(result, source)
                 if damaged:

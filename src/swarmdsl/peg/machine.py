@@ -45,13 +45,15 @@ def mismatch(
     furthest, expected = -1, set[MachineTerminal]()
     # Where to go on, and at which offset: None where a call returns.
     stack: list[tuple[int, int | None]] = []
-    address = at = 0
+    address = at = begin = 0
+    skipped = -1
     while True:
         operation, number = program[address]
         address += 1
         if operation == MATCH:
-            blanks = skip(text, at)
-            begin = blanks.end() if blanks is not None else at
+            if at != skipped:  # several terminals are tried in one place
+                skipped, blanks = at, skip(text, at)
+                begin = blanks.end() if blanks is not None else at
             found = _matcher(terminals[number][0])(text, begin)
             if found is not None:
                 at = found.end()
