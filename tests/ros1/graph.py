@@ -8,8 +8,10 @@ import signal
 import socket
 import subprocess
 import tempfile
+import threading
 import time
 import xmlrpc.client
+import xmlrpc.server
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -100,6 +102,54 @@ class Graph:
         """Wait until a node is known to the master."""
         what = f"{name} is not known"
         wait_until(lambda: self.master.lookupNode("/test", name)[0] == 1, what, 60)  # type: ignore[index]
+
+    def wait_for_link(self, topic: str) -> None:
+        """Wait until who publishes on a topic knows somebody who hears it."""
+
+        def linked() -> bool:
+            publishers: Any = self.master.getSystemState("/test")
+            for node in dict(publishers[2][0]).get(topic, ()):
+                found: Any = self.master.lookupNode("/test", node)
+                with xmlrpc.client.ServerProxy(found[2]) as proxy:
+                    links: Any = proxy.getBusInfo("/test")
+                if any(link[2] == "o" and link[4] == topic for link in links[2]):
+                    return True
+            return False
+
+        wait_until(linked, f"nobody hears {topic}")
+
+    def interrupt(self, command: list[str], call: str, environment: dict[str, str]) -> int:
+        """The exit code of a node to which SIGTERM comes while it waits for a call of the master.
+
+        `call` is the first of that name: `registerPublisher`. Raises TimeoutExpired for a node
+        that does not end.
+        """
+        master = self.master
+
+        class Between:
+            """Hands on what a node asks the master, the one call late."""
+
+            process: subprocess.Popen[Any] | None = None
+
+            def _dispatch(self, method: str, arguments: Any) -> Any:
+                if method == call and self.process is not None:
+                    self.process.send_signal(signal.SIGTERM)
+                    self.process = None
+                    time.sleep(0.3)
+                return getattr(master, method)(*arguments)
+
+        between = Between()
+        with xmlrpc.server.SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False) as server:
+            server.register_instance(between)
+            threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
+            uri = f"http://127.0.0.1:{server.server_address[1]}"
+            environment = {**environment, "ROS_MASTER_URI": uri}
+            between.process = process = self.start(command, output=call, env=environment)
+            try:
+                return process.wait(20)
+            finally:
+                self.end(process)
+                server.shutdown()
 
     def end(self, process: subprocess.Popen[Any]) -> None:
         """End one of the processes."""

@@ -85,3 +85,12 @@ def test_while_a_server_is_missing(function: str, world: World) -> None:
     work.publish({"move": "Go", "ask": "Stop"}[function])
     node.wait_in({"move": "Moving", "ask": "Asking"}[function])
     assert node.signal(signal.SIGTERM) == 0
+
+
+@pytest.mark.parametrize("call", ["registerPublisher", "registerService", "getParam"])
+def test_while_it_begins(call: str, world: World) -> None:
+    work = world(MODEL)
+    script = work.package / "scripts" / "work"
+    environment = work.graph.environment(work.modules, ROS_NAMESPACE=work.namespace)
+    assert work.graph.interrupt([work.graph.python, str(script)], call, environment) == 0
+    assert "Traceback" not in work.graph.printed(call)

@@ -171,6 +171,8 @@ class World:
         topic = self.system.event(event).topic
         self.peers.order("hear", topic)
         self.peers.wait_for("hears", topic)
+        # The node knows of it a moment later.
+        self.graph.wait_for_link(f"{self.namespace}/{topic}")
 
     def called(self) -> list[str]:
         """The servers of all calls so far."""

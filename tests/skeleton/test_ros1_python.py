@@ -79,6 +79,18 @@ def test_a_node_without_a_needed_param_says_so(
     assert "Traceback" not in run.stderr
 
 
+@pytest.mark.parametrize("call", ["registerPublisher", "registerService", "getParam"])
+def test_a_node_that_is_told_to_end_while_it_begins(
+    graph: Any, messages: Path, python_nodes: Path, call: str
+) -> None:
+    graph.set_param("/begins/climb/frame", "map")
+    folders = [python_nodes / "climb" / "src", messages]
+    environment = graph.environment(folders, ROS_NAMESPACE="/begins")
+
+    assert graph.interrupt(python_commands(graph, python_nodes)["climb"], call, environment) == 0
+    assert "Traceback" not in graph.printed(call)
+
+
 def test_a_launch_file_of_cpswarm_can_start_it(
     graph: Any, python_nodes: Path, tmp_path: Path
 ) -> None:

@@ -142,6 +142,42 @@ def test_python_skeletons_end_each_goal(write: Write, start: Any, tmp_path: Path
     }
 
 
+# A signal shuts ROS down, and may do so without waking who waits: here it does not.
+TOLD_TO_STOP = """
+import sys, threading, time
+import rclpy
+from beep.node import main
+def stop():
+    with rclpy.get_default_context().handle:
+        rclpy.get_default_context().handle.shutdown()
+def stop_later():
+    time.sleep(2)
+    assert rclpy.ok()
+    stop()
+if sys.argv[1] == 'begun':
+    threading.Thread(target=stop_later, daemon=True).start()
+else:
+    init = rclpy.init
+    rclpy.init = lambda: (init(), stop())
+main()
+"""
+
+
+@pytest.mark.parametrize("when", ["begun", "not begun"])
+def test_a_node_ends_whenever_it_is_told_to(
+    write: Write, ros2: tuple[Path, dict[str, str]], tmp_path: Path, when: str
+) -> None:
+    write(tmp_path, ros="2")
+    python, variables = ros2
+    path = os.pathsep.join([str(tmp_path / "beep"), variables["PYTHONPATH"]])
+    run = subprocess.run(
+        [python, "-c", TOLD_TO_STOP, when],
+        env={**variables, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert (run.returncode, run.stderr) == (0, "")
+
+
 def test_python_nodes_do_what_is_filled_in(write: Write, start: Any, tmp_path: Path) -> None:
     write(tmp_path / "src", ros="2")
     for name in ("climb", "camera"):

@@ -5,8 +5,12 @@ import sys
 
 import rclpy
 from rclpy.exceptions import ParameterException
-from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.executors import MultiThreadedExecutor
 from climb.implementation import Climb
+
+# How often the node looks whether it is to stop, in seconds: a signal that comes while rclpy
+# does something else does not always wake it.
+LOOK = 0.5
 
 
 def main():
@@ -17,13 +21,21 @@ def main():
     except ParameterException as error:  # one is missing, or of another type
         rclpy.try_shutdown()
         sys.exit(str(error))
+    except Exception:
+        if rclpy.ok():
+            raise
+        return  # it was told to stop before it had begun
     # A goal takes one thread; the others hear and answer meanwhile.
     executor = MultiThreadedExecutor(num_threads=4)
     executor.add_node(node)
     try:
-        executor.spin()
-    except (KeyboardInterrupt, ExternalShutdownException):
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=LOOK)
+    except KeyboardInterrupt:
         pass
+    except Exception:
+        if rclpy.ok():
+            raise
     finally:
         node.stop()
         executor.shutdown()
