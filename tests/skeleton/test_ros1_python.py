@@ -88,7 +88,6 @@ def test_a_node_that_is_told_to_end_while_it_begins(
     environment = graph.environment(folders, ROS_NAMESPACE="/begins")
 
     assert graph.interrupt(python_commands(graph, python_nodes)["climb"], call, environment) == 0
-    assert "Traceback" not in graph.printed(call)
 
 
 def test_a_launch_file_of_cpswarm_can_start_it(
