@@ -8,6 +8,7 @@ has one meaning in all states that it passes, and is no name of a state in them.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostics
@@ -31,8 +32,7 @@ from .reach import Reach
 _LEAVES = (StateKind.SIMPLE, StateKind.CHOICE, StateKind.FINAL)
 
 
-@dataclass(frozen=True)
-class Meaning:
+class Meaning(NamedTuple):
     """Where an outcome leads: in the container `domain`, to the state `label`."""
 
     domain: str
@@ -64,8 +64,14 @@ class Ways:
         self._library = library
         self._known = {state.id: state for state in machine.walk()}
         self._report = report
+        self._known_inside: dict[str, tuple[str, ...]] = {}
+        # Of what is directly in each state that has others in it.
+        self._names: dict[str, set[str]] = {}
         for state in machine.walk():
             self.outcomes[state.id] = {}
+            if state.states:
+                names = {self.junction(state.id), *(child.name for child in state.states)}
+                self._names[state.id] = names
         for state in machine.walk():
             moves = self.domains.moves(state) if state.id in self.reach.states else []
             found = self._named(moves)
@@ -106,7 +112,7 @@ class Ways:
         is_history = move.target in self.reach.histories and _around(move.target) == move.domain
         return Way(tuple(outcomes), left, move.target if is_history else "")
 
-    def _outcome(self, name: str, move: Move, passed: list[str]) -> str:
+    def _outcome(self, name: str, move: Move, passed: set[str]) -> str:
         """The outcome by which a transition leads on, through the states with these ids."""
         meaning = Meaning(move.domain, move.label)
         taken = {
@@ -115,8 +121,8 @@ class Ways:
             for each, known in self.outcomes[state].items()
             if known != meaning
         }
-        taken |= {child.name for state in passed for child in self._known[state].states}
-        taken |= {self._library.stopped, *filter(None, map(self.junction, passed))}
+        taken.add(self._library.stopped)
+        taken.update(*(self._names[state] for state in self._names.keys() & passed))
         outcome = name if name not in taken else fresh(f"{move.state.name}_{name}", taken)
         for state in passed:
             self.outcomes[state][outcome] = meaning
@@ -141,17 +147,20 @@ class Ways:
 
     # ---- what is left
 
-    def _passed(self, trigger: Trigger | None, move: Move) -> list[str]:
-        """The ids of the states that end with a transition, the outer ones first."""
-        found: dict[str, None] = {}
-        for leaf in self._leaves(trigger, move):
-            around = [each.id for each in self.domains.ancestors(leaf)]
-            inner = around[: around.index(move.domain)]
-            found.update(dict.fromkeys([*reversed(inner), leaf.id]))
-        return list(found)
+    def _passed(self, trigger: Trigger | None, move: Move) -> set[str]:
+        """The ids of the states that end with a transition."""
+        found: set[str] = set()
+        for state in self._left(trigger, move):
+            if inside := self._inside(state):
+                around = [each.id for each in self.domains.ancestors(state)]
+                found.update(around[: around.index(move.domain)], inside)
+        return found
 
-    def _leaves(self, trigger: Trigger | None, move: Move) -> Iterator[State]:
-        """The innermost states that can be active when a transition leaves what is around them."""
+    def _left(self, trigger: Trigger | None, move: Move) -> Iterator[State]:
+        """The states that can be active when a transition leaves what is around them.
+
+        With each goes all that is in it.
+        """
         if isinstance(trigger, DoneTrigger):
             owner = self._known[trigger.state]
             if owner.id == move.domain or is_in(owner.id, move.domain):
@@ -159,7 +168,7 @@ class Ways:
                     yield from completed
                     yield from self._beside(owner, move.domain)
                 return
-        yield from self._inside(move.state)
+        yield from self.reach.inside(move.state) if move.inner else (move.state,)
         yield from self._beside(move.state, move.domain)
 
     def _beside(self, state: State, domain: str) -> Iterator[State]:
@@ -171,16 +180,16 @@ class Ways:
             if around.id == domain:
                 return
             if around.kind is StateKind.PARALLEL:
-                for region in self.reach.inside(around):
-                    if region is not inner:
-                        yield from self._inside(region)
+                yield from (each for each in self.reach.inside(around) if each is not inner)
             inner = around
 
-    def _inside(self, state: State) -> Iterator[State]:
-        if state.kind in _LEAVES:
-            yield state
-        for child in self.reach.inside(state):
-            yield from self._inside(child)
+    def _inside(self, state: State) -> tuple[str, ...]:
+        """The ids of a state and of those in it; none where it has no innermost states."""
+        if state.id not in self._known_inside:
+            inner = [each for child in self.reach.inside(state) for each in self._inside(child)]
+            is_left = inner or state.kind in _LEAVES
+            self._known_inside[state.id] = (state.id, *inner) if is_left else ()
+        return self._known_inside[state.id]
 
     def _completed(self, state: State, final: str | None) -> list[State]:
         """The final states in which a state is complete, none where it never is."""
