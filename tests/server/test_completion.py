@@ -193,6 +193,10 @@ PLACES = {
     "target below another mistake": (
         state("on on on\n    on Low -> |"), {"First", "Last"}, {"Low", "on"},
     ),
+    "below a mistake": (state("on on on\n    |"), ITEMS, {"event", "statemachine"}),
+    "field behind a mistake": (
+        work("on Low -> Overdo sweep(|)", DO), {"speed"}, {"action", "state", "on"},
+    ),
     "comment": (state("// on |"), set(), {"on", "Low", "First"}),
     "text": (HEAD + 'event E : Mode on "|', set(), {"on", "Mode"}),
     "documentation": (HEAD + "/// sta|", set(), {"statemachine"}),

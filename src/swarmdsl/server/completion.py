@@ -101,18 +101,24 @@ def _in_comment_or_text(head: str) -> bool:
 def _expected(head: str) -> tuple[frozenset[tuple[str, str, str]], bool]:
     """What the grammar has behind a text, and whether a name can be there.
 
-    Where the text is wrong, it is what is behind its last statement; where that is wrong too, or
-    ends within a name, what begins a statement, or maybe a name.
+    Where the text is wrong, it is what is behind its last statement. Where that is wrong too, or
+    ends within a name, it may be a name, or on a line of its own what begins a statement.
     """
-    statement = statement_at(head, len(head))
-    blocks = "".join(head[start:end] for start, end in statement.around)
+    end = len(head.rstrip())
+    statement = statement_at(head, max(end - 1, 0))
+    around = statement.around
+    if head.endswith("{", 0, end):
+        around = (*around, (statement.start, statement.header + 1))
+    blocks = "".join(head[start:stop] for start, stop in around)
     ways = (head, False), (blocks + head[statement.start :], False), (blocks, True)
     for text, lost in ways:
         found = mismatch(
             swarm_parser.PROGRAM, swarm_parser.TERMINALS, swarm_parser.BLANK, text + _STOP
         )
         if found is not None and found.at == len(text):
-            return found.expected, lost or any(name in _NAMES for _, name, _ in found.expected)
+            if lost:
+                return found.expected if "\n" in head[end:] else frozenset(), True
+            return found.expected, any(name in _NAMES for _, name, _ in found.expected)
     return frozenset(), True
 
 
