@@ -84,16 +84,10 @@ SET1 = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum'
 SET2 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', 'aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual', '{', '|', '}', '~', '\x7f'])
 SET3 = frozenset(['!', '#', '$', '%', '&', "'", '(', ')', '*', '+', ',', '-', '.', '/', ':', ';', '<', '=', '>', '?', '@', '[', '\\', ']', '^', '`', '{', '|', '}', '~', '\x7f'])
 SET4 = frozenset(['abstraction', 'swarm'])
-SET5 = frozenset(['actuator', 'controller', 'sensor', 'virtual'])
-SET6 = frozenset(['.', '/'])
-SET7 = frozenset(['evaluations', 'seed', 'steps'])
-SET8 = frozenset(['action', 'service'])
-SET9 = frozenset(['in', 'out'])
-SET10 = frozenset(['in', 'inout', 'out'])
-SET11 = frozenset(['maximize', 'minimize'])
-SET12 = frozenset(['[', 'else'])
-SET13 = frozenset(['after', 'monitor', 'on'])
-SET14 = frozenset(['aborted', 'preempted', 'succeeded'])
+SET5 = frozenset(['.', '/'])
+SET6 = frozenset(['in', 'out'])
+SET7 = frozenset(['[', 'else'])
+SET8 = frozenset(['after', 'monitor', 'on'])
 RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
 TERMINALS = (
     ('\\Z', 'EOF', ''),
@@ -1309,6 +1303,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if value is None: at = before6; token = tokens[at]; break
                     declarations_.append(value)
             elif token == 'optimize':
+                if not (token == 'optimize'): at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 value = r_Optimization()
                 if value is None: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 optimizations_.append(value)
@@ -1330,7 +1325,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 7
         name_ = None
-        if not (token == 'package'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -1358,7 +1352,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 8
         swarm_ = None
         items_ = []
-        if not (token == 'optimize'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -1383,7 +1376,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         while True:
             before4 = at
             rule = OptimizationItem_RULES.get(token, r_ParamRange)
-            if rule is None: at = before4; token = tokens[at]; break
             value = rule()
             if value is None: at = before4; token = tokens[at]; break
             items_.append(value)
@@ -1401,7 +1393,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 6
         path_ = None
-        if not (token == 'import'): return None
         at += 1; token = tokens[at]
         if not (token == 'ros'): return None
         at += 1; token = tokens[at]
@@ -1425,7 +1416,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 6
         path_ = None
-        if not (token == 'import'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         match1 = REGEX1(text, ends[at + 1] - len(token))
@@ -1447,7 +1437,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 6
         name_ = None
-        if not (token == 'import'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken2 = token; at += 1; token = tokens[at]
@@ -1472,7 +1461,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 6
         name_ = None
         fields_ = []
-        if not (token == 'struct'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -1502,7 +1490,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         underlying_ = None
         values_ = []
-        if not (token == 'enum'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -1542,7 +1529,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 4
         name_ = None
         type_ = None
-        if not (token == 'type'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -1568,7 +1554,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         value_ = None
-        if not (token == 'const'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -1601,7 +1586,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         constants_ = []
         fields_ = []
-        if not (token == 'message'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -1628,6 +1612,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if not chosen7 and token == 'const':
                 before8 = at
                 while True:
+                    if not (token == 'const'): at = before8; token = tokens[at]; break
                     value = r_Constant()
                     if value is None: at = before8; token = tokens[at]; break
                     constants_.append(value)
@@ -1669,7 +1654,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         request_ = []
         response_ = []
-        if not (token == 'service'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -1736,7 +1720,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         goal_ = []
         result_ = []
         feedback_ = []
-        if not (token == 'action'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -1866,7 +1849,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         category_ = None
         items_ = []
-        if not (token == 'function'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -1905,7 +1887,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         base_ = None
         items_ = []
-        if not (token in SET5): return None
         taken1 = token; at += 1; token = tokens[at]
         kind_ = taken1
         if not (token >= 'A' and token not in SET2): return None
@@ -1964,7 +1945,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         base_ = None
         items_ = []
-        if not (token == 'member'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2000,7 +1980,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         while True:
             before7 = at
             rule = MemberItem_RULES.get(token, r_Part)
-            if rule is None: at = before7; token = tokens[at]; break
             value = rule()
             if value is None: at = before7; token = tokens[at]; break
             items_.append(value)
@@ -2056,7 +2035,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 5
         name_ = None
         items_ = []
-        if not (token == 'swarm'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2068,7 +2046,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         while True:
             before2 = at
             rule = SwarmItem_RULES.get(token, r_Role)
-            if rule is None: at = before2; token = tokens[at]; break
             value = rule()
             if value is None: at = before2; token = tokens[at]; break
             items_.append(value)
@@ -2087,7 +2064,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 11
         name_ = None
         items_ = []
-        if not (token == 'environment'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2118,7 +2094,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 7
         name_ = None
         items_ = []
-        if not (token == 'fitness'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2175,7 +2150,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if not (token >= 'A' and token not in SET2): return None
         taken2 = token; at += 1; token = tokens[at]
         text1 = taken2
-        if token in SET6:
+        if token in SET5:
             match3 = REGEX4(text, ends[at + 1] - len(token))
             if match3[0]:
                 text1 += match3[0]
@@ -2249,7 +2224,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - len(token)
         name_ = None
         value_ = None
-        if not (token in SET7): return None
         taken1 = token; at += 1; token = tokens[at]
         name_ = taken1
         found = expression(at)
@@ -2269,7 +2243,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         role_ = None
         lower_ = None
         upper_ = None
-        if not (token == 'count'): return None
         at += 1; token = tokens[at]
         if not (token == 'of'): return None
         at += 1; token = tokens[at]
@@ -2365,7 +2338,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         paradigm_ = None
         name_ = None
         type_ = None
-        if not (token in SET8): return None
         taken1 = token; at += 1; token = tokens[at]
         paradigm_ = taken1
         first = ends[at + 1] - len(token)
@@ -2397,7 +2369,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         direction_ = None
         topic_ = None
         type_ = None
-        if not (token in SET9): return None
         taken1 = token; at += 1; token = tokens[at]
         direction_ = taken1
         first = ends[at + 1] - len(token)
@@ -2429,7 +2400,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         default_ = None
-        if not (token == 'param'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2466,7 +2436,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         topic_ = None
-        if not (token in SET10): return None
         taken1 = token; at += 1; token = tokens[at]
         direction_ = taken1
         if not (token >= 'A' and token not in SET2): return None
@@ -2509,7 +2478,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 9
         name_ = None
         parameters_ = []
-        if not (token == 'operation'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2544,7 +2512,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 8
         machine_ = None
-        if not (token == 'behavior'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -2575,7 +2542,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 13
         technology_ = None
         values_ = []
-        if not (token == 'communication'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2603,7 +2569,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 7
         source_ = None
         target_ = None
-        if not (token == 'connect'): return None
         at += 1; token = tokens[at]
         value = r_PortRef()
         if value is None: return None
@@ -2678,7 +2643,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         initial_ = None
-        if not (token == 'var'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2712,7 +2676,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 7
         target_ = None
-        if not (token == 'initial'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -2742,7 +2705,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 11
         environment_ = None
-        if not (token == 'environment'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -2772,7 +2734,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 7
         fitness_ = None
-        if not (token == 'fitness'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -2852,7 +2813,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 5
         file_ = None
-        if not (token == 'world'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         match1 = REGEX1(text, ends[at + 1] - len(token))
@@ -2876,7 +2836,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         width_ = None
         depth_ = None
         height_ = None
-        if not (token == 'size'): return None
         at += 1; token = tokens[at]
         match1 = REGEX8(text, ends[at + 1] - len(token))
         if match1 is None: return None
@@ -2920,7 +2879,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 2
         name_ = None
         type_ = None
-        if not (token == 'in'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -2944,7 +2902,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 8
         goal_ = None
         value_ = None
-        if not (token in SET11): return None
         taken1 = token; at += 1; token = tokens[at]
         goal_ = taken1
         found = expression(at)
@@ -2965,7 +2922,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = None
         type_ = None
         chosen1 = False
-        if not chosen1 and token in SET9:
+        if not chosen1 and token in SET6:
             before2 = at
             before3 = direction_
             before4 = name_
@@ -3067,7 +3024,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         machine_ = None
         bindings_ = []
         items_ = []
-        if not (token == 'state'): depth -= 1; return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): depth -= 1; return None
         taken1 = token; at += 1; token = tokens[at]
@@ -3152,7 +3108,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 8
         name_ = None
         items_ = []
-        if not (token == 'parallel'): depth -= 1; return None
         at += 1; token = tokens[at]
         if not (token == 'state'): depth -= 1; return None
         at += 1; token = tokens[at]
@@ -3185,7 +3140,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 6
         name_ = None
         branches_ = []
-        if not (token == 'choice'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -3194,7 +3148,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         name_ = value
         if not (token == '{'): return None
         at += 1; token = tokens[at]
-        while token in SET12:
+        while token in SET7:
             before2 = at
             value = r_Branch()
             if value is None: at = before2; token = tokens[at]; break
@@ -3256,7 +3210,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 5
         name_ = None
-        if not (token == 'final'): return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): return None
         taken1 = token; at += 1; token = tokens[at]
@@ -3348,7 +3301,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             while True:
                 at += 1; token = tokens[at]
                 rule = Effect_RULES.get(token, r_Assignment)
-                if rule is None: at = before1; token = tokens[at]; del effects_[before2:]; break
                 value = rule()
                 if value is None: at = before1; token = tokens[at]; del effects_[before2:]; break
                 effects_.append(value)
@@ -3356,7 +3308,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     before3 = at
                     at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: at = before3; token = tokens[at]; break
                     value = rule()
                     if value is None: at = before3; token = tokens[at]; break
                     effects_.append(value)
@@ -3398,7 +3349,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         arguments_ = []
         result_callback_ = None
         results_ = []
-        if not (token == 'do'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -3503,12 +3453,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 5
         effects_ = []
-        if not (token == 'entry'): return None
         at += 1; token = tokens[at]
         if not (token == '/'): return None
         at += 1; token = tokens[at]
         rule = Effect_RULES.get(token, r_Assignment)
-        if rule is None: return None
         value = rule()
         if value is None: return None
         effects_.append(value)
@@ -3516,7 +3464,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before1 = at
             at += 1; token = tokens[at]
             rule = Effect_RULES.get(token, r_Assignment)
-            if rule is None: at = before1; token = tokens[at]; break
             value = rule()
             if value is None: at = before1; token = tokens[at]; break
             effects_.append(value)
@@ -3530,12 +3477,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 4
         effects_ = []
-        if not (token == 'exit'): return None
         at += 1; token = tokens[at]
         if not (token == '/'): return None
         at += 1; token = tokens[at]
         rule = Effect_RULES.get(token, r_Assignment)
-        if rule is None: return None
         value = rule()
         if value is None: return None
         effects_.append(value)
@@ -3543,7 +3488,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             before1 = at
             at += 1; token = tokens[at]
             rule = Effect_RULES.get(token, r_Assignment)
-            if rule is None: at = before1; token = tokens[at]; break
             value = rule()
             if value is None: at = before1; token = tokens[at]; break
             effects_.append(value)
@@ -3564,11 +3508,10 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         if token == 'internal':
             at += 1; token = tokens[at]
             internal_ = True
-        if token in SET13:
+        if token in SET8:
             if token == 'on':
                 at += 1; token = tokens[at]
                 rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
-                if rule is None: return None
                 value = rule()
                 if value is None: return None
                 triggers_.append(value)
@@ -3576,27 +3519,30 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     before1 = at
                     at += 1; token = tokens[at]
                     rule = Trigger_RULES.get(token, try_DoneTrigger_EventTrigger)
-                    if rule is None: at = before1; token = tokens[at]; break
                     value = rule()
                     if value is None: at = before1; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'after':
+                if not (token == 'after'): return None
                 value = r_TimeTrigger()
                 if value is None: return None
                 triggers_.append(value)
                 while token == ',':
                     before2 = at
                     at += 1; token = tokens[at]
+                    if not (token == 'after'): at = before2; token = tokens[at]; break
                     value = r_TimeTrigger()
                     if value is None: at = before2; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'monitor':
+                if not (token == 'monitor'): return None
                 value = r_MonitorTrigger()
                 if value is None: return None
                 triggers_.append(value)
                 while token == ',':
                     before3 = at
                     at += 1; token = tokens[at]
+                    if not (token == 'monitor'): at = before3; token = tokens[at]; break
                     value = r_MonitorTrigger()
                     if value is None: at = before3; token = tokens[at]; break
                     triggers_.append(value)
@@ -3616,7 +3562,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if token == '/':
                 at += 1; token = tokens[at]
                 rule = Effect_RULES.get(token, r_Assignment)
-                if rule is None: return None
                 value = rule()
                 if value is None: return None
                 effects_.append(value)
@@ -3624,7 +3569,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     before6 = at
                     at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: at = before6; token = tokens[at]; break
                     value = rule()
                     if value is None: at = before6; token = tokens[at]; break
                     effects_.append(value)
@@ -3689,7 +3633,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                 while True:
                     at += 1; token = tokens[at]
                     rule = Effect_RULES.get(token, r_Assignment)
-                    if rule is None: at = before15; token = tokens[at]; del effects_[before16:]; break
                     value = rule()
                     if value is None: at = before15; token = tokens[at]; del effects_[before16:]; break
                     effects_.append(value)
@@ -3697,7 +3640,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                         before17 = at
                         at += 1; token = tokens[at]
                         rule = Effect_RULES.get(token, r_Assignment)
-                        if rule is None: at = before17; token = tokens[at]; break
                         value = rule()
                         if value is None: at = before17; token = tokens[at]; break
                         effects_.append(value)
@@ -3740,7 +3682,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 6
         name_ = None
         items_ = []
-        if not (token == 'region'): depth -= 1; return None
         at += 1; token = tokens[at]
         if not (token >= 'A' and token not in SET2): depth -= 1; return None
         taken1 = token; at += 1; token = tokens[at]
@@ -3792,7 +3733,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - 5
         delay_ = None
-        if not (token == 'after'): return None
         at += 1; token = tokens[at]
         found = delay(at)
         if found is None: return None
@@ -3808,7 +3748,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 7
         topic_ = None
         type_ = None
-        if not (token == 'monitor'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         match1 = REGEX1(text, ends[at + 1] - len(token))
@@ -3836,7 +3775,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         start = ends[at + 1] - 4
         event_ = None
         arguments_ = []
-        if not (token == 'send'): return None
         at += 1; token = tokens[at]
         first = ends[at + 1] - len(token)
         if not (token >= 'A' and token not in SET2): return None
@@ -3908,7 +3846,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         nonlocal at, token
         start = ends[at + 1] - len(token)
         outcome_ = None
-        if not (token in SET14): return None
         taken1 = token; at += 1; token = tokens[at]
         outcome_ = taken1
         made = new_node(OutcomeTrigger)

@@ -62,7 +62,7 @@ class Emission:
             defaults = {"value": "None", "word": "''", "many": "[]", "flag": "False"}
             for attribute, kind in rule.attributes.items():
                 self._line(f"{attribute}_ = {defaults[kind]}")
-            self._expression(rule.body, fail)
+            self._expression(rule.body, fail, known=self.look.is_asked_before(rule.name))
             if recursive:
                 self._line("depth -= 1")
             fields = {"span": self._span("start"), **self.target.nodes[rule.name]}
@@ -211,10 +211,14 @@ class Emission:
             self._make("value", "Ref", fields)
             return "value"
         if rule.kind == "choice":
-            self._line(f"rule = {self.look.table(rule)}")
-            self._line(f"if rule is None: {fail}")
+            look_up, always = self.look.table(rule)
+            self._line(f"rule = {look_up}")
+            if not always:
+                self._line(f"if rule is None: {fail}")
             self._line("value = rule()")
         else:
+            if not known and self.look.is_asked_before(rule.name):
+                self._line(f"if not ({self._can_begin(part)}): {fail}")
             self._line(f"value = r_{rule.name}()")
         self._line(f"if value is None: {fail}")
         return "value"

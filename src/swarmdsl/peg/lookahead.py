@@ -122,8 +122,17 @@ class Lookahead:
         """Whether it is a choice between rules, which a table decides."""
         return isinstance(part, Use) and self.analysis.grammar.rules[part.rule].kind == "choice"
 
-    def table(self, rule: Rule) -> str:
-        """The look-up of the function for the next token."""
+    def is_asked_before(self, rule: str) -> bool:
+        """Whether the function of a rule is called only where the rule can begin.
+
+        Those of all others look at the first token themselves: what calls them may not have.
+        """
+        first = self.analysis.first(Use(rule))
+        asked = rule != self.analysis.grammar.start and not self.analysis.nullable(Use(rule))
+        return asked and first.but is None and "" not in first.tokens
+
+    def table(self, rule: Rule) -> tuple[str, bool]:
+        """The look-up of the function for the next token, and whether there always is one."""
         table = f"{rule.name}_RULES"
         leaves = list(self._leaves(rule))
         firsts = {leaf: self.analysis.first(Use(leaf)) for leaf in leaves}
@@ -138,7 +147,9 @@ class Lookahead:
             }
             content = ", ".join(f"{token!r}: {function}" for token, function in entries.items())
             self.tables[table] = f"{{{content}}}"
-        return f"{table}.get(token{f', {self._attempt(others)}' if others else ''})"
+        if others:
+            return f"{table}.get(token, {self._attempt(others)})", True
+        return f"{table}.get(token)", False
 
     def _leaves(self, rule: Rule) -> Iterator[str]:
         """The rules that a rule chooses from in the end."""
