@@ -110,6 +110,8 @@ def _look_at_all(source: Source, comments: Comments) -> None:
 
 def starts_line(text: str, offset: int) -> bool:
     """Whether nothing but space stands before an offset on its line."""
+    if text[offset - 1 : offset] in ("", "\n"):
+        return True
     end = end_before(text, offset)
     return end == 0 or "\n" in text[end:offset]
 
