@@ -149,6 +149,7 @@ CODES: dict[str, Code] = {
         "SW0614", "warning", "variable `{name}` begins as 0, which is no value of enum `{enum}`"
     ),
     "other-than-standard": Code("SW0615", "warning", "ROS comes with another `{name}`"),
+    "undescribed-interface": Code("SW0616", "warning", "nothing describes `{name}`", silent=True),
     # ---- expressions
     "type-mismatch": Code("SW0701", "error", "expected {expected}, found {found}"),
     "bad-operand": Code("SW0702", "error", "`{operator}` does not work on {operands}"),

@@ -9,8 +9,8 @@ from pathlib import Path
 from swarmdsl.changes import placing
 from swarmdsl.changes.names import Named, all_named, find, similar
 from swarmdsl.changes.rewriting import Change, rewritten
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Severity
+from swarmdsl.dataclass import dataclass, replace
+from swarmdsl.diagnostics import Diagnostic, Diagnostics, Label, Level, Severity
 from swarmdsl.format import formatted
 from swarmdsl.format.files import Layout, write
 from swarmdsl.load import File
@@ -57,7 +57,10 @@ def add(paths: Sequence[Path], places: Sequence[Place], *, dry_run: bool = False
     settings = find_settings(paths, report)
     if report.has_errors:
         return Added(report, 0)
-    workspace = Workspace(paths or settings.sources, settings)
+    # What is new may be a slip that nobody else would see.
+    levels = {"undescribed-interface": Level.WARN, **settings.levels}
+    report = Diagnostics(levels)
+    workspace = Workspace(paths or settings.sources, replace(settings, levels=levels))
     before = list(workspace.report)
     if not any(not file.library for file in workspace.project.files):
         report.include(before)

@@ -80,7 +80,10 @@ def check_values(declaration: Declaration, context: Context) -> None:
 
 
 def check_known(declaration: Declaration, context: Context) -> None:
-    """An interface of a package that is known exists; nearly the name of one is a slip."""
+    """An interface of a package that is known exists; nearly the name of one is a slip.
+
+    Of what nothing describes only who asks is told: it may be on the robot.
+    """
     for node in nodes_of(declaration, TypeRef):
         element = node.type.element if isinstance(node.type, Array) else node.type
         if not isinstance(element, Named) or context.interfaces.get(element) is not None:
@@ -89,6 +92,14 @@ def check_known(declaration: Declaration, context: Context) -> None:
         if similar is not None or context.interfaces.missing(element):
             help_ = f"did you mean `{similar}`?" if similar is not None else None
             context.report.report("unknown-interface", node.span, name=element, help=help_)
+        elif context.report.wants("undescribed-interface"):
+            context.report.report(
+                "undescribed-interface",
+                node.span,
+                name=element,
+                notes=(f"a workspace needs package `{element.package}`, from wherever it comes",),
+                help='describe it in the model, or `import ros "FOLDER"`, that of its package',
+            )
 
 
 def check_standard(declared: Interface, context: Context) -> None:
