@@ -12,7 +12,7 @@ from math import inf
 from swarmdsl.dataclass import dataclass, field
 from swarmdsl.diagnostics import Diagnostics, listed
 from swarmdsl.folding import Folded, Folding
-from swarmdsl.inference.fitting import fits, is_number, range_of
+from swarmdsl.inference.fitting import fits, is_number, is_text, range_of
 from swarmdsl.inference.operators import Application
 from swarmdsl.interfaces import Interfaces
 from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Primitive, Type
@@ -108,7 +108,7 @@ class Typing:
             if value is not None and len(self.report) == before:
                 self._check_size(tree, value, wanted)
         else:
-            help_ = None
+            help_ = _way_to_bool(tree, found) if wanted == BOOL else None
             if wanted == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
             enum = self.interfaces.get(wanted) if isinstance(wanted, Named) else None
@@ -179,6 +179,13 @@ class Typing:
             )
             return None
         return enum.type
+
+
+def _way_to_bool(tree: ExpressionTree, found: Type | None) -> str | None:
+    """A condition is no number and no text: what to ask of one."""
+    if is_number(found):
+        return f"compare it: `{tree.span.text} != 0`"
+    return f'compare it: `{tree.span.text} != ""`' if is_text(found) else None
 
 
 def report_unknown_field(

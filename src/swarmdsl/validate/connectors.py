@@ -156,6 +156,7 @@ def _check_connector(connector: Connector, context: Context) -> None:
                 Label(source.type.span, f"`{connector.source.span.text}` is declared here"),
                 Label(target.type.span, f"`{connector.target.span.text}` is declared here"),
             ),
+            help="give both ports one type, or put a component between them that converts",
         )
 
 
