@@ -310,15 +310,17 @@ class ExpressionParser:
         number = self._language.quantity(self._source.text, start)
         return self._quantity(at, number) if number else None
 
-    def _quantity(self, at: int, match: re.Match[str]) -> _Found:
+    def _quantity(self, at: int, match: re.Match[str]) -> _Found | None:
         written, digits, unit = match.group(0, 1, 2)
         end = match.end()
         unit = unit or ""
-        if not is_too_large(written, digits, unit):
-            return self._value(at, end, quantity_value(digits), unit)
-        if self._large is None:
+        is_large = is_too_large(written, digits, unit)
+        found = self._value(at, end, 0 if is_large else quantity_value(digits), unit)
+        if self._ends[found[3]] > end:
+            return None  # what stands behind it is not ASCII
+        if is_large and self._large is None:
             self._large = self._span(*match.span())
-        return self._value(at, end, 0, unit)
+        return found
 
     def _is_arrow(self, at: int) -> bool:
         return self._tokens[at + 1] == ">" and self._ends[at + 2] == self._ends[at + 1] + 1

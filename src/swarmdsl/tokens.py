@@ -13,6 +13,8 @@ from typing import NamedTuple
 # the last one, which alone among all that is no letter is not less than `A`, and no punctuation.
 MARKS = frozenset(punctuation) - {"_", '"'} | {"\x7f"}
 _COMMENTS = ("//", "/*")
+# What `str.strip` takes off in ASCII that languages have no use for.
+_ODD_SPACES = "\x0b\x0c\x1c\x1d\x1e\x1f"
 
 # The texts of tokens, and for each where the one before it ends. Behind what there is come empty
 # ones, so that one can look at the token behind the next one, too.
@@ -32,14 +34,13 @@ class Cutter(NamedTuple):
     def cut(self, text: str, start: int = 0, end: int | None = None) -> Tokens:
         """Cut a text, or a piece of it.
 
-        A token is a word, a mark, a number or a text in quotation marks; one that the language
-        does not have may be empty, too.
+        A token is a word, a mark, a number or a text in quotation marks. What is not ASCII
+        stands there as NULs, as many as its characters are, because it is no name.
         """
         pieces = self.find(text, start, len(text) if end is None else end)
         ends = list(accumulate(map(len, pieces), initial=start))
-        # Of ASCII only spaces are taken off, which is quicker: no other stands beside a token.
-        is_ascii = text.isascii()
-        tokens = [*(map(str.strip, pieces) if is_ascii else map(self._stripped, pieces)), ""]
+        is_plain = text.isascii() and not any(map(text.__contains__, _ODD_SPACES))
+        tokens = [*map(str.strip if is_plain else self._stripped, pieces), ""]
         for comment in _COMMENTS:
             at = text.find(comment, start, ends[-1])
             while at >= 0:
@@ -48,8 +49,11 @@ class Cutter(NamedTuple):
                 if token.startswith(_COMMENTS):
                     tokens[number] = token[self.blanks(token).end() :]
                 at = text.find(comment, ends[number + 1], ends[-1])
-        if not is_ascii:
-            tokens = [token if token.isascii() or token[0] == '"' else "" for token in tokens]
+        if not is_plain:
+            tokens = [
+                token if token.isascii() or token[0] == '"' else "\0" * len(token)
+                for token in tokens
+            ]
         return tokens, ends
 
     def _stripped(self, piece: str) -> str:

@@ -105,6 +105,29 @@ def test_models() -> None:
     assert not all(accepted)
 
 
+@pytest.mark.parametrize("odd", "\x00\x0b\x0c\x1c\x1f\x7f\x85\xa0\xaa\xe9\u0663\u2028\u2009")
+def test_characters_that_the_language_does_not_have(odd: str) -> None:
+    for template in (
+        "event A~ : B",
+        "event ~A : B",
+        "const A : T = ~1",
+        "const A : T = 1~",
+        "const A : T = 2.5~",
+        "const A : T = 5 s~",
+        "const A : T = ~b.c",
+        "const A : T = -~ 1",
+        'import ~"a.swarm"',
+        'import "a~.swarm" // ~',
+        "enum E { A = ~3 B = -3~ }",
+        "struct S { a : B[~3] b : C/~D }",
+        "swarm S { a : B[1..~3] }",
+        "event A : B~",
+        "const A : T = -/*1~\n\n",
+        "~",
+    ):
+        compare(template.replace("~", odd))
+
+
 @pytest.mark.parametrize("seed", range(SEEDS))
 def test_mutants(seed: int, pytestconfig: pytest.Config) -> None:
     dice = random.Random(seed)

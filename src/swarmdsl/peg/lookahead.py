@@ -22,7 +22,7 @@ from swarmdsl.tokens import MARKS
 _LETTER, _PART = r"[^\x00-@\[-^`{-\x7f]", r"[^\x00-/:-@\[-^`{-\x7f]"
 _WORDS = (f"{_LETTER}{_PART}*", rf"[0-9]+(?:\.[0-9]+)?{_PART}*")
 # A comment without an end is looked for only once.
-_REST = (r"/\*(?s:.*)", "(?s:.)")
+_REST = (r"/\*(?s:.*\S)?", "(?s:.)")
 # Compiled where it is used first: a file has few of them.
 _REGEX = """
 def {name}(text, at):
