@@ -1,6 +1,6 @@
 """The line that is missing where a name means nothing: a declaration of it, or an import.
 
-`scopes` asks for it when no name that is known comes close.
+`scopes` asks for an import first, and for a declaration when no name that is known comes close.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from functools import cache
 
 from swarmdsl import resources
 from swarmdsl.libraries import SUFFIX
+from swarmdsl.load import Project
 from swarmdsl.syntax import (
     AliasType,
     Component,
@@ -57,14 +58,33 @@ _LINES: dict[type[Node], str] = {
 }
 
 
+def missing_import(name: str, kinds: tuple[type[Node], ...], project: Project) -> str | None:
+    """The line that imports what a library that comes with swarmdsl declares by this name.
+
+    Libraries that declare the same cannot be used together: it is the one that the project
+    uses, or the only one that has the name. None where there is no such one.
+    """
+    packages = [package for kind, package in _in_library().get(name, ()) if kind in kinds]
+    used = {
+        _root(target.package)
+        for file in project.files
+        if not file.library
+        for _, target in file.imports
+    } & {_root(package) for found in _in_library().values() for _, package in found}
+    if used:
+        packages = [package for package in packages if _root(package) in used]
+    return f"import {packages[0]}.{name}" if len(packages) == 1 else None
+
+
+def _root(package: str) -> str:
+    return package.partition(".")[0]
+
+
 def missing_line(name: str, kinds: tuple[type[Node], ...]) -> str | None:
-    """What to add so that a name means something of one of these kinds, in words.
+    """The declaration to add so that a name means something of one of these kinds, in words.
 
     None where nobody can say: of a fitness or an enum the name alone tells too little.
     """
-    for kind, package in _in_library().get(name, ()):
-        if kind in kinds:
-            return f"add `import {package}.{name}`"
     line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
     if line is None:
         return None

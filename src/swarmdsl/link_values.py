@@ -32,6 +32,8 @@ from swarmdsl.syntax import (
 )
 
 Values = Mapping[str, Variable | Param | FitnessInput]
+# Names that mean nothing, each with the fields that are asked of it.
+Missing = list[tuple[NameUse, list[FieldUse]]]
 
 # What other languages call a value that is not there.
 _NOTHING = ("null", "none", "nil", "undefined")
@@ -48,22 +50,36 @@ class ValueLinker:
 
     def link(self, owner: TopLevel, values: Values) -> None:
         """Bind the names in the expressions of a declaration, which has these values."""
+        unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         for node in nodes_of(owner, Expression):
             if node.tree is not None:
-                node.tree = self._linked(node.tree, owner, values)
+                missing: Missing = []
+                node.tree = self._linked(node.tree, owner, values, missing)
+                unknown += [(base, fields, node) for base, fields in missing]
+        # What is said of a name depends on what those beside it mean.
+        for base, fields, node in unknown:
+            self._report_unknown(base, fields, node, owner, values)
 
-    def _linked(self, tree: ExpressionTree, owner: TopLevel, values: Values) -> ExpressionTree:
+    def _linked(
+        self, tree: ExpressionTree, owner: TopLevel, values: Values, missing: Missing
+    ) -> ExpressionTree:
         """The same, with one name for a path of words that together name a declaration."""
         match tree:
             case NameUse() | FieldUse():
-                return self._path(tree, owner, values)
+                return self._path(tree, owner, values, missing)
             case OperatorUse(operands=operands):
-                tree.operands = tuple([self._linked(each, owner, values) for each in operands])
+                tree.operands = tuple(
+                    [self._linked(each, owner, values, missing) for each in operands]
+                )
             case Call(arguments=arguments):
-                tree.arguments = tuple([self._linked(each, owner, values) for each in arguments])
+                tree.arguments = tuple(
+                    [self._linked(each, owner, values, missing) for each in arguments]
+                )
         return tree
 
-    def _path(self, tree: NameUse | FieldUse, owner: TopLevel, values: Values) -> ExpressionTree:
+    def _path(
+        self, tree: NameUse | FieldUse, owner: TopLevel, values: Values, missing: Missing
+    ) -> ExpressionTree:
         fields: list[FieldUse] = []
         base: ExpressionTree = tree
         while isinstance(base, FieldUse):
@@ -77,7 +93,7 @@ class ValueLinker:
             names += [f"{base.name}.{_words(fields[: n + 1])}" for n in range(len(fields))]
             length = next((n for n, name in enumerate(names) if self._means_value(name)), None)
             if length is None:
-                self._report_unknown(base, fields, owner, values)
+                missing.append((base, fields))
                 return tree
             used = base
             if length:
@@ -106,7 +122,12 @@ class ValueLinker:
         return enum
 
     def _report_unknown(
-        self, base: NameUse, fields: list[FieldUse], owner: TopLevel, values: Values
+        self,
+        base: NameUse,
+        fields: list[FieldUse],
+        within: Expression,
+        owner: TopLevel,
+        values: Values,
     ) -> None:
         """Report a name that means no value: of a package, what is looked for in it."""
         name, at = base.name, base.span
@@ -138,7 +159,7 @@ class ValueLinker:
                 self.report,
                 built_in=[*values, "true", "false"],
                 # With something behind it, it may as well be a package.
-                way=None if fields else lambda project: way_to_declare(base, owner, project),
+                way=None if fields else lambda: way_to_declare(base, within, owner, self.scope),
             )
 
 

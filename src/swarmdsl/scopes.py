@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Mapping
+from functools import cached_property
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from swarmdsl.diagnostics import Diagnostics, Label, listed
 from swarmdsl.libraries import imported_name
@@ -52,6 +53,9 @@ from swarmdsl.syntax import (
     Swarm,
     Variable,
 )
+
+if TYPE_CHECKING:
+    from swarmdsl.interfaces import Interfaces
 
 D = TypeVar("D", bound=Declaration)
 
@@ -111,6 +115,7 @@ class FileScope:
     """The declarations that one file sees."""
 
     def __init__(self, file: File, scopes: Scopes) -> None:
+        self._scopes = scopes
         self._project = scopes.project
         self._package = file.package
         self.file = file
@@ -127,6 +132,11 @@ class FileScope:
         )
         found = {statement for statement, _ in file.imports}
         self.complete = all(statement in found for statement in file.model.imports)
+
+    @property
+    def interfaces(self) -> Interfaces:
+        """Those of the whole project."""
+        return self._scopes.interfaces
 
     def find(self, name: str) -> list[tuple[str, Declaration]]:
         """All declarations `name` could mean, the nearest only, each with its package."""
@@ -161,7 +171,7 @@ class FileScope:
         *,
         built_in: Iterable[str] = (),
         instead: Mapping[type[Node], str] | None = None,
-        way: Callable[[Project], str | None] | None = None,
+        way: Callable[[], str | None] | None = None,
     ) -> D | None:
         """Find the declaration a name means; None when there is none, which is reported.
 
@@ -210,7 +220,7 @@ class FileScope:
         kinds: tuple[type[D], ...],
         built_in: Iterable[str],
         report: Diagnostics,
-        way: Callable[[Project], str | None] | None,
+        way: Callable[[], str | None] | None,
     ) -> None:
         if name.rpartition(".")[2] in self.lost:
             return
@@ -245,12 +255,20 @@ class FileScope:
         if package in self.packages:
             candidates = [f"{package}.{key}" for key in candidates if self.find(f"{package}.{key}")]
             names = {key: self.find(key)[0][1] for key in candidates}
-        advice = None
-        if not package:
-            # Models that are right do not wait for it.
-            from swarmdsl.declaring import missing_line
+        if package:
+            report_unresolved(kind, name, at, [*built_in, *candidates], names, report)
+            return
+        # Models that are right do not wait for it.
+        from swarmdsl.declaring import missing_import, missing_line
 
-            advice = missing_line(name, kinds) or (way(self._project) if way is not None else None)
+        line = missing_import(name, kinds, self._project)
+        if line is not None:
+            report.report("unresolved-name", at, kind=kind, name=name, help=f"add `{line}`")
+            return
+
+        def advice() -> str | None:
+            return missing_line(name, kinds) or (way() if way is not None else None)
+
         report_unresolved(kind, name, at, [*built_in, *candidates], names, report, way=advice)
 
     def _way_to(self, other: File, name: str) -> str:
@@ -272,6 +290,13 @@ class Scopes(dict[File, FileScope]):
         super().__init__()
         self.project = project
         self._declared: dict[File, Mapping[str, Declaration]] = {}
+
+    @cached_property
+    def interfaces(self) -> Interfaces:
+        """The interfaces of the project; only what is said of mistakes asks for them."""
+        from swarmdsl.interfaces import Interfaces
+
+        return Interfaces(self.project.declarations())
 
     def __missing__(self, file: File) -> FileScope:
         self[file] = scope = FileScope(file, self)
@@ -295,21 +320,22 @@ def report_unresolved(
     nodes: dict[str, Declaration] | None,
     report: Diagnostics,
     *,
-    way: str | None = None,
+    way: Callable[[], str | None] | None = None,
 ) -> None:
     """Report a name that means nothing, with the most similar one that would.
 
-    `way` is what to do where none is similar.
+    `way` says what to do where none is similar.
     """
     close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
     similar = nodes.get(close) if close and nodes else None
+    advice = way() if way is not None and not close else None
     report.report(
         "unresolved-name",
         at,
         kind=kind,
         name=name,
         related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
-        help=f"did you mean `{close}`?" if close else way,
+        help=f"did you mean `{close}`?" if close else advice,
     )
 
 

@@ -1,18 +1,21 @@
-"""The line that declares a variable that is missing, of the type that its use asks for."""
+"""The line that declares a variable that is missing, of the type that its use asks for.
+
+The type is told only where it is certain: where the name stands for a whole value, or is
+compared with one. Of arithmetic there are many that would do.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from swarmdsl.inference.fitting import is_float, is_number
 from swarmdsl.interfaces import Interfaces
-from swarmdsl.ir.types import BOOL, DURATION, STRING, Named, Primitive, Type
-from swarmdsl.load import Project
+from swarmdsl.ir.types import BOOL, DURATION, STRING, Array, Named, Primitive, Type
+from swarmdsl.scopes import FileScope
 from swarmdsl.syntax import (
     ActionType,
     Activity,
     Assignment,
     Branch,
+    Call,
     Communication,
     EnumType,
     Expression,
@@ -23,6 +26,7 @@ from swarmdsl.syntax import (
     NameUse,
     Operation,
     OperatorUse,
+    Param,
     Parameter,
     ServiceType,
     StateMachine,
@@ -30,24 +34,43 @@ from swarmdsl.syntax import (
     TopLevel,
     Transition,
     Value,
+    Variable,
     nodes_of,
 )
 
-_UINT, _FLOAT = Primitive("uint32"), Primitive("float64")
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _LOGIC = ("and", "or", "not")
 
 
-def way_to_declare(use: NameUse, owner: TopLevel, project: Project) -> str | None:
+def way_to_declare(
+    use: NameUse, within: Expression, owner: TopLevel, scope: FileScope
+) -> str | None:
     """What to write where, so that a name in an expression means something, in words."""
-    if isinstance(owner, Fitness):
-        return f"declare it in `{owner.name}`: `in {use.name} : {_FLOAT}`"
-    if not isinstance(owner, StateMachine):
+    if not isinstance(owner, (StateMachine, Fitness)):
         return None
-    type_ = next((t for t in _asked_for(use, owner, project) if t is not None), None)
-    if type_ is None:
-        return f"declare it in `{owner.name}`, of the type that it has: `var {use.name} : {_FLOAT}`"
-    return f"declare it in `{owner.name}`: `var {use.name} : {type_}{_initial(type_)}`"
+    of = next((v.type.type for v in nodes_of(owner, Variable) if v.initial is within), None)
+    of = of or next((p.type.type for p in nodes_of(owner, Param) if p.default is within), None)
+    if of is not None:
+        # What a variable begins with is known before it runs.
+        type_ = _written(of, scope) if within.tree is use else None
+        line = f"const {use.name} : {type_} = ..."
+        return f"declare it above `{owner.name}`: `{line}`" if type_ else None
+    if isinstance(owner, Fitness):
+        return f"declare it in `{owner.name}`: `in {use.name} : float64`"
+    around = _around(within, use)
+    if around is None:
+        wanted = _wanted(within, owner, scope.interfaces)
+    elif isinstance(around, OperatorUse) and around.operator in _LOGIC:
+        wanted = BOOL
+    elif isinstance(around, OperatorUse) and around.operator in _COMPARISONS:
+        (beside,) = (operand for operand in around.operands if operand is not use)
+        wanted = _type_of(beside)
+    else:
+        wanted = None
+    written = _written(wanted, scope) if wanted is not None else None
+    if wanted is None or written is None:
+        return f"declare it in `{owner.name}`, with the type that it has: `var {use.name} : ...`"
+    return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(wanted)}`"
 
 
 def _initial(type_: Type) -> str:
@@ -59,53 +82,57 @@ def _initial(type_: Type) -> str:
     return ' = ""' if type_ == STRING else ""
 
 
-def _asked_for(use: NameUse, machine: StateMachine, project: Project) -> Iterator[Type | None]:
-    """What the expressions that a name stands in say of its type."""
-    transitions, branches = nodes_of(machine, Transition), nodes_of(machine, Branch)
-    for guard in (node.guard for nodes in (transitions, branches) for node in nodes):
-        yield _in(guard, use, BOOL)
-    for trigger in nodes_of(machine, TimeTrigger):
-        yield _in(trigger.delay, use, DURATION)
-    for assignment in nodes_of(machine, Assignment):
-        target, value = assignment.target.tree, assignment.value.tree
-        if target is use and value is not None:
-            yield _type_of(value)
-        elif target is not None:
-            yield _in(assignment.value, use, _type_of(target))
-    for activity in nodes_of(machine, Activity):
-        taken, given = _fields(activity, project)
-        for argument in activity.arguments:
-            yield _in(argument.value, use, taken.get(str(argument.name)))
-        for result in activity.results:
-            yield _in(result.target, use, given.get(str(result.field)))
+def _written(type_: Type, scope: FileScope) -> str | None:
+    """A type as the file writes it; None if it does not see it."""
+    if isinstance(type_, Array):
+        element = _written(type_.element, scope)
+        return element and f"{element}{str(type_).removeprefix(str(type_.element))}"
+    declared = scope.interfaces.declared.get(type_) if isinstance(type_, Named) else None
+    if isinstance(type_, Primitive) or declared is None or "/" in declared.name:
+        return str(type_)
+    names = (type_.name, *(f"{package}.{type_.name}" for package in sorted(scope.packages)))
+    return next((n for n in names if [node for _, node in scope.find(n)] == [declared]), None)
 
 
-def _in(expression: Expression | None, use: NameUse, wanted: Type | None) -> Type | None:
-    """What an expression, whose value is to be of the wanted type, says of a name in it."""
-    tree = expression.tree if expression is not None else None
-    return _below(tree, use, wanted) if tree is not None else None
-
-
-def _below(tree: ExpressionTree, use: NameUse, wanted: Type | None) -> Type | None:
-    if tree is use:
-        return wanted
-    if not isinstance(tree, OperatorUse):
-        return None
-    for operand in tree.operands:
-        others = (_type_of(other) for other in tree.operands if other is not operand)
-        beside = next((type_ for type_ in others if type_ is not None), None)
-        if tree.operator in _LOGIC:
-            inner: Type | None = BOOL
-        else:
-            inner = beside if tree.operator in _COMPARISONS else beside or wanted
-        found = _below(operand, use, inner)
-        if found is not None:
-            return found
+def _around(within: Expression, use: NameUse) -> OperatorUse | Call | None:
+    """The operator or function that a name is an operand of; None if it stands alone."""
+    waiting = [within.tree]
+    while waiting:
+        match waiting.pop():
+            case OperatorUse(operands=inside) | Call(arguments=inside) as node:
+                if any(each is use for each in inside):
+                    return node
+                waiting.extend(inside)
     return None
 
 
-def _type_of(tree: ExpressionTree) -> Type | None:
-    """The type of a value or of a name that is declared; numbers are as they are counted."""
+def _wanted(within: Expression, machine: StateMachine, interfaces: Interfaces) -> Type | None:
+    """The type of the whole value of an expression."""
+    guarded: tuple[Transition | Branch, ...] = (
+        *nodes_of(machine, Transition),
+        *nodes_of(machine, Branch),
+    )
+    if any(node.guard is within for node in guarded):
+        return BOOL
+    if any(trigger.delay is within for trigger in nodes_of(machine, TimeTrigger)):
+        return DURATION
+    for assignment in nodes_of(machine, Assignment):
+        if assignment.target is within:
+            return _type_of(assignment.value.tree)
+        if assignment.value is within:
+            return _type_of(assignment.target.tree)
+    for activity in nodes_of(machine, Activity):
+        for argument in activity.arguments:
+            if argument.value is within:
+                return _fields(activity, interfaces)[0].get(str(argument.name))
+        for result in activity.results:
+            if result.target is within:
+                return _fields(activity, interfaces)[1].get(str(result.field))
+    return None
+
+
+def _type_of(tree: ExpressionTree | None) -> Type | None:
+    """The type of a value or of a name that is declared; a number alone may be of many."""
     match tree:
         case Value(unit=unit) if unit:
             return DURATION
@@ -113,20 +140,12 @@ def _type_of(tree: ExpressionTree) -> Type | None:
             return BOOL
         case Value(value=str()):
             return STRING
-        case Value(value=int()):
-            return _UINT
-        case Value():
-            return _FLOAT
         case NameUse(target=target) if target is not None and not isinstance(target, EnumType):
             return target.type.type
-        case OperatorUse(operator=operator) if operator in (*_COMPARISONS, *_LOGIC):
-            return BOOL
-        case OperatorUse(operands=operands):
-            return next((type_ for type_ in map(_type_of, operands) if type_ is not None), None)
     return None
 
 
-def _fields(activity: Activity, project: Project) -> tuple[dict[str, Type | None], ...]:
+def _fields(activity: Activity, interfaces: Interfaces) -> tuple[dict[str, Type | None], ...]:
     """The types of what an activity takes and of what it gives, by name."""
     taken: list[Field] | list[Parameter] = []
     given: list[Field] | list[Parameter] = []
@@ -136,7 +155,7 @@ def _fields(activity: Activity, project: Project) -> tuple[dict[str, Type | None
             given = [each for each in parameters if each.direction == "out"]
         case Function(items=items):
             match next(
-                (_interface(each, project) for each in items if isinstance(each, Communication)),
+                (_interface(each, interfaces) for each in items if isinstance(each, Communication)),
                 None,
             ):
                 case ActionType(goal=goal, result=result):
@@ -146,8 +165,7 @@ def _fields(activity: Activity, project: Project) -> tuple[dict[str, Type | None
     return tuple({str(f.name): f.type.type for f in fields} for fields in (taken, given))
 
 
-def _interface(call: Communication, project: Project) -> object:
+def _interface(call: Communication, interfaces: Interfaces) -> object:
     kind = ActionType if call.paradigm == "action" else ServiceType
     type_ = call.type.type
-    interfaces = Interfaces(project.declarations())
     return interfaces.get(type_, kind) if isinstance(type_, Named) else None

@@ -118,6 +118,22 @@ MODELS = {
     "unknown types": each("struct S<i> { a : Missing<i> }"),
     "unknown states": machine("state S<i> { on Go -> T<i> }", "initial S0\n<>"),
     "unknown values": each("const K<i> : int32 = missing<i>"),
+    "unknown values in activities": lambda count: (
+        HEAD
+        + repeated('function f_<i> : abstraction { action "f_<i>" : p/A<i> }', count)
+        + repeated("action A<i> { goal { g : uint8 } result { r : uint8 } }", count)
+        + "statemachine M { initial S0\n"
+        + repeated("state S<i> { do f_<i>(g = unknown_<i>) on succeeded -> S<j> }", count)
+        + "state S<n> { on Go -> F }\nfinal F }".replace("<n>", str(count))
+    ),
+    "one unknown value among activities": lambda count: (
+        HEAD
+        + repeated('function f_<i> : abstraction { action "f_<i>" : p/A<i> }', count)
+        + repeated("action A<i> { goal { g : uint8 } result { r : uint8 } }", count)
+        + "statemachine M { initial S0\n"
+        + repeated("state S<i> { do f_<i>(g = 1) on succeeded -> S<j> }", count)
+        + "state S<n> { on Go [abs(missing) > 1] -> F }\nfinal F }".replace("<n>", str(count))
+    ),
     "unreachable states": machine("state S<i> { on Go -> F }\nfinal F<i>", "initial F\n<>"),
     "one name": each("struct S { a : int32 }"),
     "names in another style": each("struct s_<i> { a : int32 }"),

@@ -29,14 +29,14 @@ statemachine Counting {
   state Idle { on MissionStart -> Count }
   state Count {
     do count(depth = depth, place = place) gives (count => found)
-    on succeeded [not weary] / sum = sum + found -> Count
+    on succeeded [not weary] / sum = found -> Count
     on succeeded, aborted -> Stop
     after limit -> Stop
   }
   state Stop {
     do stop(data = true) gives (message => reason)
     on Stopped -> Done
-    on succeeded [reason != "" and sum > 3 and rate < 1.5] -> Done
+    on succeeded [reason != "" and sum > 3 and budget < 5 s] -> Done
     on succeeded, aborted -> Idle
   }
   final Done
@@ -77,8 +77,8 @@ def test_what_is_not_declared(tmp_path):
         "Declare `var limit : duration`",
         "Declare `var place : geometry_msgs/Point`",
         'Declare `var reason : string = ""`',
-        "Declare `var rate : float64 = 0.0`",
-        "Declare `var sum : uint32 = 0`",
+        "Declare `var budget : duration`",
+        "Declare `var sum : uint16 = 0`",
         "Declare `var weary : bool = false`",
         "Declare `in found : float64`",
     }
@@ -90,6 +90,6 @@ def test_what_is_not_declared(tmp_path):
 @pytest.mark.parametrize("head", ["", "package p\n"])
 def test_on_one_line(tmp_path, head):
     path = tmp_path / "m.swarm"
-    machine = "endless statemachine M { initial A state A { on Go / n = n + 1 -> A } }"
+    machine = "endless statemachine M { initial A state A { on Go / n = true -> A } }"
     path.write_text(f"{head}{machine}\nmember R {{ behavior M }}\nswarm S {{ r : R }}\n")
-    assert mended(path) == ["Declare `event Go : std_msgs/Empty`", "Declare `var n : uint32 = 0`"]
+    assert mended(path) == ["Declare `event Go : std_msgs/Empty`", "Declare `var n : bool = false`"]
