@@ -56,9 +56,11 @@ def unknown_option(error: click.NoSuchOption) -> str:
     if question := did_you_mean(name, _options_of(context.command, context)):
         return f"{said}: {question}"
     owners: dict[str, list[str]] = {}
-    for path, command in _commands(context.find_root()):
-        for option in _options_of(command, context):
-            owners.setdefault(option, []).append(path)
+    # What stands below the same command is nearer than what stands below others.
+    for around in (context, context.find_root()):
+        for path, command in _commands(around):
+            for option in _options_of(command, context):
+                owners.setdefault(option, []).append(path)
     meant = closest(name, owners, likeness=0.8)
     return f"{said} here: `{owners[meant][0]}` has `{meant}`" if meant else said
 
@@ -73,9 +75,10 @@ def _options_of(command: click.Command, context: click.Context) -> list[str]:
     ]
 
 
-def _commands(root: click.Context) -> list[tuple[str, click.Command]]:
-    """The commands with their paths: `swarmc add`; those below others are not looked for."""
-    group = root.command
-    assert isinstance(group, click.Group)
-    found = [(name, group.get_command(root, name)) for name in group.list_commands(root)]
-    return [(f"{root.command_path} {name}", each) for name, each in found if each is not None]
+def _commands(around: click.Context) -> list[tuple[str, click.Command]]:
+    """The commands directly below one, with their paths: `swarmc add`."""
+    group = around.command
+    if not isinstance(group, click.Group):
+        return []
+    found = [(name, group.get_command(around, name)) for name in group.list_commands(around)]
+    return [(f"{around.command_path} {name}", each) for name, each in found if each is not None]

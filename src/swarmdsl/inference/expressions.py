@@ -182,10 +182,16 @@ class Typing:
 
 
 def _way_to_bool(tree: ExpressionTree, found: Type | None) -> str | None:
-    """A condition is no number and no text: what to ask of one."""
+    """A truth value is no number and no text: what to ask of one, or to write for it."""
+    text = tree.span.text
+    if isinstance(tree, Value):
+        word = "true" if tree.value else "false"
+        return f"write `{word}`" if is_number(found) else None
+    if "\n" in text:
+        return None
     if is_number(found):
-        return f"compare it: `{tree.span.text} != 0`"
-    return f'compare it: `{tree.span.text} != ""`' if is_text(found) else None
+        return f"compare it: `{text} != 0`"
+    return f'compare it: `{text} != ""`' if is_text(found) else None
 
 
 def report_unknown_field(

@@ -115,7 +115,7 @@ class Lookahead:
         return self._sets.setdefault(members, f"SET{len(self._sets)}")
 
     def regex(self, regex: str) -> str:
-        """The function that matches a regular expression and the blanks behind it."""
+        """The function that matches a regular expression."""
         return self._regexes.setdefault(regex, f"REGEX{len(self._regexes)}")
 
     def is_choice(self, part: Expression) -> bool:
