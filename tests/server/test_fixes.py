@@ -5,7 +5,10 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import compiler
+from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.parse import parse
 from swarmdsl.server.fixes import fix
+from swarmdsl.source import Source
 
 MODEL = """\
 /// Robots that count.
@@ -52,7 +55,10 @@ def mended(path: Path) -> list[str]:
     titles: list[str] = []
     while True:
         checked = compiler.check([path])
-        fixes = [found for each in checked.report if (found := fix(each)) is not None]
+        source = Source(str(path), path.read_text(encoding="utf-8"))
+        declarations = parse(source, Diagnostics()).model.declarations
+        proposed = (fix(each, declarations) for each in checked.report)
+        fixes = [found for found in proposed if found is not None]
         if not fixes:
             assert not checked.report.has_errors
             return titles
@@ -93,3 +99,32 @@ def test_on_one_line(tmp_path, head):
     machine = "endless statemachine M { initial A state A { on Go / n = true -> A } }"
     path.write_text(f"{head}{machine}\nmember R {{ behavior M }}\nswarm S {{ r : R }}\n")
     assert mended(path) == ["Declare `event Go : std_msgs/Empty`", "Declare `var n : bool = false`"]
+
+
+@pytest.mark.parametrize(
+    ("before", "after"),
+    [
+        (
+            "/* statemachine M { old */\nendless statemachine M {\n",
+            "/* statemachine M { old */\nendless statemachine M {\n  var n : bool = false\n",
+        ),
+        (
+            "endless statemachine M {\n  var a : uint8 =\n 3 // three\n",
+            "endless statemachine M {\n  var a : uint8 =\n 3 // three\n  var n : bool = false\n",
+        ),
+        (
+            "endless statemachine M /* x { */ {\n",
+            "endless statemachine M /* x { */ {\n  var n : bool = false\n",
+        ),
+    ],
+)
+def test_the_place_is_that_of_the_declaration_and_not_of_text(tmp_path, before, after):
+    path = tmp_path / "m.swarm"
+    rest = """initial A state A { on Go / n = true -> A } }
+event Go : std_msgs/Empty
+member R { behavior M }
+swarm S { r : R }
+"""
+    path.write_text(before + rest)
+    assert mended(path) == ["Declare `var n : bool = false`"]
+    assert path.read_text() == after + rest

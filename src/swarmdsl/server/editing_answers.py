@@ -166,7 +166,7 @@ def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.Co
     for each in workspace.diagnostics().get(file.source.name, []):
         span = each.primary.span if each.primary is not None else None
         touched = span is not None and span.start <= wanted.end and wanted.start <= span.end
-        mended = fix(each) if touched else None
+        mended = fix(each, file.model.declarations) if touched else None
         if mended is not None:
             actions.append(
                 lsp.CodeAction(

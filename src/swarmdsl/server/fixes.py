@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 
 from swarmdsl.dataclass import dataclass
 from swarmdsl.diagnostics import Diagnostic
 from swarmdsl.source import Span
+from swarmdsl.syntax import Declaration, Fitness, FitnessInput, Param, StateMachine, Variable
 
 _MEANT = re.compile(r"did you mean `([^`]+)`\?")
 _IMPORT = re.compile(r"add `(import [^`]+)`")
 _DECLARATION = re.compile(r"declare it: `([^`]+)`")
 _VARIABLE = re.compile(r"declare it in `(\w+)`: `([^`]+)`")
 _NAME = re.compile(r"[\w./]+")
-# After the `{` of a declaration: a value, a comment or nothing, or something else.
-_LINE = re.compile(r"\n[ \t]*(?:(?P<value>(?:param|var|in)\b[^\n]*)|(?P<other>(?!//)\S[^\n]*))?")
+# The rest of a line on which nothing follows.
+_REST = re.compile(r"[ \t]*(?://[^\n]*)?(?=\n|\Z)")
+# What can stand between the name of a declaration and what is in it.
+_OPENING = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*\{", re.DOTALL)
 _HEAD = re.compile(r"^(?:package|import)\b[^\n]*\n", re.MULTILINE)
 
 
@@ -27,8 +31,11 @@ class Fix:
     text: str
 
 
-def fix(found: Diagnostic) -> Fix | None:
-    """The change that a diagnostic proposes; None where a person has to decide."""
+def fix(found: Diagnostic, declarations: Iterable[Declaration]) -> Fix | None:
+    """The change that a diagnostic proposes; None where a person has to decide.
+
+    `declarations` are those of the file that it is in.
+    """
     if found.primary is None or found.help is None:
         return None
     span = found.primary.span.absolute
@@ -43,24 +50,26 @@ def fix(found: Diagnostic) -> Fix | None:
         gap = "\n" if heads else ""
         line = f"{gap}{declared[1]}\n"
         return Fix(f"Declare `{declared[1]}`", Span(span.source, below, below), line)
-    if (variable := _VARIABLE.fullmatch(found.help)) and (at := _inside(variable[1], text)):
+    if variable := _VARIABLE.fullmatch(found.help):
+        owner = next((each for each in declarations if each.name == variable[1]), None)
+        at = _inside(owner, text) if isinstance(owner, (StateMachine, Fitness)) else None
+        if at is None:
+            return None
         rest = "" if text.startswith("\n", at) else "\n "
         line = f"\n  {variable[2]}{rest}"
         return Fix(f"Declare `{variable[2]}`", Span(span.source, at, at), line)
     return None
 
 
-def _inside(owner: str, text: str) -> int | None:
+def _inside(owner: StateMachine | Fitness, text: str) -> int | None:
     """Where the next value of a state machine or of a fitness goes: below those that it has."""
-    head = re.search(
-        rf"^(?!\s*//)[^\n]*\b(?:statemachine|fitness)\s+{owner}\s*\{{", text, re.MULTILINE
-    )
-    if head is None:
-        return None
-    at = head.end()
-    for line in _LINE.finditer(text, at):
-        if line["value"]:
-            at = line.end()
-        elif line["other"]:
-            break
-    return at
+    values = [each for each in owner.items if isinstance(each, (Param, Variable, FitnessInput))]
+    if values:
+        end = values[-1].span.absolute.end
+    else:
+        opening = _OPENING.match(text, owner.name.span.absolute.end)
+        if opening is None:
+            return None
+        end = opening.end()
+    rest = _REST.match(text, end)
+    return rest.end() if rest is not None else end
