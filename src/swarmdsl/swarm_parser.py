@@ -1303,7 +1303,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if value is None: at = before6; token = tokens[at]; break
                     declarations_.append(value)
             elif token == 'optimize':
-                if not (token == 'optimize'): at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 value = r_Optimization()
                 if value is None: at = before3; token = tokens[at]; del declarations_[before4:]; del optimizations_[before5:]; break
                 optimizations_.append(value)
@@ -1612,7 +1611,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
             if not chosen7 and token == 'const':
                 before8 = at
                 while True:
-                    if not (token == 'const'): at = before8; token = tokens[at]; break
                     value = r_Constant()
                     if value is None: at = before8; token = tokens[at]; break
                     constants_.append(value)
@@ -3523,7 +3521,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if value is None: at = before1; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'after':
-                if not (token == 'after'): return None
                 value = r_TimeTrigger()
                 if value is None: return None
                 triggers_.append(value)
@@ -3535,7 +3532,6 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
                     if value is None: at = before2; token = tokens[at]; break
                     triggers_.append(value)
             elif token == 'monitor':
-                if not (token == 'monitor'): return None
                 value = r_MonitorTrigger()
                 if value is None: return None
                 triggers_.append(value)

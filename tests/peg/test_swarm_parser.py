@@ -98,6 +98,11 @@ def compare_refusal(text: str, expected: oracle.Refused) -> None:
     assert terminals == expected.expected, text
 
 
+def test_a_token_is_not_asked_twice_what_it_is() -> None:
+    twice = re.compile(r"if (token == '\w+'):\n\s+if not \(\1\)")
+    assert not twice.search(PATH.read_text(encoding="utf-8"))
+
+
 def test_models() -> None:
     accepted = [compare(text) for text in models()]
 

@@ -99,7 +99,7 @@ class Emission:
             case Optional(part):
                 self._optional(part)
             case Repetition():
-                self._repetition(expression, fail)
+                self._repetition(expression, fail, known=known)
             case Assign():
                 self._assign(expression, fail, known=known)
             case Use(rule):
@@ -153,10 +153,10 @@ class Emission:
                 self._expression(part, f"{undo}; break", known=True)
                 self._line("break")
 
-    def _repetition(self, repetition: Repetition, fail: str) -> None:
+    def _repetition(self, repetition: Repetition, fail: str, *, known: bool) -> None:
         part, separator = repetition.part, repetition.separator
         if repetition.least:
-            self._expression(part, fail)
+            self._expression(part, fail, known=known)
             self._more(part, separator)
         elif separator is None:
             self._more(part, None)
