@@ -178,6 +178,33 @@ def test_a_node_ends_whenever_it_is_told_to(
     assert (run.returncode, run.stderr) == (0, "")
 
 
+# A node that takes a while to begin, and is told to stop in the middle of it.
+SLOW_TO_BEGIN = """
+import os, signal, sys, time
+import beep.node
+def begin():
+    os.kill(os.getpid(), getattr(signal, sys.argv[1]))
+    time.sleep(0.5)
+beep.node.Beep = begin
+beep.node.main()
+"""
+
+
+@pytest.mark.parametrize("number", ["SIGINT", "SIGTERM"])
+def test_a_node_ends_when_it_is_told_to_while_it_begins(
+    write: Write, ros2: tuple[Path, dict[str, str]], tmp_path: Path, number: str
+) -> None:
+    write(tmp_path, ros="2")
+    python, variables = ros2
+    path = os.pathsep.join([str(tmp_path / "beep"), variables["PYTHONPATH"]])
+    run = subprocess.run(
+        [python, "-c", SLOW_TO_BEGIN, number],
+        env={**variables, "PYTHONPATH": path},
+        capture_output=True, text=True, timeout=60, check=False,
+    )  # fmt: skip
+    assert (run.returncode, run.stderr) == (0, "")
+
+
 def test_python_nodes_do_what_is_filled_in(write: Write, start: Any, tmp_path: Path) -> None:
     write(tmp_path / "src", ros="2")
     for name in ("climb", "camera"):

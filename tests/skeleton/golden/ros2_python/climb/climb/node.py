@@ -14,33 +14,36 @@ LOOK = 0.5
 
 
 def main():
-    """Run the node until it is told to stop."""
+    """Run the node until it is told to stop, and end without a word then."""
     rclpy.init()
     try:
-        node = Climb()
+        run()
     except ParameterException as error:  # one is missing, or of another type
-        rclpy.try_shutdown()
         sys.exit(str(error))
-    except Exception:
-        if rclpy.ok():
-            raise
-        return  # it was told to stop before it had begun
-    # A goal takes one thread; the others hear and answer meanwhile.
-    executor = MultiThreadedExecutor(num_threads=4)
-    executor.add_node(node)
-    try:
-        while rclpy.ok():
-            executor.spin_once(timeout_sec=LOOK)
     except KeyboardInterrupt:
         pass
     except Exception:
         if rclpy.ok():
             raise
     finally:
+        rclpy.try_shutdown()
+
+
+def run():
+    """Make the node, and let it work while ROS runs."""
+    node = Climb()
+    if not rclpy.ok():  # it was told to stop before it had begun
+        return
+    # A goal takes one thread; the others hear and answer meanwhile.
+    executor = MultiThreadedExecutor(num_threads=4)
+    executor.add_node(node)
+    try:
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=LOOK)
+    finally:
         node.stop()
         executor.shutdown()
         node.destroy_node()
-        rclpy.try_shutdown()
 
 
 if __name__ == '__main__':

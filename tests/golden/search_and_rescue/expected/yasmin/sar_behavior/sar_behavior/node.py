@@ -2,6 +2,7 @@
 """The node of a state machine: it starts with the machine, and ends with it."""
 
 import os
+import queue
 import signal
 import sys
 import threading
@@ -41,12 +42,13 @@ def run(behavior, name, args=None):
     """Run the node until its machine ends or a signal comes, and end the process."""
     # Without handlers of rclpy a signal leaves ROS as it is: goals can still be cancelled.
     rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    done = threading.Event()
+    # Events would not do: a signal may interrupt who holds their lock.
+    ending = queue.SimpleQueue()
     for each in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(each, lambda *_: done.set())
+        signal.signal(each, lambda *_: ending.put(False))
     code = 1
     try:
-        code = _spin(behavior, name, done)
+        code = _spin(behavior, name, ending)
     finally:
         rclpy.try_shutdown()
     # Nothing is left to do, and what the middleware does when Python ends may hang.
@@ -55,9 +57,9 @@ def run(behavior, name, args=None):
     os._exit(code)
 
 
-def _spin(behavior, name, done):
+def _spin(behavior, name, ending):
     try:
-        node = StateMachineNode(behavior, name, done.set)
+        node = StateMachineNode(behavior, name, lambda: ending.put(False))
     except StartError as error:
         rclpy.logging.get_logger(name).fatal(str(error))
         return 1
@@ -65,17 +67,17 @@ def _spin(behavior, name, done):
     # only reach a thread that does not wait in ROS.
     executor = SingleThreadedExecutor()
     executor.add_node(node)
-    spinner = threading.Thread(target=_work, args=(executor, done), daemon=True)
+    spinner = threading.Thread(target=_work, args=(executor, ending), daemon=True)
     spinner.start()
-    done.wait()
+    broken = ending.get()
     stopped = threading.Event()
     executor.create_task(node.host.end, stopped.set)
     stopped.wait(node.host.cancel_timeout / SECOND + _MARGIN)
     executor.shutdown(timeout_sec=_MARGIN)
     spinner.join(_MARGIN)
-    failed = node.failed
+    failed = node.failed or broken
     # Every wait is bounded, also those of the middleware.
-    late = threading.Timer(_LATE, os._exit, (int(node.failed),))
+    late = threading.Timer(_LATE, os._exit, (int(failed),))
     late.daemon = True
     late.start()
     # Clients of actions are not the node's to destroy, and ROS may hang on those that are left.
@@ -85,8 +87,8 @@ def _spin(behavior, name, done):
     return int(failed)
 
 
-def _work(executor, done):
+def _work(executor, ending):
     try:
         executor.spin()
-    finally:
-        done.set()
+    finally:  # of its own accord only where something is broken
+        ending.put(True)

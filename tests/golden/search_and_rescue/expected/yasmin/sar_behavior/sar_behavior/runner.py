@@ -15,6 +15,8 @@ from .values import SECOND
 
 _MARGIN = 5.0
 """How long everything but the servers may take to stop, in seconds."""
+_LOOK = 0.5
+"""How often an engine of its own looks whether ROS still runs, in seconds."""
 
 
 class Fsm(NamedTuple):
@@ -223,7 +225,9 @@ def in_node_of_its_own(behavior, name):
 
 def _spin(executor, chart):
     try:
-        executor.spin()
+        # A signal does not wake an executor that comes to wait while ROS shuts down.
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=_LOOK)
     except ExternalShutdownException:
         pass
     finally:

@@ -38,8 +38,8 @@ def run(name, behavior, params=()):
         runner = _Runner(behavior.build())
         if rospy.get_param('~introspection', False):
             smach_ros.IntrospectionServer('smach_server', runner.machine, '/' + name).start()
+        rospy.on_shutdown(runner.stop)
         if not rospy.is_shutdown():
-            rospy.on_shutdown(runner.stop)
             runner.start()
             rospy.spin()
             failed = runner.failed
@@ -50,7 +50,8 @@ def run(name, behavior, params=()):
         # What ends before it has begun cannot begin.
         if not rospy.is_shutdown():
             raise
-    ending.wait()
+    finally:
+        ending.wait()
     sys.exit(1 if failed else 0)
 
 
