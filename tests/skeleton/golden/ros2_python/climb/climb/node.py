@@ -26,7 +26,16 @@ def main():
         if rclpy.ok():
             raise
     finally:
+        shut_down()
+
+
+def shut_down():
+    """Shut ROS down, where no signal has done or does so."""
+    try:
         rclpy.try_shutdown()
+    except Exception:
+        if rclpy.ok():
+            raise
 
 
 def run():
