@@ -163,6 +163,8 @@ def _first_init(frozen: bool) -> Callable[..., None]:
                     _set(self, name, value)
         else:
             init = shape.owner.__init__ = _init(shape.owner, frozen)
+            # It refers to itself: dropped, it would be garbage that has to be searched for.
+            vars(init)["first"] = first
             init(self, *arguments, **named)
 
     return first

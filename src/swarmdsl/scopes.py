@@ -115,7 +115,7 @@ class FileScope:
     """The declarations that one file sees."""
 
     def __init__(self, file: File, scopes: Scopes) -> None:
-        self._scopes = scopes
+        self._known = scopes.known
         self._project = scopes.project
         self._package = file.package
         self.file = file
@@ -136,7 +136,7 @@ class FileScope:
     @property
     def interfaces(self) -> Interfaces:
         """Those of the whole project."""
-        return self._scopes.interfaces
+        return self._known.interfaces
 
     def find(self, name: str) -> list[tuple[str, Declaration]]:
         """All declarations `name` could mean, the nearest only, each with its package."""
@@ -283,20 +283,28 @@ class FileScope:
         return f'"{Path(way).as_posix()}"'
 
 
-class Scopes(dict[File, FileScope]):
-    """The scopes of the files of a project, each made when it is first asked for."""
+class _Known:
+    """What all scopes of a project share; apart from them, so that they do not hold each other."""
 
     def __init__(self, project: Project) -> None:
-        super().__init__()
-        self.project = project
-        self._declared: dict[File, Mapping[str, Declaration]] = {}
+        self._project = project
 
     @cached_property
     def interfaces(self) -> Interfaces:
         """The interfaces of the project; only what is said of mistakes asks for them."""
         from swarmdsl.interfaces import Interfaces
 
-        return Interfaces(self.project.declarations())
+        return Interfaces(self._project.declarations())
+
+
+class Scopes(dict[File, FileScope]):
+    """The scopes of the files of a project, each made when it is first asked for."""
+
+    def __init__(self, project: Project) -> None:
+        super().__init__()
+        self.project = project
+        self.known = _Known(project)
+        self._declared: dict[File, Mapping[str, Declaration]] = {}
 
     def __missing__(self, file: File) -> FileScope:
         self[file] = scope = FileScope(file, self)

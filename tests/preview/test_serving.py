@@ -290,12 +290,14 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         expect(picture.locator(".around")).to_have_attribute("data-id", "Out")
         who = page.locator("#who")
         who.select_option("digger[1]")
+        expect(active).to_have_count(1)
         expect(active).to_have_attribute("data-id", "Out.Rest")
         page.evaluate(WATCH)
         with trace.open("a", encoding="utf-8") as file:
             file.write(step("digger[0]", "Out.Rest", taken=("Out.Dig->0",)))
             file.write(step("digger[1]", "House", taken=("Out.Rest->0",)))
-        expect(active).to_have_attribute("data-id", "House")
+        expect(picture.locator(".node.lit[data-id=House]")).to_have_count(1)
+        expect(active).to_have_count(1)
         page.wait_for_function("flashed.length")
         assert page.evaluate("flashed") == ["Out.Rest->0"], "that of whom is chosen"
         expect(picture.locator(".taken")).to_have_count(0)
@@ -332,6 +334,7 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
 
         # One of several machines alone is where its machine is, and nowhere else.
         trace.write_text(step("Job (a.jsonl)", "Out.Rest"), encoding="utf-8")
+        expect(active).to_have_count(1)
         expect(active).to_have_attribute("data-id", "Out.Rest")
         expect(who).to_have_text(re.compile(r"^Job \(a\.jsonl\)"))
         page.locator("#which").select_option("Rest.statechart")

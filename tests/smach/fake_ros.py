@@ -342,7 +342,7 @@ class World:
             get_param=get_param,
             has_param=world.params.__contains__,
             get_rostime=Time.now,
-            init_node=nothing,
+            init_node=lambda name, disable_signals: None,
             on_shutdown=hooks.append,
             resolve_name=lambda name: name,
             spin=lambda: self.ended.wait(WAIT),

@@ -48,7 +48,11 @@ statemachine {name} {{
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_node_of_a_machine(name: str, robot: Callable[..., Any], tmp_path: Path) -> None:
+def test_node_of_a_machine(
+    name: str, robot: Callable[..., Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # Only the main thread could handle signals.
+    monkeypatch.setattr("signal.signal", lambda number, handler: None)
     module = snake_case(name)
     made = robot(MODEL.format(name=name), module, **{"~limit": 4})
     world = made.world
