@@ -75,7 +75,7 @@ fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistak
 		--hypothesis-profile chance
 
 parser: $(READY) ## Make the parser from the grammar.
-	$(BIN)/python -m swarmdsl.peg
+	$(BIN)/python -m swarmdsl.syntax.pegen
 
 bless: $(READY) ## Take today's output as what the golden tests expect.
 	$(BIN)/pytest --bless

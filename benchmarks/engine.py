@@ -13,10 +13,10 @@ from typing import Any
 
 import peers
 from measure import Section, interleaved, process, spread
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.runtime import Event, Instance, Machine, Observer
-from swarmdsl.scxml import read
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.execution.engine import Event, Instance, Machine, Observer
+from swarmdsl.execution.scxml import read
 
 RUNS = 5
 INSTANCES = 1_000

@@ -25,9 +25,9 @@ Parser = Callable[[Sequence[Path], Sequence[str]], object]
 
 
 def _swarmdsl() -> Parser:
-    from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.parse import parse
-    from swarmdsl.source import Source
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.base.source import Source
+    from swarmdsl.syntax.parser.parse import parse
 
     def run(files: Sequence[Path], texts: Sequence[str]) -> object:
         report = Diagnostics()
@@ -42,7 +42,7 @@ def _swarmdsl() -> Parser:
 
 
 def _textx() -> Parser:
-    from swarmdsl.textx_entry import metamodel
+    from swarmdsl.syntax.pegen.metamodel import metamodel
 
     return _each(metamodel().model_from_str)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from random import Random
 from time import process_time
 
-from swarmdsl.workspace import Workspace
+from swarmdsl.driver.workspace import Workspace
 
 SEED = 11
 KEYS = 60

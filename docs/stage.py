@@ -22,7 +22,7 @@ _SHOWN = (
     "editors/*/README.md",
 )
 # Files of code that pages link to.
-_LINKED = ("src/swarmdsl/compiler.py",)
+_LINKED = ("src/swarmdsl/driver/pipeline.py",)
 _FENCE = re.compile(r"^(`{3,}\w+) [^\n]*$", re.MULTILINE)
 
 

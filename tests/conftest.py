@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -55,7 +55,7 @@ def compiled(tmp_path: Path) -> Callable[[str], System]:
     def compile_text(text: str) -> System:
         path = tmp_path / "model.swarm"
         path.write_text(text, encoding="utf-8")
-        result = compiler.check([path])
+        result = pipeline.check([path])
         assert result.system is not None, [found.message for found in result.report]
         return result.system
 

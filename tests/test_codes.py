@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.codes import CODES
-from swarmdsl.diagnostics import Level
-from swarmdsl.emit import Request
-from swarmdsl.explain import page_path
-from swarmdsl.project.settings import Settings
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.base.diagnostics.collector import Level
+from swarmdsl.base.diagnostics.explain import page_path
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config.settings import Settings
 
 from .docs.pages import Block, Page
 
@@ -73,11 +73,11 @@ def check(blocks: list[Block], folder: Path, asked: str) -> list[str]:
     if "target" not in first:
         # A silent warning is asked for on its own page.
         settings = Settings(levels={asked: Level.WARN})
-        return [found.code for found in compiler.check([model], settings).report]
+        return [found.code for found in pipeline.check([model], settings).report]
     name, _, value = first.get("option", "").partition("=")
     options = {name: value} if name else {}
-    assert not len(compiler.check([model]).report)
-    built = compiler.build([model], [Request(first["target"], options)], folder / "out")
+    assert not len(pipeline.check([model]).report)
+    built = pipeline.build([model], [Request(first["target"], options)], folder / "out")
     return [found.code for found in built.report]
 
 
@@ -122,7 +122,9 @@ def test_every_code_has_a_golden_case_or_another_test(name: str) -> None:
 
 def test_every_code_is_used_and_no_other_is() -> None:
     modules = {*SOURCES.rglob("*.py"), *(ROOT / "generators").rglob("*.py")}
-    text = "\n".join(read(path) for path in sorted(modules - {SOURCES / "codes.py"}))
+    text = "\n".join(
+        read(path) for path in sorted(modules - {SOURCES / "base" / "diagnostics" / "catalog.py"})
+    )
     used = {name for name in CODES if f'"{name}"' in text}
 
     assert used == set(CODES)
@@ -130,7 +132,7 @@ def test_every_code_is_used_and_no_other_is() -> None:
 
 
 def test_numbers_are_unique_and_of_their_group() -> None:
-    text = read(SOURCES / "codes.py")
+    text = read(SOURCES / "base" / "diagnostics" / "catalog.py")
     titles = dict(re.findall(r"(\d\d)xx  (\w.*?)(?:  |\n)", text))
     by_group = re.split(r"# ---- (.+)\n", text)
     found: list[str] = []

@@ -7,7 +7,7 @@ import pprint
 
 import pytest
 
-from swarmdsl import dataclass as ours
+from swarmdsl.base import records as ours
 
 SOURCE = """
 from __future__ import annotations

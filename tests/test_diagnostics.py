@@ -11,11 +11,11 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.codes import CODES
-from swarmdsl.diagnostics import Level
-from swarmdsl.project.settings import Settings
-from swarmdsl.render import render
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.base.diagnostics.collector import Level
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config.settings import Settings
 
 FOLDER = Path(__file__).parent / "diagnostics"
 NAMES = {entry.code: name for name, entry in CODES.items()}
@@ -31,7 +31,7 @@ def test_diagnostics(case: str, bless: bool, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.chdir(FOLDER)
     # A warning that is silent by default is asked for where the case shows it.
     settings = Settings(levels={NAMES[case[:6]]: Level.WARN})
-    report = compiler.check([Path(case)], settings).report
+    report = pipeline.check([Path(case)], settings).report
     stream = StringIO()
     render(report, "text", stream)
     if bless:

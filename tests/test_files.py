@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ def test_an_unreadable_file(tmp_path: Path) -> None:
     model = tmp_path / "locked.swarm"
     model.write_text("event Start : std_msgs/Empty\n", encoding="utf-8")
 
-    (found,) = compiler.check([model]).report
+    (found,) = pipeline.check([model]).report
 
     assert found.code == "SW0003"
     assert found.message == f"cannot read `{model}`: permission denied"
@@ -40,7 +40,7 @@ def test_an_unreadable_file_that_is_imported(tmp_path: Path) -> None:
     model = tmp_path / "model.swarm"
     model.write_text('import "locked.swarm"\n\nevent Stop : std_msgs/Empty\n', encoding="utf-8")
 
-    (found,) = compiler.check([model]).report
+    (found,) = pipeline.check([model]).report
 
     assert found.code == "SW0003"
     assert found.primary is not None

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 
@@ -16,7 +16,7 @@ def test_a_check_leaves_no_garbage(folder):
     was_enabled = gc.isenabled()
     gc.disable()
     try:
-        result = compiler.check([folder])
+        result = pipeline.check([folder])
         gc.set_debug(gc.DEBUG_SAVEALL)
         gc.collect()
         left = {type(each) for each in gc.garbage}

@@ -10,10 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, plugins
-from swarmdsl.emit import Request
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 from swarmdsl.ir.dump import dump
-from swarmdsl.render import render
 
 ROOT = Path(__file__).resolve().parents[1]
 GOLDEN = ROOT / "tests" / "golden"
@@ -45,15 +46,15 @@ SAME_IN_ALL = re.compile(
 
 def make(model: Path, out: Path) -> dict[str, str]:
     model = model.relative_to(ROOT)
-    checked = compiler.check([model])
+    checked = pipeline.check([model])
     assert checked.system is not None, [found.message for found in checked.report]
     texts = {"ir.txt": dump(checked.system)}
     # What is to be filled in has golden files of its own, in tests/skeleton.
-    for target in [name for name in plugins.BUILT_IN if name != "skeleton"]:
-        result = compiler.build([model], [Request(target)], out)
+    for target in [name for name in registry.BUILT_IN if name != "skeleton"]:
+        result = pipeline.build([model], [Request(target)], out)
         if len(result.report):
             texts[f"{target}.diagnostics.txt"] = rendered(result)
-    compiler.build([model], [Request("smach", {"ros": "2"})], out / "with")
+    pipeline.build([model], [Request("smach", {"ros": "2"})], out / "with")
     (out / "with" / "smach").rename(out / "smach_ros2")
     for path in sorted(out.rglob("*")):
         name = path.relative_to(out).as_posix()
@@ -67,7 +68,7 @@ def make(model: Path, out: Path) -> dict[str, str]:
     return texts
 
 
-def rendered(result: compiler.Result) -> str:
+def rendered(result: pipeline.Result) -> str:
     from io import StringIO
 
     stream = StringIO()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.nets import Pin, PortTopic, nets
+from swarmdsl.analysis.port_nets import Pin, PortTopic, nets
 
 
 def _pin(text: str) -> Pin:

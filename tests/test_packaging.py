@@ -82,7 +82,9 @@ def test_the_wheel_has_every_file_of_the_package(wheel):
     if listed.returncode != 0:
         pytest.skip("not a git checkout: nothing says which files there ought to be")
     expected = {
-        path.removeprefix("src/") if path.startswith("src/") else f"swarmdsl/{path}"
+        path.removeprefix("src/").replace("generators/", "swarmdsl/codegen/bundled/", 1)
+        if path.startswith(("src/", "generators/"))
+        else f"swarmdsl/{path}"
         for path in listed.stdout.splitlines()
     }
     assert "swarmdsl/grammar/swarm.tx" in expected

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.reading import without_control_characters
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.project.read_source import without_control_characters
 
 
 @given(st.text("ab\n\r\u2028é", max_size=40), st.data())

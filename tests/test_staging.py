@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.staging import Staging
+from swarmdsl.base.atomic_write import Staging
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are of POSIX")

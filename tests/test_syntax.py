@@ -6,8 +6,8 @@ from dataclasses import fields
 
 import pytest
 
-from swarmdsl.syntax import NODES, Documented
-from swarmdsl.textx_entry import metamodel
+from swarmdsl.syntax.ast import NODES, Documented
+from swarmdsl.syntax.pegen.metamodel import metamodel
 
 # Words with a place, and the two rules for expressions, become `Word` and `Expression`.
 WORDS = {"Name", "FieldName", "InterfaceName", "PackageName", "Text"}

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from swarmdsl.xml_text import Element, comment_text, document, legal
+from swarmdsl.base.xml_writer import Element, comment_text, document, legal
 
 TEXTS = st.text(st.sampled_from("a<>&\"'\r\n\t \x0b\ufffe\u00e9-\U0001f916]"), max_size=6)
 

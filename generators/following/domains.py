@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.exchange.scxml.events import Events
-from swarmdsl.exchange.scxml.inward import inward, region_entered
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.events import Events
+from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
 from swarmdsl.ir import State, StateKind, StateMachine, Transition, Trigger
-from swarmdsl.source import Span
 
 
 @dataclass(frozen=True)

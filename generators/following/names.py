@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.source import Span
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Span
 
 from ..ros2.view import PackageView
 from .library import Library

@@ -7,12 +7,12 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.source_map import MappedText
+from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
-from swarmdsl.source import Span
-from swarmdsl.source_map import MappedText
-from swarmdsl.templates import Templates
 
 from ..ros2 import render as ros2
 from ..ros2.imports import WIDTH

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from enum import Enum
 
-from swarmdsl.dataclass import dataclass, field
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import camel_case, fresh
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.ir import State, StateKind, StateMachine
-from swarmdsl.naming import camel_case, fresh
 
 from .library import Library
 from .ways import Way, Ways

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.python import Call, comments, layout
 from swarmdsl.ir import StateKind, System
-from swarmdsl.python_source import Call, comments, layout
 
 from ..ros2.imports import WIDTH, Imports
 from .structure import Kind, Node, Structure

@@ -10,9 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.scxml.events import delays
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.shared.events import delays
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,
@@ -23,7 +24,6 @@ from swarmdsl.ir import (
     TimeTrigger,
     Trigger,
 )
-from swarmdsl.naming import fresh
 
 from .domains import Domains, Move, is_in
 from .library import Library

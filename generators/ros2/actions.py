@@ -7,7 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Span
 from swarmdsl.ir import (
     Action,
     Assignment,
@@ -24,7 +25,6 @@ from swarmdsl.ir import (
     TimeTrigger,
 )
 from swarmdsl.ir.expressions import parts
-from swarmdsl.source import Span
 
 from .names import TARGET, type_name
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from swarmdsl.bounds import bound_of_any
+from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.ir import Activity, State
-from swarmdsl.python_source import Call, Source, layout
+from swarmdsl.ir.integer_ranges import bound_of_any
 
 from .effects import filled, put
 from .expressions import DATA, EVENT

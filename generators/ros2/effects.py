@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from keyword import iskeyword
 
+from swarmdsl.codegen.python import Call, Source, layout
 from swarmdsl.ir import Assignment, Effect, Expression, Named, Send
-from swarmdsl.python_source import Call, Source, layout
 
 from .expressions import DATA, attribute, python_expression, stored
 from .imports import WIDTH

@@ -1,4 +1,4 @@
-"""The engine as one file in the style of ROS: what `swarmdsl.runtime` has in several."""
+"""The engine as one file in the style of ROS: what `swarmdsl.execution.engine` has in several."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from inspect import cleandoc
-from pathlib import Path
 
-import swarmdsl
+from swarmdsl.base import resources
 
 # How docstrings begin that are no orders, as the linters want them to be.
 _NOUNS = ("A", "An", "The", "What", "Which")
@@ -28,7 +27,7 @@ def engine_source() -> str:
     the linters of ROS 2 want it.
     """
     # It is only read: to import it takes longer.
-    folder = Path(str(swarmdsl.__file__)).with_name("runtime")
+    folder = resources.engine()
     imports: dict[str, set[str]] = {}
     sections = []
     for module in _MODULES:

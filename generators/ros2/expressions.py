@@ -9,8 +9,7 @@ from __future__ import annotations
 import keyword
 from functools import cache
 
-from swarmdsl.bounds import bound_of
-from swarmdsl.dataclass import replace
+from swarmdsl.base.records import replace
 from swarmdsl.ir import (
     Array,
     Binary,
@@ -24,9 +23,10 @@ from swarmdsl.ir import (
     Type,
     Unary,
 )
+from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
 from swarmdsl.ir.expressions import parts
-from swarmdsl.ir.types import DURATION, FLOATS, STRING
-from swarmdsl.translate import Dialect, python_literal, translate
+from swarmdsl.ir.integer_ranges import bound_of
+from swarmdsl.syntax.types import DURATION, FLOATS, STRING
 
 from .imports import Imports
 from .names import field_name

@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.constants import Value
-from swarmdsl.exchange.nodes import behavior_nodes, bringup_package, has_node
-from swarmdsl.exchange.wiring import Remaps, check_wiring, wiring
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import fresh, snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.constants import Value
+from swarmdsl.codegen.shared.nodes import behavior_nodes, bringup_package, has_node
+from swarmdsl.codegen.shared.wiring import Remaps, check_wiring, wiring
 from swarmdsl.ir import Member, Role, Swarm, System
-from swarmdsl.naming import fresh, snake_case
-from swarmdsl.source import Span
 
 from .names import TARGET
 from .params import given

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.exchange.scxml.events import Events, delays
-from swarmdsl.exchange.scxml.inward import inward, region_entered
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.python import Call, Source, comments, layout, place
+from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
 from swarmdsl.ir import (
     Binary,
     Expression,
@@ -16,7 +17,6 @@ from swarmdsl.ir import (
     StateMachine,
     Transition,
 )
-from swarmdsl.python_source import Call, Source, comments, layout, place
 
 from .activities import activity_of
 from .effects import effects_of

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.base.naming import fresh, snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.python import Source, comments
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.naming import fresh, snake_case
-from swarmdsl.python_source import Source, comments
-from swarmdsl.source import Span
 
 from .imports import Imports
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import camel_case, is_python_name, snake_case
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.ros.package_names import PackageNames
 from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
-from swarmdsl.naming import camel_case, is_python_name, snake_case
-from swarmdsl.package_names import PackageNames
-from swarmdsl.source import Span
 
 TARGET = "ros2"
 _MODULES = (

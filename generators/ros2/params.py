@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.constants import Value, constant, params_by_name
-from swarmdsl.exchange.nodes import BehaviorNode
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.python import Call
+from swarmdsl.codegen.ros.parameters import parameter_value, with_parameters
+from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
+from swarmdsl.codegen.shared.nodes import BehaviorNode
 from swarmdsl.ir import Array, Param, Primitive, StateMachine
-from swarmdsl.python_source import Call
-from swarmdsl.ros_parameters import parameter_value, with_parameters
 
 from .names import TARGET
 

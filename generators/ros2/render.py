@@ -7,14 +7,14 @@ from functools import cache
 from pathlib import Path
 from textwrap import wrap
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile, fits
-from swarmdsl.interface_files import file_name
-from swarmdsl.interface_packages import InterfacePackage, definitions
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile, fits
+from swarmdsl.codegen.ros.interface_files import file_name
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
+from swarmdsl.codegen.ros.package import manifest
+from swarmdsl.codegen.source_map import MappedText
+from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
-from swarmdsl.ros_package import manifest
-from swarmdsl.source_map import MappedText
-from swarmdsl.templates import Templates
 
 from .engine import engine_source
 from .imports import WIDTH

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import incoming_topic
+from swarmdsl.codegen.python import Call, Source
 from swarmdsl.ir import Event, Named, StateMachine, System
-from swarmdsl.naming import incoming_topic
-from swarmdsl.python_source import Call, Source
 
 from .actions import feedback_topic
 from .imports import Imports

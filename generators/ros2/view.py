@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.diagram.readme import Picture, pictures
-from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_packages import InterfacePackage, check_described, packages_of, written
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen.python import Call, Source, comment_lines, comments, file_name, layout
+from swarmdsl.codegen.ros.interface_packages import (
+    InterfacePackage,
+    check_described,
+    packages_of,
+    written,
+)
+from swarmdsl.codegen.ros.package import manifest
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.python_source import Call, Source, comment_lines, comments, file_name, layout
-from swarmdsl.ros_package import manifest
-from swarmdsl.source import Span
+from swarmdsl.tools.diagram.readme import Picture, pictures
 
 from . import names, package
 from .actions import check_feedback, messages_of_actions

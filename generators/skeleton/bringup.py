@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.exchange.constants import params_by_name
-from swarmdsl.exchange.nodes import bringup_package, has_node
-from swarmdsl.exchange.wiring import Remaps, Wiring, check_wiring, wiring
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.naming import incoming_topic, is_ros_package_name, snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.python import comment_lines, file_name
+from swarmdsl.codegen.shared.constants import params_by_name
+from swarmdsl.codegen.shared.nodes import bringup_package, has_node
+from swarmdsl.codegen.shared.wiring import Remaps, Wiring, check_wiring, wiring
 from swarmdsl.ir import Part, System
-from swarmdsl.naming import incoming_topic, is_ros_package_name, snake_case
-from swarmdsl.python_source import comment_lines, file_name
-from swarmdsl.source import Span
 
 from .names import TARGET
 from .nodes import Node

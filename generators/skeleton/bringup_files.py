@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 
 from lxml import etree
 
-from swarmdsl.diagram.readme import insides
-from swarmdsl.exchange.xml import Places, add_comment, document
-from swarmdsl.generator import OutputFile
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.exchange.xml import Places, add_comment, document
+from swarmdsl.codegen.ros.package import manifest
 from swarmdsl.ir import System
-from swarmdsl.ros_package import manifest
+from swarmdsl.tools.diagram.readme import insides
 
 from .bringup import Bringup, Robot
 from .options import Options

@@ -7,11 +7,11 @@ import re
 from collections.abc import Mapping
 from typing import Protocol
 
-from swarmdsl.cpp import literal as cpp_literal
-from swarmdsl.dataclass import dataclass
-from swarmdsl.interface_files import Generation
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.cpp import literal as cpp_literal
+from swarmdsl.codegen.ros.interface_files import Generation
 from swarmdsl.ir import Array, Literal, Named, Primitive
-from swarmdsl.ir.types import FLOATS, STRING
+from swarmdsl.syntax.types import FLOATS, STRING
 
 from .names import python_field
 

@@ -7,13 +7,13 @@ import sys
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.exchange.nodes import has_node
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.naming import camel_case, is_ros_package_name, snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen.shared.nodes import has_node
 from swarmdsl.ir import Component, Function, Named, Primitive, System, Type
-from swarmdsl.naming import camel_case, is_ros_package_name, snake_case
-from swarmdsl.source import Span
-from swarmdsl.suggest import suggest
 
 from .names import TARGET, identifiers, is_cpp_word
 from .options import Options

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import cast
 
-from swarmdsl.dataclass import dataclass, replace
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.interface_files import Generation, bad_names, parts
-from swarmdsl.interface_packages import InterfacePackage, check_order, packages_of
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import is_ros_package_name
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.ros.interface_files import Generation, bad_names, parts
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, check_order, packages_of
 from swarmdsl.ir import System
-from swarmdsl.naming import is_ros_package_name
-from swarmdsl.source import Span
 
 from .names import TARGET, is_cpp_word
 from .nodes import Node

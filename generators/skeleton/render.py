@@ -8,16 +8,16 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics, listed
-from swarmdsl.generator import OutputFile, fits
-from swarmdsl.interface_files import file_name
-from swarmdsl.interface_packages import InterfacePackage, definitions
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.xml_writer import legal
+from swarmdsl.codegen.api import OutputFile, fits
+from swarmdsl.codegen.python import docstring
+from swarmdsl.codegen.ros.interface_files import file_name
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
+from swarmdsl.codegen.ros.package import manifest
+from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
-from swarmdsl.python_source import docstring
-from swarmdsl.ros_package import manifest
-from swarmdsl.templates import Templates
-from swarmdsl.xml_text import legal
 
 from .bringup import bringup
 from .bringup_files import bringup_files

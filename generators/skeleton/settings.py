@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.constants import Value, constant, params_by_name
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.ros.parameters import parameter_value
+from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
 from swarmdsl.ir import Array, Expression, Param, Primitive
-from swarmdsl.ros_parameters import parameter_value
-from swarmdsl.source import Span
 
 from .names import TARGET, identifiers
 

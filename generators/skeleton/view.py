@@ -8,13 +8,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.interface_files import parts
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.python import comment_lines, comments, file_name
+from swarmdsl.codegen.ros.interface_files import parts
+from swarmdsl.codegen.source_map import Placed
 from swarmdsl.ir import Action, Field, Service, System
-from swarmdsl.ir.types import DURATION
-from swarmdsl.python_source import comment_lines, comments, file_name
-from swarmdsl.source import Span
-from swarmdsl.source_map import Placed
+from swarmdsl.syntax.types import DURATION
 
 from .languages import Language
 from .nodes import Node, Server, Topic

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import keyword
 
-from swarmdsl.dataclass import replace
+from swarmdsl.base.records import replace
 from swarmdsl.ir import (
     Array,
     Binary,
@@ -17,9 +17,9 @@ from swarmdsl.ir import (
     Type,
     Unary,
 )
+from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
 from swarmdsl.ir.expressions import parts
-from swarmdsl.ir.types import DURATION, FLOATS
-from swarmdsl.translate import Dialect, python_literal, translate
+from swarmdsl.syntax.types import DURATION, FLOATS
 
 from .imports import Imports
 

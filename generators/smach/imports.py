@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.python import WIDTH
 from swarmdsl.ir import Named
-from swarmdsl.python_source import WIDTH
 
 # Names that generated modules use for something else.
 _TAKEN = (

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from swarmdsl.exchange.nodes import BehaviorNode
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.xml_writer import Element, document, legal
+from swarmdsl.codegen.shared.nodes import BehaviorNode
 from swarmdsl.ir import Named
-from swarmdsl.naming import snake_case
-from swarmdsl.xml_text import Element, document, legal
 
 from .robots import Fleet, Robot, Team
 

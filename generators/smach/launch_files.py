@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.generator import OutputFile
-from swarmdsl.xml_text import Element, document
+from swarmdsl.base.xml_writer import Element, document
+from swarmdsl.codegen.api import OutputFile
 
 from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
 from .parameters import own_params, robot_params

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass, field
-from swarmdsl.defaults import field_type
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import fresh, snake_case
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.default_values import field_type
 from swarmdsl.ir import StateMachine, System, Type
-from swarmdsl.naming import fresh, snake_case
-from swarmdsl.source import Span
 
 from .imports import Imports
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import fresh, is_python_name, snake_case
+from swarmdsl.codegen.ros.package_names import PackageNames
 from swarmdsl.ir import Action, Event, Param, StateMachine, Variable
-from swarmdsl.naming import fresh, is_python_name, snake_case
-from swarmdsl.package_names import PackageNames
 
 from .module import TARGET
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.generator import option
-from swarmdsl.ros_package import PackageOptions, copyright_fault, packages_fault
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.api import option
+from swarmdsl.codegen.ros.package import PackageOptions, copyright_fault, packages_fault
 
 from .names import NAMES
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.interface_files import named
+from swarmdsl.codegen.ros.interface_files import named
 from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 
-from swarmdsl.exchange.constants import Value
-from swarmdsl.exchange.nodes import Given
-from swarmdsl.python_source import comment_lines
+from swarmdsl.codegen.python import comment_lines
+from swarmdsl.codegen.shared.constants import Value
+from swarmdsl.codegen.shared.nodes import Given
 
 from .robots import Fleet, Robot
 

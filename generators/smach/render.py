@@ -6,15 +6,15 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-import swarmdsl
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile, fits
-from swarmdsl.interface_files import file_name
-from swarmdsl.interface_packages import InterfacePackage, definitions
+from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile, fits
+from swarmdsl.codegen.python import docstring
+from swarmdsl.codegen.ros.interface_files import file_name
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
+from swarmdsl.codegen.ros.package import manifest
+from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
-from swarmdsl.python_source import docstring
-from swarmdsl.ros_package import manifest
-from swarmdsl.templates import Templates
 
 from .launch_files import launch_files
 from .module import TARGET
@@ -94,7 +94,7 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
 
 def _engine(folder: str, header: str) -> Iterator[OutputFile]:
     """The engine that charts run on."""
-    for file in sorted(Path(swarmdsl.__file__).with_name("runtime").glob("*.py")):
+    for file in sorted(resources.engine().glob("*.py")):
         text = f"# {header}\n{file.read_text(encoding='utf-8')}"
         yield OutputFile(f"{folder}/{file.name}", text)
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import swarmros
-from swarmdsl.exchange.nodes import BehaviorNode, behavior_nodes, bringup_package, has_node
-from swarmdsl.exchange.wiring import check_wiring, wiring
-from swarmdsl.generator import NoOptions
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.api import NoOptions
+from swarmdsl.codegen.exchange import swarmros
+from swarmdsl.codegen.ros.parameters import with_parameters
+from swarmdsl.codegen.shared.nodes import BehaviorNode, behavior_nodes, bringup_package, has_node
+from swarmdsl.codegen.shared.wiring import check_wiring, wiring
 from swarmdsl.ir import Environment, Member, Role, Swarm, System
-from swarmdsl.naming import snake_case
-from swarmdsl.ros_parameters import with_parameters
 
 from .module import TARGET
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from swarmdsl.base.naming import fresh
+from swarmdsl.codegen.python import Call, Source, comments, layout
 from swarmdsl.ir import State, StateKind, doc_of
-from swarmdsl.naming import fresh
-from swarmdsl.python_source import Call, Source, comments, layout
 
 from .activities import activity_call
 from .module import PREEMPTED, Container, Entry, Module

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.exchange.scxml.events import Events, delays
-from swarmdsl.exchange.scxml.inward import inward, region_entered
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.python import Call, Source, comments
+from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,
@@ -18,8 +20,6 @@ from swarmdsl.ir import (
     Transition,
     Trigger,
 )
-from swarmdsl.naming import fresh
-from swarmdsl.python_source import Call, Source, comments
 
 from .expressions import python_expression
 from .module import PREEMPTED, Module

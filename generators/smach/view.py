@@ -4,21 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.diagram.readme import Picture, pictures
-from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_packages import (
-    InterfacePackage,
-    are_described,
-    check_described,
-    packages_of,
-    packages_of_others,
-    written,
-)
-from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
-from swarmdsl.ir.types import DURATION, Primitive
-from swarmdsl.python_source import (
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen.python import (
     Call,
     Source,
     comments,
@@ -28,8 +18,18 @@ from swarmdsl.python_source import (
     one_line,
     place,
 )
-from swarmdsl.ros_package import manifest
-from swarmdsl.source import Span
+from swarmdsl.codegen.ros.interface_packages import (
+    InterfacePackage,
+    are_described,
+    check_described,
+    packages_of,
+    packages_of_others,
+    written,
+)
+from swarmdsl.codegen.ros.package import manifest
+from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
+from swarmdsl.syntax.types import DURATION, Primitive
+from swarmdsl.tools.diagram.readme import Picture, pictures
 
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.base.naming import fresh
+from swarmdsl.base.records import dataclass, field
 from swarmdsl.ir import State, StateKind, StateMachine, Transition
-from swarmdsl.naming import fresh
 
 from .module import PREEMPTED, Entry
 

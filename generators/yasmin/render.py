@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.source_map import MappedText
+from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
-from swarmdsl.source_map import MappedText
-from swarmdsl.templates import Templates
 
 from ..following import render as following
 from ..ros2 import render as ros2

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from lxml import etree
 
-from swarmdsl.exchange.xml import document as written
+from swarmdsl.base.xml_writer import legal
+from swarmdsl.codegen.exchange.xml import document as written
 from swarmdsl.ir import StateMachine
-from swarmdsl.xml_text import legal
 
 from ..following.structure import Kind, Node
 from .library import YASMIN

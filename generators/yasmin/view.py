@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.python import Call, comments, layout
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.python_source import Call, comments, layout
-from swarmdsl.source import Span
 
 from ..following.structure import Kind, Node, Structure
 from ..following.view import (

@@ -17,11 +17,11 @@ from typing import Any, Protocol
 
 from lxml import etree
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.scxml.portable import SEND_TYPE
-from swarmdsl.runtime import Event, Instance, Machine, Run
-from swarmdsl.scxml import read
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
+from swarmdsl.execution.engine import Event, Instance, Machine, Run
+from swarmdsl.execution.scxml import read
 
 from ..runtime.world import StillWorld
 
@@ -75,7 +75,7 @@ class World(StillWorld):
 
 
 class Ours:
-    """The engine of `swarmdsl.runtime`."""
+    """The engine of `swarmdsl.execution.engine`."""
 
     def __init__(self, machine: Machine, data: Any = None, observer: Any = None) -> None:
         self.world = World()

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.exchange.scxml.events import Events, delays
-from swarmdsl.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.execution.engine import Event, Instance, LoopError, Observer, Transition
+from swarmdsl.execution.simulate.table import OUTCOMES, first_data, table
 from swarmdsl.ir import EventTrigger, StateKind, System
-from swarmdsl.ir.types import DURATION
-from swarmdsl.runtime import Event, Instance, LoopError, Observer, Transition
-from swarmdsl.simulate.table import OUTCOMES, first_data, table
+from swarmdsl.syntax.types import DURATION
 
 from .engines import Ours, Step
 from .values import Values

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.driver import pipeline
 
 from .engines import ENGINES, with_values
 from .known import MODELS
@@ -33,7 +33,7 @@ NEVER = {
 @cache
 def subjects(path: Path) -> dict[str, tuple[Subject, str]]:
     """The machines of a model, and their documents."""
-    system = compiler.check([path]).system
+    system = pipeline.check([path]).system
     assert system is not None
     files = {f.path: f.text for f in scxml.emit(system, scxml.Options("portable"), Diagnostics())}
     return {m.name: (Subject(m, system), files[f"{m.name}.scxml"]) for m in system.machines}

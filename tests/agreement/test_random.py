@@ -8,10 +8,10 @@ from collections.abc import Callable
 import pytest
 from hypothesis import Phase, given, settings
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.execution.engine import LoopError
 from swarmdsl.ir import System
-from swarmdsl.runtime import LoopError
 
 from ..printer.systems import systems
 from .engines import ENGINES, with_values

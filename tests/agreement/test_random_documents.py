@@ -11,7 +11,7 @@ import random
 from collections import Counter
 from collections.abc import Callable
 
-from swarmdsl.runtime import LoopError
+from swarmdsl.execution.engine import LoopError
 
 from .engines import ENGINES, Document, Step
 from .replay import difference, installed

@@ -8,8 +8,8 @@ from itertools import groupby
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange import scxml
 from swarmdsl.ir import System
 
 from .engines import Document, Qt

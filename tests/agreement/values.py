@@ -8,9 +8,9 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.defaults import default_value
+from swarmdsl.codegen.default_values import default_value
 from swarmdsl.ir import Action, Array, EventData, FieldAccess, Literal, Primitive, Service, System
-from swarmdsl.ir.types import DURATION, INT
+from swarmdsl.syntax.types import DURATION, INT
 
 
 class Values:

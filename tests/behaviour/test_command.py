@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl.simulate.coverage import Coverage
-from swarmdsl.testing.console import Console
+from swarmdsl.execution.simulate.coverage import Coverage
+from swarmdsl.execution.testing.console import Console
 
 from .conftest import Ran
 

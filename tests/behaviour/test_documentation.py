@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from swarmdsl.codes import CODES
-from swarmdsl.testing import reading, steps
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.execution.testing import reading, steps
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
 

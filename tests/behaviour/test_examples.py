@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.testing.command import Request, run
+from swarmdsl.execution.testing.command import Request, run
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 

@@ -7,7 +7,7 @@ import re
 from io import StringIO
 from pathlib import Path
 
-from swarmdsl.testing.command import Request, run
+from swarmdsl.execution.testing.command import Request, run
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 # Keys, texts, numbers, inner tables: mistakes between these are those of TOML.

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.parser.parse import parse
 
 ROOT = Path(__file__).resolve().parents[2]
 BENCHMARKS = ROOT / "benchmarks"
@@ -81,13 +81,13 @@ def test_other_languages_have_as_many_lines(language, lines):
 
 def test_a_model_has_that_many_lines_and_no_mistakes(tmp_path):
     import workspace
-    from swarmdsl import compiler
+    from swarmdsl.driver import pipeline
 
     file = tmp_path / "bench.swarm"
     lines = workspace.write_file(file, 1_000)
 
     assert 990 <= lines <= 1_000
-    assert list(compiler.check([file]).report) == []
+    assert list(pipeline.check([file]).report) == []
 
 
 def test_a_block_of_the_page_is_written_anew():

@@ -2,7 +2,7 @@
 
 import pytest
 
-from swarmdsl import plugins
+from swarmdsl.codegen import registry
 
 
 def test_one_target(swarmc, good, tmp_path):
@@ -33,8 +33,8 @@ def test_the_default_is_in_out_all_but_what_has_to_be_asked_for(
     assert ran.code == 0
     built = {path.name for path in (tmp_path / "out").iterdir()}
     assert {"scxml", "adf"} <= built
-    assert not built & plugins.ON_REQUEST
-    assert set(plugins.target_names()) > plugins.ON_REQUEST
+    assert not built & registry.ON_REQUEST
+    assert set(registry.target_names()) > registry.ON_REQUEST
 
 
 def test_a_model_with_errors_makes_nothing(swarmc, bad, tmp_path):

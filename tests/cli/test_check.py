@@ -82,9 +82,9 @@ def test_wrong_usage(swarmc, good):
 
 
 def test_a_bug_of_ours_is_called_one(swarmc, good, monkeypatch):
-    from swarmdsl import compiler
+    from swarmdsl.driver import pipeline
 
-    monkeypatch.setattr(compiler, "validate", lambda project, report: {}["gone"])
+    monkeypatch.setattr(pipeline, "validate", lambda project, report: {}["gone"])
     ran = swarmc("check", good)
     assert (ran.code, ran.out) == (3, "")
     assert "swarmc: internal error: KeyError: 'gone'\nthis is a bug in swarmc" in ran.err
@@ -92,11 +92,11 @@ def test_a_bug_of_ours_is_called_one(swarmc, good, monkeypatch):
 
 
 def test_ctrl_c_is_quiet(swarmc, good, monkeypatch):
-    from swarmdsl import compiler
+    from swarmdsl.driver import pipeline
 
     def interrupt(project, report):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(compiler, "validate", interrupt)
+    monkeypatch.setattr(pipeline, "validate", interrupt)
     ran = swarmc("check", good)
     assert (ran.code, ran.out, ran.err.strip()) == (130, "", "")

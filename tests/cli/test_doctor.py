@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import doctor
 from swarmdsl.cli import run
+from swarmdsl.tools import doctor
 
 
 @pytest.fixture

@@ -15,10 +15,10 @@ from urllib.parse import unquote, urlsplit
 import jsonschema
 import pytest
 
-from swarmdsl.codes import CODES
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.render import render
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.source import Source, Span
 
 DIAGNOSTICS = Path(__file__).resolve().parents[1] / "diagnostics"
 # The official schema, in the package of a tool that checks documents with it.

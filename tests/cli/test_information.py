@@ -5,9 +5,10 @@ from importlib.metadata import version
 
 import pytest
 
-from swarmdsl import explain, plugins
+from swarmdsl.base.diagnostics import explain
+from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.cli import COMMANDS
-from swarmdsl.codes import CODES
+from swarmdsl.codegen import registry
 
 PAGES = sorted(explain.page_path("SW0000").parent.glob("*.md"))
 
@@ -16,7 +17,7 @@ def test_the_list_of_targets(swarmc):
     ran = swarmc("targets")
     assert ran.code == 0
     named = [line.split()[0] for line in ran.out.splitlines()]
-    assert named[: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)
+    assert named[: len(registry.BUILT_IN)] == list(registry.BUILT_IN)
 
 
 def test_one_target(swarmc):
@@ -51,7 +52,7 @@ def test_what_depends_on_an_option(swarmc):
 
 def test_targets_as_json(swarmc):
     found = json.loads(swarmc("targets", "--format", "json").out)
-    assert [one["name"] for one in found][: len(plugins.BUILT_IN)] == list(plugins.BUILT_IN)
+    assert [one["name"] for one in found][: len(registry.BUILT_IN)] == list(registry.BUILT_IN)
 
 
 def test_an_unknown_target(swarmc):

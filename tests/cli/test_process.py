@@ -94,8 +94,9 @@ def test_a_check_imports_no_later_phase(tmp_path, monkeypatch):
     monkeypatch.chdir(ROOT)
     later = (
         *("dataclasses", "decimal", "hashlib", "json", "logging", "xml.etree"),
-        *("emit", "generator", "lower", "output", "plugins", "peg", "recovery", "scan"),
-        *("codes", "explain", "project.lint", "syntax_advice"),
+        *("codegen", "lowering", "output", "syntax.pegen", "syntax.recovery"),
+        *("base.diagnostics.catalog", "base.diagnostics.explain"),
+        *("driver.config.lint", "syntax.errors"),
         *("ir.expressions", "ir.statemachine"),
     )
     code = (
@@ -120,8 +121,8 @@ def test_what_is_to_be_done_at_the_end_is_done(good):
 
 def test_debug_shows_where_a_bug_of_ours_is(tmp_path):
     code = (
-        "import sys\nfrom swarmdsl import cli, compiler\n"
-        "compiler.check = lambda *_: {}['gone']\n"
+        "import sys\nfrom swarmdsl import cli\nfrom swarmdsl.driver import pipeline\n"
+        "pipeline.check = lambda *_: {}['gone']\n"
         "sys.exit(cli.run(['check', '--debug']))"
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
@@ -167,7 +168,7 @@ def test_a_disk_that_fills_up_leaves_the_output_as_it_was(good, tmp_path):
     made = tmp_path / "made"
     code = (
         "import resource, sys\nfrom swarmdsl.cli import run\n"
-        "from swarmdsl import plugins\nfrom swarmdsl.generator import Generator, OutputFile\n"
+        "from swarmdsl import plugins\nfrom swarmdsl.codegen.api import Generator, OutputFile\n"
         "limited = lambda system, options, report: [\n"
         "    OutputFile('small', 'x'), OutputFile('large', 'x' * 100_000)]\n"
         "generator = Generator('t', '', limited)\n"

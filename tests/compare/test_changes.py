@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 from hypothesis import Phase, given, settings
 
-from swarmdsl import compiler
-from swarmdsl.compare.architecture import system_element
-from swarmdsl.compare.changes import Action, called
-from swarmdsl.compare.comparison import compare
-from swarmdsl.compare.report import breaking, differences
-from swarmdsl.compare.rules import RULES
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
+from swarmdsl.tools.compare.architecture import system_element
+from swarmdsl.tools.compare.changes import Action, called
+from swarmdsl.tools.compare.comparison import compare
+from swarmdsl.tools.compare.report import breaking, differences
+from swarmdsl.tools.compare.rules import RULES
 
 from ..printer.systems import systems
 
@@ -229,7 +229,7 @@ CHANGES = {
 def system(text: str, folder: Path) -> System:
     path = folder / "lab.swarm"
     path.write_text(text, encoding="utf-8")
-    result = compiler.check([path])
+    result = pipeline.check([path])
     assert result.system is not None, [found.message for found in result.report]
     return result.system
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagram.graph import Diagram
-from swarmdsl.diagram.views import diagrams
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
+from swarmdsl.tools.diagram.graph import Diagram
+from swarmdsl.tools.diagram.views import diagrams
 
 ROOT = Path(__file__).resolve().parents[2]
 MODEL = ROOT / "tests" / "diagram" / "rover.swarm"
@@ -23,7 +23,7 @@ MODELS = [
 
 @cache
 def system_of(path: Path) -> System:
-    result = compiler.check([path])
+    result = pipeline.check([path])
     assert result.system is not None, [found.message for found in result.report]
     return result.system
 

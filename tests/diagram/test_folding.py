@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
-from swarmdsl.diagram.folding import folded
-from swarmdsl.diagram.graph import Diagram
-from swarmdsl.diagram.layout import lay_out
-from swarmdsl.diagram.svg import svg
-from swarmdsl.diagram.views import diagrams
+from swarmdsl.tools.diagram.folding import folded
+from swarmdsl.tools.diagram.graph import Diagram
+from swarmdsl.tools.diagram.layout import lay_out
+from swarmdsl.tools.diagram.svg import svg
+from swarmdsl.tools.diagram.views import diagrams
 
 from .conftest import MODEL, drawn_of, system_of
 from .test_layout import DIRECTIONS, check, machines

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from swarmdsl.diagram.graph import Diagram, Edge, Node
-from swarmdsl.diagram.layout import Box, Picture, lay_out, layering
-from swarmdsl.diagram.layout.cycles import backward
-from swarmdsl.diagram.layout.simplex import Constraint, minimized
-from swarmdsl.diagram.measure import width, wrapped
-from swarmdsl.diagram.shapes import PSEUDO_STATES, Direction
+from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering
+from swarmdsl.tools.diagram.layout.cycles import backward
+from swarmdsl.tools.diagram.layout.simplex import Constraint, minimized
+from swarmdsl.tools.diagram.measure import width, wrapped
+from swarmdsl.tools.diagram.shapes import PSEUDO_STATES, Direction
 
 from .conftest import MODEL, drawn_of
 

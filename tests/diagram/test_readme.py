@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from markdown_it import MarkdownIt
 
-from swarmdsl import compiler
-from swarmdsl.diagram.readme import pictures
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
+from swarmdsl.tools.diagram.readme import pictures
 
 from .conftest import ROOT, system_of
 
@@ -20,7 +20,7 @@ SAR = ROOT / "examples" / "search_and_rescue"
 
 @pytest.mark.parametrize("target", ["smach", "ros2", "yasmin"])
 def test_a_package_shows_what_it_does(target: str, tmp_path: Path) -> None:
-    assert not compiler.build([SAR], [Request(target)], tmp_path).report.has_errors
+    assert not pipeline.build([SAR], [Request(target)], tmp_path).report.has_errors
     text = (tmp_path / target / "sar_behavior" / "README.md").read_text()
     tokens = MarkdownIt("commonmark").parse(text)
     blocks = [each.content for each in tokens if each.type == "fence" and each.info == "mermaid"]

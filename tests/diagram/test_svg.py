@@ -9,8 +9,8 @@ import pytest
 from lxml import etree
 
 from swarmdsl.cli import run
-from swarmdsl.diagram.graph import Diagram, Edge, Node
-from swarmdsl.diagram.svg import svg
+from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.tools.diagram.svg import svg
 
 from .conftest import MODEL, ROOT, drawn_of
 

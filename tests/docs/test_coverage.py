@@ -6,10 +6,10 @@ import re
 
 import pytest
 
-from swarmdsl import plugins
+from swarmdsl.base.diagnostics.catalog import CODES
 from swarmdsl.cli import COMMANDS
-from swarmdsl.codes import CODES
-from swarmdsl.syntax_advice import keywords
+from swarmdsl.codegen import registry
+from swarmdsl.syntax.errors.hints import keywords
 
 from .pages import LANGUAGE, PAGES, ROOT, Page
 
@@ -95,7 +95,7 @@ def test_the_map_has_every_module_and_only_those() -> None:
 def test_paths_in_contributing_exist() -> None:
     roots = "docs|editors|examples|generators|grammar|src|tests"
     paths = {code for code in CONTRIBUTING.code if re.fullmatch(rf"(?:{roots})/[\w./-]*", code)}
-    paths.discard("src/swarmdsl/explain/SWxxxx.md")  # stands for any page
+    paths.discard("src/swarmdsl/base/diagnostics/explain/SWxxxx.md")  # stands for any page
 
     assert paths
     assert {path for path in paths if not (ROOT / path).exists()} == set()
@@ -103,7 +103,7 @@ def test_paths_in_contributing_exist() -> None:
 
 def test_the_readme_has_every_command_and_target() -> None:
     assert set(COMMANDS) - words(README.code) == set()
-    assert set(plugins.BUILT_IN) - words(README.code) == set()
+    assert set(registry.BUILT_IN) - words(README.code) == set()
 
 
 def test_every_example_has_a_page_and_is_listed() -> None:

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, plugins
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request
-from swarmdsl.parse import parse
-from swarmdsl.render import render
-from swarmdsl.source import Source
-from swarmdsl.syntax import NODES, Node, walk
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.source import Source
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
+from swarmdsl.syntax.ast import NODES, Node, walk
+from swarmdsl.syntax.parser.parse import parse
 
 from .pages import LANGUAGE, Block, blocks
 
@@ -45,7 +46,7 @@ def test_model(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.chdir(tmp_path)
     path = write(block, tmp_path)
 
-    report = compiler.check([path.relative_to(tmp_path)]).report
+    report = pipeline.check([path.relative_to(tmp_path)]).report
 
     expected = {code for code in block.attributes.get("reports", "").split(",") if code}
     shown = StringIO()
@@ -53,14 +54,14 @@ def test_model(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
     assert {found.code for found in report} == expected, shown.getvalue()
 
 
-@pytest.mark.parametrize("target", plugins.BUILT_IN)
+@pytest.mark.parametrize("target", registry.BUILT_IN)
 @pytest.mark.parametrize(
     "block", [block for block in MODELS if "reports" not in block.attributes], ids=str
 )
 def test_every_target_can_express_it(block: Block, target: str, tmp_path: Path) -> None:
     path = write(block, tmp_path)
 
-    report = compiler.build([path], [Request(target)], tmp_path / "out").report
+    report = pipeline.build([path], [Request(target)], tmp_path / "out").report
 
     assert report.has_errors == (target == block.attributes.get("except")), list(report)
 

@@ -10,9 +10,9 @@ from urllib.parse import unquote
 import pytest
 from lxml import html
 
-from swarmdsl import compiler
-from swarmdsl.document import document
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
+from swarmdsl.tools.document import document
 
 ROOT = Path(__file__).resolve().parents[2]
 SAR = ROOT / "examples" / "search_and_rescue"
@@ -66,7 +66,7 @@ def read(text: str, system: System) -> Page:
 
 @cache
 def page_of(path: Path, libraries: bool = False) -> Page:
-    result = compiler.check([path])
+    result = pipeline.check([path])
     assert result.valid is not None, [found.message for found in result.report]
     assert result.system is not None
     return read(document(result.valid, libraries=libraries)[1], result.system)

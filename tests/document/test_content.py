@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.document import document
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import Action, Message, Service, StateMachine, System
+from swarmdsl.tools.document import document
 
 from .conftest import MODELS, ROOT, SAR, Page, page_of, read
 
@@ -223,7 +223,7 @@ def test_diagrams_lead_to_what_they_show(sar: Page) -> None:
 
 def test_a_page_is_the_same_from_everywhere(sar: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(SAR)
-    checked = compiler.check([Path()])
+    checked = pipeline.check([Path()])
     assert checked.valid is not None
     assert document(checked.valid)[1] == sar.text
 
@@ -272,7 +272,7 @@ endless statemachine Work {
 def test_text_of_a_model_is_no_markup(tmp_path: Path) -> None:
     path = tmp_path / "odd<b>.swarm"
     path.write_text(ODD)
-    checked = compiler.check([path])
+    checked = pipeline.check([path])
     assert checked.valid is not None
     assert checked.system is not None
     page = read(document(checked.valid)[1], checked.system)

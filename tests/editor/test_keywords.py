@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.ir.types import PRIMITIVES
+from swarmdsl.syntax.types import PRIMITIVES
 
 GRAMMAR = Path(__file__).resolve().parents[2] / "editors/vscode/syntaxes/swarm.tmLanguage.json"
 

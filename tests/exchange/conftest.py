@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from statemachine.io import load
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostic, Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -57,7 +57,7 @@ def compiled(tmp_path: Path) -> Compile:
     def compiled(text: str) -> System:
         path = tmp_path / "model.swarm"
         path.write_text(PRELUDE + text, encoding="utf-8")
-        result = compiler.check([path])
+        result = pipeline.check([path])
         assert result.system is not None, [found.message for found in result.report]
         return result.system
 
@@ -67,7 +67,7 @@ def compiled(tmp_path: Path) -> Compile:
 @pytest.fixture(scope="session")
 def search_and_rescue() -> System:
     """The example."""
-    result = compiler.check([EXAMPLES / "search_and_rescue" / "sar.swarm"])
+    result = pipeline.check([EXAMPLES / "search_and_rescue" / "sar.swarm"])
     assert result.system is not None
     return result.system
 

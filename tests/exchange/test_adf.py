@@ -11,9 +11,10 @@ from typing import Any
 import jsonschema
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import adf
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.codegen.exchange import adf
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import (
     Binary,
     Call,
@@ -25,8 +26,7 @@ from swarmdsl.ir import (
     System,
     Unary,
 )
-from swarmdsl.ir.types import FLOAT
-from swarmdsl.source import Source, Span
+from swarmdsl.syntax.types import FLOAT
 
 Compile = Callable[[str], System]
 
@@ -321,7 +321,7 @@ def test_the_functions_that_no_library_has(tmp_path: Path) -> None:
         """,
         encoding="utf-8",
     )
-    result = compiler.check([model])
+    result = pipeline.check([model])
     assert result.system is not None, [found.message for found in result.report]
     names = {}
     for which in ("all", "missing"):

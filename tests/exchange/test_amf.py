@@ -10,9 +10,9 @@ from typing import Any
 import jsonschema
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import amf
-from swarmdsl.generator import NoOptions
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import NoOptions
+from swarmdsl.codegen.exchange import amf
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]

@@ -7,10 +7,10 @@ from pathlib import Path
 
 from lxml import etree
 
-from swarmdsl import plugins
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import composition
-from swarmdsl.generator import Generator
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.api import Generator
+from swarmdsl.codegen.exchange import composition
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]
@@ -110,7 +110,7 @@ def test_a_launch_file_starts_one_member(compiled: Compile) -> None:
 
 
 def test_the_nodes_are_those_of_target_smach(search_and_rescue: System) -> None:
-    smach = plugins.load("smach")
+    smach = registry.load("smach")
     assert isinstance(smach, Generator)
     there = {
         file.path for file in smach.emit(search_and_rescue, smach.options_type(), Diagnostics())

@@ -12,9 +12,9 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostic, Diagnostics
-from swarmdsl.exchange import adf
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.codegen.exchange import adf
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]
@@ -220,7 +220,7 @@ def test_examples_keep_the_rules(search_and_rescue: System, emit: Emit) -> None:
 
     assert sorted(files) == ["RoverRescue.scxml", "UavSearch.cpswarm.xml", "UavSearch.scxml"]
     assert faults(files["UavSearch.cpswarm.xml"]) == []
-    blinker = compiler.check([ROOT / "examples" / "minimal" / "blinker.swarm"]).system
+    blinker = pipeline.check([ROOT / "examples" / "minimal" / "blinker.swarm"]).system
     assert blinker is not None
     assert faults(emit(blinker, "cpswarm")["Blinking.cpswarm.xml"]) == []
 

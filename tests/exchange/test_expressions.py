@@ -15,9 +15,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from swarmdsl import cpp
-from swarmdsl.exchange import constants
-from swarmdsl.exchange.scxml import ecmascript
+from swarmdsl.codegen import cpp
+from swarmdsl.codegen.exchange.scxml import ecmascript
+from swarmdsl.codegen.shared import constants
+from swarmdsl.execution.simulate.expressions import function_of
 from swarmdsl.ir import (
     Binary,
     Call,
@@ -29,9 +30,8 @@ from swarmdsl.ir import (
     Unary,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING, Array
-from swarmdsl.simulate.expressions import function_of
-from swarmdsl.translate import Dialect, python_literal, translate
+from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING, Array
 
 PYTHON = Dialect(python_literal, str, str, "event", {}, {"sqrt": "math.sqrt"})
 ECMASCRIPT = ecmascript.dialect({"n": "n", "report": "report"})

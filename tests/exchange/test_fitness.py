@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import fitness
-from swarmdsl.generator import NoOptions
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import NoOptions
+from swarmdsl.codegen.exchange import fitness
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]

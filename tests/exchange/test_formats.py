@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, plugins
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.generator import Generator
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.api import Generator
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -173,7 +174,7 @@ def written(system: System) -> dict[str, dict[str, str]]:
     """The files of a system in each format."""
     found = {}
     for name, (target, given) in FORMATS.items():
-        generator = plugins.load(target)
+        generator = registry.load(target)
         assert isinstance(generator, Generator)
         options = generator.options_type(**given)
         files = generator.emit(system, options, Diagnostics())
@@ -184,7 +185,7 @@ def written(system: System) -> dict[str, dict[str, str]]:
 def compiled(text: str, folder: Path) -> System:
     path = folder / "model.swarm"
     path.write_text(text, encoding="utf-8")
-    result = compiler.check([path])
+    result = pipeline.check([path])
     errors = [found.message for found in result.report if found.severity is Severity.ERROR]
     assert result.system is not None, errors
     return result.system

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request
-from swarmdsl.exchange import frevo
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.emit import Request
+from swarmdsl.codegen.exchange import frevo
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]
@@ -163,7 +163,7 @@ def test_options_that_no_search_can_have(
 ) -> None:
     path = tmp_path / "model.swarm"
     path.write_text("member Uav { }", encoding="utf-8")
-    built = compiler.build([path], [Request("frevo", {option: value})], tmp_path / "out")
+    built = pipeline.build([path], [Request("frevo", {option: value})], tmp_path / "out")
 
     assert [found.message for found in built.report] == [f"target `frevo`: {fault}"]
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import jsonschema
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import parameters
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange import parameters
 from swarmdsl.ir import System
 
 Compile = Callable[[str], System]

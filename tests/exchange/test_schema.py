@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -23,7 +23,7 @@ def schema(corpus: Path) -> etree.XMLSchema:
 
 
 def systems() -> list[tuple[str, System]]:
-    checked = [(str(model.relative_to(ROOT)), compiler.check([model])) for model in MODELS]
+    checked = [(str(model.relative_to(ROOT)), pipeline.check([model])) for model in MODELS]
     return [(name, result.system) for name, result in checked if result.system is not None]
 
 

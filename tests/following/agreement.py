@@ -18,12 +18,12 @@ from typing import Any
 
 from hypothesis import Phase, given, settings
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.engine import Event, Instance, LoopError, State, Transition
 from swarmdsl.ir import Named, StateKind, System
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
-from swarmdsl.runtime import Event, Instance, LoopError, State, Transition
 
 from ..agreement.engines import Ours, Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
@@ -220,7 +220,7 @@ def is_reported(system: System, twin: type[Twin]) -> bool:
 
 def check_model(path: Path, build: Build, twin: type[Twin], most: int | None = None) -> None:
     """Check the machines of a model with its scripts, or with as many as are wanted at most."""
-    system = compiler.check([path]).system
+    system = pipeline.check([path]).system
     assert system is not None
     system = apart(system)
     for machine in system.machines:

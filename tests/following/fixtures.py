@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.ir import System
 
 Emit = Callable[..., tuple[list[OutputFile], Diagnostics]]

@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.ir import System
-from swarmdsl.naming import snake_case
 
 
 class Builder:

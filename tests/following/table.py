@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from swarmdsl.codes import CODES
-from swarmdsl.generator import Mapped, Support
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.codegen.api import Mapped, Support
 
 from ..smach.test_mapping import BOX, FOR_ROS_2, HEADER, PARTS
 

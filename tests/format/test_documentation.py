@@ -2,9 +2,9 @@
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import formatted
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.formatter import formatted
 
 from ..docs.pages import blocks
 

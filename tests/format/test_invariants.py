@@ -12,12 +12,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import formatted
-from swarmdsl.format.tokens import Kind, essence, tokenize
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.source import Source
+from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter.tokens import Kind, essence, tokenize
 
 from ..docs.pages import blocks
 
@@ -97,7 +97,7 @@ def compile_text(tmp_path_factory) -> Callable[[str], System | None]:
 
     def compile_text(text: str) -> System | None:
         path.write_text(text, encoding="utf-8")
-        return compiler.check([path]).system
+        return pipeline.check([path]).system
 
     return compile_text
 

@@ -7,11 +7,11 @@ from textwrap import dedent
 
 import pytest
 
-import swarmdsl.format as swarm_format
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import MeaningChangedError, formatted
-from swarmdsl.format.tokens import Kind, tokenize
-from swarmdsl.source import Source
+import swarmdsl.syntax.formatter as swarm_format
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.formatter import MeaningChangedError, formatted
+from swarmdsl.syntax.formatter.tokens import Kind, tokenize
 
 HERE = Path(__file__).parent
 

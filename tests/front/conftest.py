@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.link import link
-from swarmdsl.load import Project, load
+from swarmdsl.analysis.resolve.linker import link
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.project.loader import Project, load
 
 
 @pytest.fixture

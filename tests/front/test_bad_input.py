@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostic
+from swarmdsl.driver import pipeline
 
 START = "event Start : std_msgs/Empty\n"
 LONG = 1_000_000
@@ -35,7 +35,7 @@ def check(tmp_path: Path) -> Check:
     def check_text(content: str | bytes) -> list[tuple[str, int, int]]:
         path = tmp_path / "model.swarm"
         path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return [place(found) for found in compiler.check([path]).report]
+        return [place(found) for found in pipeline.check([path]).report]
 
     return check_text
 
@@ -75,7 +75,7 @@ def test_ends_of_lines(check: Check, end: str) -> None:
 def test_documentation_is_the_same_for_all_ends_of_lines(tmp_path: Path, end: str) -> None:
     path = tmp_path / "model.swarm"
     path.write_bytes(f"/// One.\n/// Two.\n{START}".replace("\n", end).encode())
-    system = compiler.check([path]).system
+    system = pipeline.check([path]).system
 
     assert system is not None
     assert [event.doc for event in system.events] == ["One.\nTwo."]
@@ -181,7 +181,7 @@ def test_a_name_of_ten_thousand_characters(check: Check) -> None:
 
 
 def names(paths: Iterable[Path]) -> list[tuple[str, int, int]]:
-    return [place(found) for found in compiler.check(list(paths)).report]
+    return [place(found) for found in pipeline.check(list(paths)).report]
 
 
 def test_a_missing_file(tmp_path: Path) -> None:
@@ -261,7 +261,7 @@ def chain(folder: Path, length: int, last: str) -> Path:
 
 
 def test_a_long_chain_of_imports(tmp_path: Path) -> None:
-    result = compiler.check([chain(tmp_path, 500, "")])
+    result = pipeline.check([chain(tmp_path, 500, "")])
 
     assert result.files == 500
     assert list(result.report) == []

@@ -13,13 +13,13 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.render import render
-from swarmdsl.source import Source
-from swarmdsl.syntax import Node
-from swarmdsl.syntax.tree import children
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render import render
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
+from swarmdsl.syntax.ast import Node
+from swarmdsl.syntax.ast.walk import children
+from swarmdsl.syntax.parser.parse import parse
 
 FOLDER = Path(__file__).parent / "broken"
 IMPORTED = "types.swarm"
@@ -41,7 +41,7 @@ def outline(node: Node, depth: int = 0) -> Iterator[str]:
 @pytest.mark.parametrize("case", CASES)
 def test_broken(case: str, bless: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(FOLDER)
-    report = compiler.check([Path(case)]).report
+    report = pipeline.check([Path(case)]).report
     stream = StringIO()
     render(report, "text", stream)
     text = (FOLDER / case).read_text(encoding="utf-8")

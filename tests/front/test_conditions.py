@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 MODEL = """
 event Go : std_msgs/Empty
@@ -40,7 +40,7 @@ def codes(tmp_path: Path) -> Callable[[list[str]], list[str]]:
         lines = "\n".join(f"    on Go [{guard}] -> Done" for guard in guards)
         path = tmp_path / "model.swarm"
         path.write_text(MODEL.format(transitions=lines), encoding="utf-8")
-        return [found.code for found in compiler.check([path]).report]
+        return [found.code for found in pipeline.check([path]).report]
 
     return check
 
@@ -156,7 +156,7 @@ def test_a_choice_whose_guards_cover_everything_needs_no_else(
     path = tmp_path / "model.swarm"
     path.write_text(text, encoding="utf-8")
 
-    result = compiler.check([path])
+    result = pipeline.check([path])
 
     assert [found.code for found in result.report] == ([] if complete else ["SW0510"])
 

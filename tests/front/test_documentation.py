@@ -10,13 +10,11 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import formatted
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.parse import parse
-from swarmdsl.source import Source
-from swarmdsl.syntax import (
+from swarmdsl.syntax.ast import (
     NODES,
     AliasType,
     Constant,
@@ -28,6 +26,8 @@ from swarmdsl.syntax import (
     Package,
     walk,
 )
+from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.parser.parse import parse
 
 from ..docs.pages import blocks
 
@@ -113,7 +113,7 @@ def test_documentation_is_in_the_representation(folder: Path, tmp_path: Path) ->
             if not isinstance(node, ELSEWHERE)
             and (not isinstance(node, Constant) or node in in_messages)
         ]
-    system = compiler.check([tmp_path / "model"]).system
+    system = pipeline.check([tmp_path / "model"]).system
     found = {line for text in texts(system) for line in text.splitlines()}
 
     assert expected

@@ -6,12 +6,12 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.inference import Typing, assignable, constant, fits
-from swarmdsl.interfaces import Interfaces
-from swarmdsl.ir.types import Array, Named, Primitive, Type
-from swarmdsl.load import Project
-from swarmdsl.syntax import Assignment, Expression, ExpressionTree, walk
+from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.types import Typing, assignable, constant, fits
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import Assignment, Expression, ExpressionTree, walk
+from swarmdsl.syntax.types import Array, Named, Primitive, Type
 
 Typed = Callable[[str], tuple[ExpressionTree, Typing]]
 BOOL, INT, FLOAT = Primitive("bool"), Primitive("int64"), Primitive("float64")

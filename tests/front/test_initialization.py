@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 MODEL = """
 event Go   : std_msgs/Empty
@@ -33,7 +33,7 @@ READ = "state Read { on Go / send Seen(data = v) -> Done }"
 def codes(states: str, folder: Path) -> list[str]:
     path = folder / "model.swarm"
     path.write_text(MODEL.format(states=states), encoding="utf-8")
-    return [found.code for found in compiler.check([path]).report]
+    return [found.code for found in pipeline.check([path]).report]
 
 
 WRITTEN = {

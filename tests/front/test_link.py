@@ -6,9 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.ir.types import Array, Named, Primitive, Type
-from swarmdsl.load import Project
-from swarmdsl.syntax import (
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
     Connector,
     DoneTrigger,
     Event,
@@ -25,6 +24,7 @@ from swarmdsl.syntax import (
     Variable,
     walk,
 )
+from swarmdsl.syntax.types import Array, Named, Primitive, Type
 
 Linked = Callable[..., Project]
 EVENT = "event Go : std_msgs/Empty\n"

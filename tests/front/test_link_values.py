@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Severity
+from swarmdsl.base.diagnostics.collector import Severity
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import Expression
-from swarmdsl.printer.expressions import expression
 
-Checked = Callable[[str], compiler.Result]
+Checked = Callable[[str], pipeline.Result]
 
 SAR = """
   package sar.modes
@@ -33,12 +33,12 @@ AIR = """
 def checked(tmp_path: Path) -> Checked:
     """What comes of a file that imports two packages with the same names."""
 
-    def check(text: str) -> compiler.Result:
+    def check(text: str) -> pipeline.Result:
         (tmp_path / "sar.swarm").write_text(SAR, encoding="utf-8")
         (tmp_path / "air.swarm").write_text(AIR, encoding="utf-8")
         main = tmp_path / "main.swarm"
         main.write_text(f'import "sar.swarm"\nimport "air.swarm"\n{text}', encoding="utf-8")
-        return compiler.check([main])
+        return pipeline.check([main])
 
     return check
 
@@ -59,7 +59,7 @@ def machine(values: str = "", guard: str = "true") -> str:
     """
 
 
-def guard_of(result: compiler.Result) -> str:
+def guard_of(result: pipeline.Result) -> str:
     assert result.system is not None, [found.message for found in result.report]
     guard: Expression | None = result.system.machines[0].states[0].transitions[0].guard
     assert guard is not None

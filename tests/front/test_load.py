@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.folders import files_below
-from swarmdsl.load import Project, load
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.find_files import files_below
+from swarmdsl.project.loader import Project, load
 
 
 @pytest.fixture
@@ -135,9 +135,9 @@ def test_a_wrong_import_does_not_hide_the_others(folder: Path) -> None:
 
 
 def test_what_is_missing_from_a_lost_file_is_not_reported(folder: Path) -> None:
-    from swarmdsl import compiler
+    from swarmdsl.driver import pipeline
 
     path = folder / "wrong.swarm"
     path.write_text('import "no.swarm"\nmember M { b : Camera }\n')
 
-    assert [found.name for found in compiler.check([path]).report] == ["file-not-found"]
+    assert [found.name for found in pipeline.check([path]).report] == ["file-not-found"]

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, ir
+from swarmdsl import ir
+from swarmdsl.driver import pipeline
 
 Compiled = Callable[[str], ir.System]
 EVENT = "event Go : std_msgs/Empty\n"
@@ -237,7 +238,7 @@ def test_names_of_two_packages_do_not_collide(tmp_path: Path) -> None:
         "event a_x_Go : std_msgs/Empty\n"
         "statemachine M { initial A state A { on Go -> F } final F }\n"
     )
-    system = compiler.check([tmp_path]).system
+    system = pipeline.check([tmp_path]).system
     assert system is not None
     names = [event.name for event in system.events]
     (trigger,) = states(system.machines[0])["A"].transitions[0].triggers
@@ -249,7 +250,7 @@ def test_names_of_two_packages_do_not_collide(tmp_path: Path) -> None:
 def test_the_system_is_called_like_the_first_package(tmp_path: Path) -> None:
     (tmp_path / "main.swarm").write_text('/// All.\npackage sar.main\nimport "b.swarm"\n')
     (tmp_path / "b.swarm").write_text("package b\nevent Go : std_msgs/Empty\n")
-    system = compiler.check([tmp_path / "main.swarm"]).system
+    system = pipeline.check([tmp_path / "main.swarm"]).system
 
     assert system is not None
     assert (system.name, system.doc) == ("sar.main", "All.")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 MAIN = """\
 package mission
@@ -47,7 +47,7 @@ endless statemachine Watch {
 def test_six_mistakes_in_two_files(tmp_path: Path) -> None:
     (tmp_path / "main.swarm").write_text(MAIN)
     (tmp_path / "behaviours.swarm").write_text(BEHAVIOURS)
-    result = compiler.check([tmp_path / "main.swarm"])
+    result = pipeline.check([tmp_path / "main.swarm"])
     found = [
         (
             Path(one.primary.span.source.name).name,
@@ -78,7 +78,7 @@ def test_hints_end_where_nobody_reads_them(tmp_path: Path) -> None:
     path.write_text(
         f"{events}statemachine M {{ initial A\nstate A {{\n{triggers}}}\nfinal Done\n}}\n"
     )
-    found = [one for one in compiler.check([path]).report if one.name == "unresolved-name"]
+    found = [one for one in pipeline.check([path]).report if one.name == "unresolved-name"]
 
     assert [one.message for one in found] == [f"no event called `{name}s`" for name in names]
     assert [one.help for one in found if one.help] == [

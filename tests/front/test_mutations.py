@@ -15,13 +15,14 @@ from time import perf_counter
 
 import pytest
 
-from swarmdsl import compiler, plugins
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request, emit
-from swarmdsl.format import formatted
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.emit import Request, emit
+from swarmdsl.codegen.swarm_printer.system import UnprintableError, print_system
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.printer.system import UnprintableError, print_system
-from swarmdsl.source import Source
+from swarmdsl.syntax.formatter import formatted
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(
@@ -29,7 +30,7 @@ MODELS = sorted(
 )
 SEEDS = 10
 PROFILES = [Request("scxml", {"profile": profile}) for profile in ("portable", "cpswarm")]
-REQUESTS = [*PROFILES, *(Request(name) for name in plugins.BUILT_IN if name != "scxml")]
+REQUESTS = [*PROFILES, *(Request(name) for name in registry.BUILT_IN if name != "scxml")]
 _TOKEN = re.compile(r'"[^"\n]*"|\w+|->|=>|[^\w\s]|\s+')
 _CHARACTERS = "{}()[]\"/*\\'-><=.,:;#@0 \n\t\x00\ufeff\u00a0é€"
 Mutation = Callable[[str, random.Random], str]
@@ -138,7 +139,7 @@ def test_mutants(
         path = folder / model.relative_to(ROOT)
         path.write_text(text, encoding="utf-8")
         start = perf_counter()
-        result = compiler.check([path])
+        result = pipeline.check([path])
         slowest = max(slowest, perf_counter() - start)
         path.write_text(original, encoding="utf-8")
         laid_out += formatted(Source(str(path), text), Diagnostics()) is not None
@@ -163,5 +164,5 @@ def test_mutants(
 
 def test_the_models_are_right(folder: Path) -> None:
     for model in MODELS:
-        result = compiler.check([folder / model.relative_to(ROOT)])
+        result = pipeline.check([folder / model.relative_to(ROOT)])
         assert [found for found in result.report if found.severity.value == "error"] == []

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import Parsed, parse
-from swarmdsl.source import Source
-from swarmdsl.syntax import (
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.ast import (
     Event,
     Expression,
     Function,
@@ -22,6 +21,7 @@ from swarmdsl.syntax import (
     Word,
     walk,
 )
+from swarmdsl.syntax.parser.parse import Parsed, parse
 
 
 def parsed(text: str) -> tuple[Parsed, list[str]]:
@@ -174,7 +174,7 @@ def test_the_package_and_imports_are_kept_too() -> None:
 
 
 def test_whoever_changes_the_grammar_is_told_what_to_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("swarmdsl.swarm_parser.GRAMMAR", 0)
+    monkeypatch.setattr("swarmdsl.syntax.parser.generated.GRAMMAR", 0)
 
     assert parsed("event A : B\n")[1] == []
     with pytest.warns(UserWarning, match="make parser"):

@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import swarm_parser
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse, parse_piece
-from swarmdsl.pieces import split
-from swarmdsl.source import Source
-from swarmdsl.syntax import walk
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.ast import walk
+from swarmdsl.syntax.parser import generated
+from swarmdsl.syntax.parser.parse import parse, parse_piece
+from swarmdsl.syntax.parser.segments import split
 
 from .test_mutations import MODELS, MUTATIONS
 
@@ -91,7 +91,7 @@ def test_mutants(seed: int, pytestconfig: pytest.Config) -> None:
             text = mutate(text, dice) or " "
         if dice.random() < 0.2:
             text = re.sub(r"^(\s*\w+) +", r"\1\n", text, flags=re.MULTILINE)
-        whole = swarm_parser.parse(Source("m", text), {}, 64)
+        whole = generated.parse(Source("m", text), {}, 64)
         report = Diagnostics()
         parse(Source("m", text), report)
         found, _ = said(text)

@@ -14,10 +14,10 @@ from typing import get_args
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.source import Source, Span
-from swarmdsl.syntax import Declaration, Model, Node, Vertex, walk
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.ast import Declaration, Model, Node, Vertex, walk
+from swarmdsl.syntax.parser.parse import parse
 
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "examples").rglob("*.swarm"))
 _TOKEN = re.compile(r'//[^\n]*|"[^"\n]*"|\w+|->|=>|[^\w\s]')

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 TABLE = Path(__file__).parent / "recovery.txt"
 INTRODUCTION, *BLOCKS = re.split(r"^== ", TABLE.read_text(encoding="utf-8"), flags=re.MULTILINE)
@@ -22,7 +22,7 @@ def said(text: str, folder: Path) -> list[str]:
     path = folder / "model.swarm"
     path.write_text(text.rstrip() + "\n", encoding="utf-8")
     lines = []
-    for found in compiler.check([path]).report:
+    for found in pipeline.check([path]).report:
         assert found.primary is not None
         line, column = found.primary.span.source.line_column(found.primary.span.start)
         advice = f" ({found.help})" if found.help else ""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 MACHINE = """
 event Go : std_msgs/Empty
@@ -81,4 +81,4 @@ def codes(text: str, folder: Path) -> list[str]:
     """The codes of what is reported about a model."""
     path = folder / "model.swarm"
     path.write_text(text, encoding="utf-8")
-    return [found.code for found in compiler.check([path]).report]
+    return [found.code for found in pipeline.check([path]).report]

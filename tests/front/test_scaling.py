@@ -9,13 +9,14 @@ from types import FrameType
 
 import pytest
 
-from swarmdsl import compiler, swarm_parser
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.render import FORMATS, render
-from swarmdsl.scan import scan
-from swarmdsl.source import Source
-from swarmdsl.statements import statement_at
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render import FORMATS, render
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
+from swarmdsl.syntax.parser import generated
+from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.recovery.prescan import scan
+from swarmdsl.syntax.recovery.statements import statement_at
 
 HEAD = "package p\nevent Go : std_msgs/Empty\nevent Num : std_msgs/Int32\n"
 FEW = 60
@@ -189,7 +190,7 @@ def test_twice_the_model_is_twice_the_work(name: str, tmp_path: Path) -> None:
     works = []
     for count in (1, FEW, 2 * FEW, 4 * FEW):  # the first time much is read that is kept
         path.write_text(MODELS[name](count), encoding="utf-8")
-        works.append(work(lambda: compiler.check([path])))
+        works.append(work(lambda: pipeline.check([path])))
     assert is_proportional(works[1:]), works
 
 
@@ -211,10 +212,10 @@ def test_a_long_line_of_mistakes_is_not_read_thousands_of_times(
 
     def counted(source: Source, docs: dict[int, str], limit: int) -> object:
         read.append(len(source.text))
-        return generated(source, docs, limit)
+        return original(source, docs, limit)
 
-    generated = swarm_parser.parse
-    monkeypatch.setattr(swarm_parser, "parse", counted)
+    original = generated.parse
+    monkeypatch.setattr(generated, "parse", counted)
     parse(Source("model.swarm", text), Diagnostics())
 
     assert sum(read) < 20 * len(text)
@@ -227,7 +228,7 @@ def test_twice_the_diagnostics_are_twice_the_work(name: str, kind: str, tmp_path
     works = []
     for count in (1, FEW, 2 * FEW, 4 * FEW):
         path.write_text(MODELS[name](count), encoding="utf-8")
-        report = compiler.check([path]).report
+        report = pipeline.check([path]).report
         with (tmp_path / "output").open("w", encoding="utf-8") as stream:
             works.append(work(lambda: render(report, kind, stream)))  # noqa: B023
     assert is_proportional(works[1:]), works
@@ -243,7 +244,7 @@ def test_many_files_that_import_each_other(tmp_path: Path) -> None:
             if number + 1 < count:
                 text = text.replace("\n", f'\nimport "f{number + 1}.swarm"\n', 1)
             (folder / f"f{number}.swarm").write_text(text, encoding="utf-8")
-        works.append(work(lambda: compiler.check([folder / "f0.swarm"])))  # noqa: B023
+        works.append(work(lambda: pipeline.check([folder / "f0.swarm"])))  # noqa: B023
     assert is_proportional(works[1:]), works
 
 
@@ -251,11 +252,11 @@ def test_many_files_that_import_each_other(tmp_path: Path) -> None:
 def test_long_chains_are_valid(name: str, tmp_path: Path) -> None:
     path = tmp_path / "model.swarm"
     path.write_text(MODELS[name](3_000), encoding="utf-8")
-    assert [found.message for found in compiler.check([path]).report] == []
+    assert [found.message for found in pipeline.check([path]).report] == []
 
 
 @pytest.mark.parametrize("name", ["members that extend", "machines that reuse"])
 def test_chains_that_are_too_long_are_told(name: str, tmp_path: Path) -> None:
     path = tmp_path / "model.swarm"
     path.write_text(MODELS[name](200), encoding="utf-8")
-    assert [found.name for found in compiler.check([path]).report] == ["nested-too-deeply"]
+    assert [found.name for found in pipeline.check([path]).report] == ["nested-too-deeply"]

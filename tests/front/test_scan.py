@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parsed import NESTING_LIMIT
-from swarmdsl.scan import Scan, scan
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.parser.result import NESTING_LIMIT
+from swarmdsl.syntax.recovery.prescan import Scan, scan
 
 
 def scanned(text: str) -> tuple[Scan, list[tuple[str, str, int]]]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 
 MODEL = """\
 package {package}
@@ -25,7 +25,7 @@ statemachine M {{
 
 
 def helps(path: Path) -> list[str | None]:
-    return [each.help for each in compiler.check([path]).report if each.name == "unresolved-name"]
+    return [each.help for each in pipeline.check([path]).report if each.name == "unresolved-name"]
 
 
 def said(folder: Path, line: str = "", value: str = "", package: str = "p") -> list[str | None]:

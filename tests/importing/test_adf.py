@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.importing import import_adf
 from swarmdsl.ir import Action, Literal, System
-from swarmdsl.source import Source
 
 CALL = {"name": "cmd/lift", "class": "arm_msgs/Lift"}
 GOAL = {"goal": {"fields": [{"class": "float64", "name": "height", "description": "in m"}]}}

@@ -11,16 +11,16 @@ from typing import Any
 import pytest
 from hypothesis import Phase, given, settings
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import adf
-from swarmdsl.exchange.constants import constant
-from swarmdsl.exchange.description import value_class
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange import adf
+from swarmdsl.codegen.exchange.description import value_class
+from swarmdsl.codegen.shared.constants import constant
+from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_adf
 from swarmdsl.ir import Action, Array, Function, Literal, Message, Param, Primitive, Service, System
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING, Type
-from swarmdsl.ros.standard import lookup
-from swarmdsl.source import Source
+from swarmdsl.project.rosidl.standard import lookup
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING, Type
 
 from ..printer.round_trip import printed_and_compiled
 from ..printer.systems import systems
@@ -132,7 +132,7 @@ def check(system: System, folder: Path) -> None:
 
 @pytest.mark.parametrize("model", EXAMPLES, ids=lambda path: path.name)
 def test_examples(model: Path, tmp_path: Path) -> None:
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     if system.functions:
         check(system, tmp_path)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_adf
-from swarmdsl.source import Source
 
 HELP = {"topic": "target_help", "msg_def": {"class": "swarm_msgs/Help"}}
 POSE = {"topic": "pose", "msg_def": {"class": "geometry_msgs/PoseStamped"}}
@@ -69,11 +69,11 @@ def test_a_topic_that_is_depended_on_is_listened_to() -> None:
 def test_what_the_target_writes_comes_back(tmp_path: Path) -> None:
     model, out = tmp_path / "uav.swarm", tmp_path / "again.swarm"
     model.write_text(MODEL, encoding="utf-8")
-    compiler.build([model], [Request("amf", {})], tmp_path / "out")
+    pipeline.build([model], [Request("amf", {})], tmp_path / "out")
     (file,) = (tmp_path / "out").rglob("*.amf.json")
 
     assert run(["import", "amf", str(file), "-o", str(out)]) == 0
-    before, after = compiler.check([model]).system, compiler.check([out]).system
+    before, after = pipeline.check([model]).system, pipeline.check([out]).system
     assert before is not None
     assert after is not None
     assert after.functions == before.functions

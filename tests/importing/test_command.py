@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.codegen.swarm_printer.system import print_system
+from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.command import run as import_files
 from swarmdsl.ir import State, System
-from swarmdsl.printer.system import print_system
-from swarmdsl.source import Source
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
@@ -173,7 +173,7 @@ def test_functions_are_found_in_adf_files(tmp_path: Path) -> None:
     adf.write_text(json.dumps({"functions": [{"name": "lift", "api": api}]}), encoding="utf-8")
 
     assert run(["import", "adf", str(adf), "-o", str(out)]) == 0
-    assert compiler.check([out]).system is not None
+    assert pipeline.check([out]).system is not None
     assert "function lift : abstraction {" in out.read_text(encoding="utf-8")
 
 
@@ -219,7 +219,7 @@ def written_again(system: System, folder: Path) -> System | None:
     """The system after a way through the CPSwarm dialect; None where that cannot express it."""
     model = folder / "model.swarm"
     model.write_text(print_system(system), encoding="utf-8")
-    compiler.build([model], [Request("scxml", {})], folder / "out")
+    pipeline.build([model], [Request("scxml", {})], folder / "out")
     files = list((folder / "out").rglob("*.cpswarm.xml"))
     if not files:
         return None
@@ -263,7 +263,7 @@ statemachine Keeper {
 def test_what_is_written_for_cpswarm_comes_back(tmp_path: Path) -> None:
     model = tmp_path / "shop.swarm"
     model.write_text(OURS, encoding="utf-8")
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     again = written_again(system, tmp_path)
 
@@ -284,7 +284,7 @@ def test_real_documents(path: Path, tmp_path: Path) -> None:
     done = import_files("scxml", [path], [], out, force=False)
 
     assert not done.report.has_errors
-    system = compiler.check([out]).system
+    system = pipeline.check([out]).system
     assert system is not None
     again = written_again(system, tmp_path)
     if again is not None:
@@ -313,4 +313,4 @@ def test_real_adf_files(path: Path, tmp_path: Path) -> None:
     if path.stem == "2019-11-18_json":  # three letters stand in the middle of it
         assert [found.name for found in done.report] == ["not-json"]
     else:
-        assert compiler.check([out]).system is not None
+        assert pipeline.check([out]).system is not None

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing import command, files, import_adf, import_scxml
 from swarmdsl.importing.json_file import DEEPEST
-from swarmdsl.source import Source
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0">'
 STATE = "<state id='A'/>"

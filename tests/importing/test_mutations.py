@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.driver import pipeline
 from swarmdsl.importing.command import run
 
 from .test_w3c import SAME, document
@@ -27,7 +27,7 @@ MODELS = [
 def originals() -> list[etree._Element]:
     found = [document(body).encode() for body in SAME.values()]
     for model in MODELS:
-        system = compiler.check([model]).system
+        system = pipeline.check([model]).system
         assert system is not None
         made = scxml.emit(system, scxml.Options(), Diagnostics())
         found += [file.text.encode() for file in made]

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.importing.params import Owner, read_params
 from swarmdsl.ir import Literal
-from swarmdsl.source import Source
 
 
 def read(text: str, owners: dict[str, Owner] | None = None) -> tuple[dict[str, Owner], Diagnostics]:

@@ -11,11 +11,13 @@ from typing import Any
 import pytest
 from hypothesis import Phase, assume, given, settings
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
-from swarmdsl.exchange.scxml import ecmascript
-from swarmdsl.exchange.scxml.ids import data_ids
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.codegen.exchange.scxml import ecmascript
+from swarmdsl.codegen.exchange.scxml.ids import data_ids
+from swarmdsl.codegen.swarm_printer.system import normalized
+from swarmdsl.driver import pipeline
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.expressions import Expressions
 from swarmdsl.ir import (
@@ -34,10 +36,8 @@ from swarmdsl.ir import (
     Transition,
     Type,
 )
-from swarmdsl.ir.types import BOOL, DURATION, INT
-from swarmdsl.printer.system import normalized
-from swarmdsl.source import Source
-from swarmdsl.translate import Dialect, translate
+from swarmdsl.ir.expression_printer import Dialect, translate
+from swarmdsl.syntax.types import BOOL, DURATION, INT
 
 from ..printer.round_trip import printed_and_compiled
 from ..printer.systems import systems
@@ -265,7 +265,7 @@ def test_every_construct(compiled: Callable[[str], System], tmp_path: Path) -> N
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_models(model: Path, tmp_path: Path) -> None:
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     check(normalized(system), tmp_path)
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.driver import pipeline
 from swarmdsl.importing.ros import import_ros, library_functions
 from swarmdsl.ir import System
 
@@ -130,7 +130,7 @@ def test_real_packages(folders: list[Path], tmp_path: Path) -> None:
     out = tmp_path / "model.swarm"
 
     assert run(["import", "ros", *map(str, folders), "-o", str(out)]) == 0
-    checked = compiler.check([out])
+    checked = pipeline.check([out])
     assert checked.system is not None
     assert [found.name for found in checked.report if found.name != "naming-style"] == []
     read = [path for folder in folders for path in folder.rglob("*.*")]

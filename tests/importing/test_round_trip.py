@@ -15,13 +15,13 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.naming import camel_case
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.engine import Event
 from swarmdsl.importing.command import run as import_files
 from swarmdsl.importing.names import type_names
-from swarmdsl.naming import camel_case
-from swarmdsl.runtime import Event
 
 from ..agreement.engines import ENGINES, Document, S, Step
 
@@ -41,7 +41,7 @@ def rebuilt(path: Path, folder: Path) -> bytes:
     model = folder / "model.swarm"
     done = import_files("scxml", [path], [], model, force=False)
     assert not done.report.has_errors
-    result = compiler.check([model])
+    result = pipeline.check([model])
     assert [f.message for f in result.report if f.severity is Severity.ERROR] == []
     assert result.system is not None
     (file,) = scxml.emit(result.system, scxml.Options("portable"), Diagnostics())

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics, Severity
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.swarm_printer.expressions import expression as written
+from swarmdsl.codegen.swarm_printer.system import print_system
 from swarmdsl.importing import import_scxml
 from swarmdsl.ir import EventTrigger, OutcomeTrigger, State, StateKind, System
-from swarmdsl.printer.expressions import expression as written
-from swarmdsl.printer.system import print_system
-from swarmdsl.source import Source
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="keeper"'
 MONITOR = (

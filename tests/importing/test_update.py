@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
 from swarmdsl.importing.update import read_model, update
 
 from .corpus import CORPUS

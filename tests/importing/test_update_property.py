@@ -12,9 +12,9 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import formatted
-from swarmdsl.format.tokens import tokenize
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.swarm_printer.system import print_system
 from swarmdsl.importing.update import Model, read_model, update
 from swarmdsl.ir import (
     Component,
@@ -31,9 +31,9 @@ from swarmdsl.ir import (
     Service,
     System,
 )
-from swarmdsl.ir.types import FLOAT, INT, STRING
-from swarmdsl.printer.system import print_system
-from swarmdsl.source import Source
+from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter.tokens import tokenize
+from swarmdsl.syntax.types import FLOAT, INT, STRING
 
 from ..printer.expressions import literals
 from ..printer.systems import systems

@@ -9,16 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import camel_case
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.codegen.swarm_printer.system import print_system
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.engine import Event
 from swarmdsl.importing import import_scxml
 from swarmdsl.importing.command import run as import_files
 from swarmdsl.ir import System
-from swarmdsl.naming import camel_case
-from swarmdsl.printer.system import print_system
-from swarmdsl.runtime import Event
-from swarmdsl.source import Source
 
 from ..agreement.engines import Document
 
@@ -123,7 +123,7 @@ def test_the_model_does_the_same(body: str, tmp_path: Path) -> None:
     path.write_text(document(body), encoding="utf-8")
     done = import_files("scxml", [path], [], model, force=False)
     assert "left-out" not in [found.name for found in done.report]
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     (file,) = scxml.emit(system, scxml.Options("portable"), Diagnostics())
     events = [event for event in ("e1", "e2", "e3", "e1.x") if event in body]

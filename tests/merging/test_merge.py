@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.merging.outline import Item, outline
-from swarmdsl.merging.three_way import merge
-from swarmdsl.parse import parse
-from swarmdsl.source import Source
+from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.tools.merge.outline import Item, outline
+from swarmdsl.tools.merge.three_way import merge
 
 ROOT = Path(__file__).resolve().parents[2]
 FILES = sorted((ROOT / "examples").rglob("*.swarm"))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostic, Diagnostics
-from swarmdsl.fitting_code import fits
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.user_code_marks import fits
 from swarmdsl.output import How, Written, write
 
 Output = dict[str, list[OutputFile]]

@@ -1,6 +1,6 @@
 """The IR as text: everything that matters, nothing that does not."""
 
-from swarmdsl import compiler
+from swarmdsl.driver import pipeline
 from swarmdsl.ir.dump import dump
 
 MODEL = """
@@ -76,7 +76,7 @@ def test_values_with_blanks_are_quoted(compiled):
 
 
 def test_the_example_is_shown_whole_and_without_places(examples):
-    system = compiler.check([examples / "search_and_rescue"]).system
+    system = pipeline.check([examples / "search_and_rescue"]).system
     assert system is not None
     shown = dump(system)
     names = [state.id for machine in system.machines for state in machine.walk()]

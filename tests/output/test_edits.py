@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.generator import OutputFile
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import Action, texts
 
 from .builds import build, names, plain, text, tree

@@ -6,12 +6,12 @@ from threading import Thread
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.manifest import NAME
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import How, texts, write
 from swarmdsl.output.lock import locked
-from swarmdsl.output.opening import opened
+from swarmdsl.output.manifest import NAME
+from swarmdsl.output.prepare import opened
 
 from .builds import everything, files, write_ok
 

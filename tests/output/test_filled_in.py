@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.fitting_code import fits
+from swarmdsl.codegen.user_code_marks import fits
 from swarmdsl.output import Action, texts
 
 from .builds import build, names, plain, skeleton, tree

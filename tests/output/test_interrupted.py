@@ -11,11 +11,11 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import output
-from swarmdsl.diagnostics import Diagnostic, Diagnostics
-from swarmdsl.fitting_code import fits
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.user_code_marks import fits
 from swarmdsl.output import How, journal, write
-from swarmdsl.output.carry_out import carry_out
+from swarmdsl.output.apply import carry_out
 from swarmdsl.output.clean import clean
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.plan import Plan

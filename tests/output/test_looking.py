@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import texts, write
 from swarmdsl.output.clean import clean
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.fitting_code import fits
-from swarmdsl.generator import OutputFile
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.user_code_marks import fits
 
 from .builds import build, names, skeleton, tree
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swarmdsl.output_path import clash_key, stays_inside
+from swarmdsl.base.relative_paths import clash_key, stays_inside
 
 
 @pytest.mark.parametrize("path", ["a", "a/b.c", "..a", "a..b/c", ".hidden", "ä/日本"])

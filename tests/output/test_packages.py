@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 
 MODEL = """package lab
 function work : abstraction {
@@ -28,7 +28,7 @@ swarm Team { robot : Robot[1] }
 
 def build(folder: Path, target: str, text: str) -> list[str]:
     (folder / "lab.swarm").write_text(text, encoding="utf-8")
-    result = compiler.build([folder / "lab.swarm"], [Request(target)], folder / "out")
+    result = pipeline.build([folder / "lab.swarm"], [Request(target)], folder / "out")
     assert result.written is not None, [found.message for found in result.report]
     return [f"{found.name}: {found.message} {found.notes} {found.help}" for found in result.report]
 

@@ -17,8 +17,8 @@ from unittest.mock import patch
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from swarmdsl import compiler
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 from swarmdsl.output import How
 from swarmdsl.output.changes import PARKED
 
@@ -89,11 +89,11 @@ def mine(out: Path) -> set[str]:
     return found
 
 
-def build(out: Path, text: str, **how: object) -> compiler.Result:
+def build(out: Path, text: str, **how: object) -> pipeline.Result:
     source = out.parent / "lab.swarm"
     source.write_text(text, encoding="utf-8")
     request = Request("skeleton", {"language": "cpp"})
-    return compiler.build([source], [request], out, how=How(**how))  # type: ignore[arg-type]
+    return pipeline.build([source], [request], out, how=How(**how))  # type: ignore[arg-type]
 
 
 def renames(before: Elements, now: Elements) -> tuple[tuple[str, str], ...]:

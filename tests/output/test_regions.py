@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.manifest import NAME
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import Action, How, Written, texts, write
+from swarmdsl.output.manifest import NAME
 
 FIRST = "one\n# swarmc:begin m.a\n# swarmc:end m.a\ntwo\n# swarmc:begin m.b\n# swarmc:end m.b\n"
 CONFLICT = "`OUT/t/f` has been edited where what is generated changes"

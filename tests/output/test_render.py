@@ -5,9 +5,9 @@ import json
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.render import FORMATS, render, summary
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.diagnostics.render import FORMATS, render, summary
+from swarmdsl.base.source import Source, Span
 
 
 def span(text: str, piece: str, name: str = "sar.swarm") -> Span:

@@ -4,11 +4,11 @@ import os
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.manifest import NAME
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import How, texts, write
 from swarmdsl.output.clean import clean
+from swarmdsl.output.manifest import NAME
 
 from .builds import errors, everything, files, write_ok
 

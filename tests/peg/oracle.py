@@ -12,12 +12,9 @@ from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput
 from textx import TextXSyntaxError
 
-from swarmdsl.expressions import is_too_large, quantity_value, unquoted
-from swarmdsl.parsed import NESTING_LIMIT
-from swarmdsl.peg.swarm import TARGET
-from swarmdsl.resources import grammar
-from swarmdsl.source import Source, Span
-from swarmdsl.syntax import (
+from swarmdsl.base.resources import grammar
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.ast import (
     NODES,
     Call,
     Expression,
@@ -31,7 +28,10 @@ from swarmdsl.syntax import (
     Value,
     Word,
 )
-from swarmdsl.textx_entry import metamodel
+from swarmdsl.syntax.parser.literals import is_too_large, quantity_value, unquoted
+from swarmdsl.syntax.parser.result import NESTING_LIMIT
+from swarmdsl.syntax.pegen.metamodel import metamodel
+from swarmdsl.syntax.pegen.swarm_actions import TARGET
 
 
 @dataclass

@@ -8,8 +8,8 @@ from functools import cache
 from random import Random
 from typing import Any
 
-from swarmdsl.peg.analysis import sre
-from swarmdsl.peg.grammar import (
+from swarmdsl.syntax.pegen.analysis import sre
+from swarmdsl.syntax.pegen.grammar import (
     Assign,
     Choice,
     Expression,

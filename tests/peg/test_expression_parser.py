@@ -10,12 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lark.exceptions import UnexpectedInput
 
-from swarmdsl import swarm_parser
-from swarmdsl.diagnostics import Diagnostic, Diagnostics
-from swarmdsl.expression_parser import ExpressionParser, report_fault
-from swarmdsl.parsed import NESTING_LIMIT
-from swarmdsl.peg.grammar import read
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.parser import generated
+from swarmdsl.syntax.parser.expressions import ExpressionParser, report_fault
+from swarmdsl.syntax.parser.result import NESTING_LIMIT
+from swarmdsl.syntax.pegen.grammar import read
 
 from ..front.test_mutations import MUTATIONS
 from . import oracle
@@ -39,7 +39,7 @@ PLACES = (
 
 def compare(text: str) -> bool:
     """Parse a text with expressions both ways and compare; return whether all is right."""
-    made = swarm_parser.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
+    made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
     expected = oracle.parse(text)
     assert (made is None) == isinstance(expected, oracle.Refused), text
     if made is None or isinstance(expected, oracle.Refused):
@@ -101,7 +101,7 @@ def test_precedence(text: str) -> None:
 def faults(text: str) -> list[Diagnostic]:
     source = Source("", text)
     report = Diagnostics()
-    report_fault(swarm_parser.LANGUAGE, Span(source, 0, len(text)), report)
+    report_fault(generated.LANGUAGE, Span(source, 0, len(text)), report)
     return list(report)
 
 
@@ -160,8 +160,8 @@ def test_levels(text: str, levels: int) -> None:
 
 def test_what_failed_leaves_no_fault_behind() -> None:
     source = Source("", "a + (b < c < d")  # the expression is `a`
-    tokens = swarm_parser.TOKENS.cut(source.text)
-    parser = ExpressionParser(swarm_parser.LANGUAGE, source, tokens, NESTING_LIMIT)
+    tokens = generated.TOKENS.cut(source.text)
+    parser = ExpressionParser(generated.LANGUAGE, source, tokens, NESTING_LIMIT)
     found = parser.expression(0)
 
     assert found is not None

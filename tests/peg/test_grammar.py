@@ -10,14 +10,14 @@ from typing import Any
 import pytest
 from textx import TextXSyntaxError, metamodel_from_str
 
-from swarmdsl.expression_parser import TooDeepError
-from swarmdsl.peg.grammar import Grammar, UnsupportedError, read
-from swarmdsl.peg.machine import mismatch
-from swarmdsl.peg.module import definitions
-from swarmdsl.peg.target import Target
-from swarmdsl.source import Source, Span
-from swarmdsl.syntax import Ref, Word
-from swarmdsl.tokens import Cutter
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.ast import Ref, Word
+from swarmdsl.syntax.parser.expressions import TooDeepError
+from swarmdsl.syntax.parser.lexer import Cutter
+from swarmdsl.syntax.pegen.actions import Target
+from swarmdsl.syntax.pegen.failure_finder import mismatch
+from swarmdsl.syntax.pegen.grammar import Grammar, UnsupportedError, read
+from swarmdsl.syntax.pegen.module import definitions
 
 NAME = r"N: /(?!(?:no)\b)[A-Za-z_][A-Za-z0-9_]*\b/;"
 

@@ -14,14 +14,14 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import swarm_parser
-from swarmdsl.expression_parser import TooDeepError
-from swarmdsl.parsed import NESTING_LIMIT
-from swarmdsl.peg.grammar import Use, inside, read
-from swarmdsl.peg.machine import mismatch
-from swarmdsl.peg.swarm import PATH, TARGET, parser
-from swarmdsl.source import Source
-from swarmdsl.syntax import Expression, walk
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.ast import Expression, walk
+from swarmdsl.syntax.parser import generated
+from swarmdsl.syntax.parser.expressions import TooDeepError
+from swarmdsl.syntax.parser.result import NESTING_LIMIT
+from swarmdsl.syntax.pegen.failure_finder import mismatch
+from swarmdsl.syntax.pegen.grammar import Use, inside, read
+from swarmdsl.syntax.pegen.swarm_actions import PATH, TARGET, parser
 
 from ..docs.pages import blocks
 from ..front.test_mutations import MUTATIONS
@@ -29,7 +29,7 @@ from . import oracle
 from .sentences import Sentences, reachable
 
 ROOT = Path(__file__).resolve().parents[2]
-FOLDERS = ("examples", "tests", "src/swarmdsl/library")
+FOLDERS = ("examples", "tests", "src/swarmdsl/project/library")
 SEEDS = 10
 _START = re.compile(r"^(?=[a-z])", re.MULTILINE)
 
@@ -64,7 +64,7 @@ def pieces(texts: Iterable[str]) -> list[str]:
 def compare(text: str) -> bool:
     """Parse a text both ways and compare; return whether it is a model."""
     try:
-        made = swarm_parser.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
+        made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
     except TooDeepError:
         assert sum(map(text.count, "{([")) > NESTING_LIMIT
         return False
@@ -89,7 +89,7 @@ def compare(text: str) -> bool:
 
 def compare_refusal(text: str, expected: oracle.Refused) -> None:
     """Compare where the two stop, and what could come there."""
-    found = mismatch(swarm_parser.PROGRAM, swarm_parser.TERMINALS, swarm_parser.BLANK, text)
+    found = mismatch(generated.PROGRAM, generated.TERMINALS, generated.BLANK, text)
     assert found is not None, text
     assert found.at == expected.at, text
     terminals = {
@@ -189,7 +189,7 @@ def test_the_oracle_sees_differences() -> None:
 )
 def test_too_deep(text: str) -> None:
     with pytest.raises(TooDeepError):
-        swarm_parser.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
+        generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_too_deep(text: str) -> None:
     ids=["not", "minus", "plus", "fields", "events", "states"],
 )
 def test_much_of_something(text: str, wrong: int) -> None:
-    made = swarm_parser.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
+    made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
 
     assert made is not None
     assert made[1] == wrong
@@ -214,7 +214,7 @@ def test_much_of_something(text: str, wrong: int) -> None:
 def test_documentation_is_given_to_what_begins_there() -> None:
     text = "event A : B\nstatemachine M {\n  state S {\n    on A -> S\n  }\n}\n"
     docs = {text.index("state S"): "A state.", text.index("on A"): "A transition.", 3: "Nobody."}
-    made = swarm_parser.parse(Source("model.swarm", text), docs, NESTING_LIMIT)
+    made = generated.parse(Source("model.swarm", text), docs, NESTING_LIMIT)
 
     assert made is not None
     documented = [node for node in walk(made[0]) if getattr(node, "doc", "")]
@@ -224,7 +224,7 @@ def test_documentation_is_given_to_what_begins_there() -> None:
 
 def test_it_needs_neither_textx_nor_lark() -> None:
     code = (
-        "import sys; import swarmdsl.parse; "
+        "import sys; import swarmdsl.syntax.parser.parse; "
         "assert not {'textx', 'arpeggio', 'lark'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.source import Source
-from swarmdsl.swarm_parser import TOKENS, parse
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.parser.generated import TOKENS, parse
 
 
 def cut(text: str) -> list[tuple[str, int]]:

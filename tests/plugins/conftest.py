@@ -7,20 +7,20 @@ from types import ModuleType
 
 import pytest
 
-from swarmdsl import plugins
-from swarmdsl.generator import Generator
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.api import Generator
 
 
 @pytest.fixture
 def built_in(monkeypatch) -> Callable[[Generator], None]:
     """Make a generator a built-in target, the only ones there are."""
-    monkeypatch.setattr(plugins, "BUILT_IN", {})
+    monkeypatch.setattr(registry, "BUILT_IN", {})
 
     def add(generator: Generator) -> None:
         module = ModuleType(f"stub_{generator.target}")
         module.generator = generator
         monkeypatch.setitem(sys.modules, module.__name__, module)
-        plugins.BUILT_IN[generator.target] = f"{module.__name__}:generator"
+        registry.BUILT_IN[generator.target] = f"{module.__name__}:generator"
 
     return add
 
@@ -39,7 +39,7 @@ def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
         info.mkdir()
         (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {module}\nVersion: 1\n")
         (info / "entry_points.txt").write_text(
-            f"[{plugins.GROUP}]\n{target} = {module}:{attribute}\n"
+            f"[{registry.GROUP}]\n{target} = {module}:{attribute}\n"
         )
         monkeypatch.delitem(sys.modules, module, raising=False)
 

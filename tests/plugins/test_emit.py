@@ -6,12 +6,12 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request, emit
-from swarmdsl.generator import ALL_FEATURES, Feature, Generator, OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.codegen.api import ALL_FEATURES, Feature, Generator, OutputFile
+from swarmdsl.codegen.emit import Request, emit
 from swarmdsl.ir import Literal, State, StateKind, StateMachine, System, TimeTrigger, Transition
-from swarmdsl.ir.types import DURATION
-from swarmdsl.source import Source, Span
+from swarmdsl.syntax.types import DURATION
 
 SOURCE = Source("m.swarm", "after 1 s, after 2 s")
 
@@ -175,7 +175,7 @@ def test_a_bug_in_a_built_in_generator_is_a_bug_of_ours(built_in):
 
 
 CRASHING = """
-from swarmdsl.generator import Generator
+from swarmdsl.codegen.api import Generator
 def emit(system, options, report):
     yield from ()
     {body}
@@ -265,7 +265,7 @@ def test_a_check_that_fails_is_a_fault_of_the_generator(install):
     install(
         "odd",
         """from dataclasses import dataclass
-from swarmdsl.generator import Generator, option
+from swarmdsl.codegen.api import Generator, option
 @dataclass(frozen=True)
 class Options:
     n: int = option(1, "A number.", check=lambda n: 1 // n and None)

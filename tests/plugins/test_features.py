@@ -2,8 +2,8 @@
 
 import pytest
 
-from swarmdsl.features import unsupported, used_features
-from swarmdsl.generator import ALL_FEATURES, Feature
+from swarmdsl.codegen.api import ALL_FEATURES, Feature
+from swarmdsl.codegen.features import unsupported, used_features
 
 MODEL = """
 action m/Work {

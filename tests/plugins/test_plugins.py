@@ -5,26 +5,26 @@ import sys
 
 import pytest
 
-from swarmdsl import plugins
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import Generator
-from swarmdsl.targets import all_targets, as_json, as_page, one_target
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen import registry
+from swarmdsl.codegen.api import Generator
+from swarmdsl.codegen.target_info import all_targets, as_json, as_page, one_target
 
 GOOD = """
-from swarmdsl.generator import Generator, OutputFile
+from swarmdsl.codegen.api import Generator, OutputFile
 generator = Generator({target!r}, "A summary", lambda system, options, report: [])
 """
 
 
 def test_an_installed_package_brings_its_target(roster):
-    assert plugins.target_names() == [*plugins.BUILT_IN, "roster"]
-    generator = plugins.load("roster")
+    assert registry.target_names() == [*registry.BUILT_IN, "roster"]
+    generator = registry.load("roster")
     assert isinstance(generator, Generator)
     assert generator.summary == "Who is in a swarm"
 
 
 def test_no_such_target():
-    assert plugins.load("nowhere") is None
+    assert registry.load("nowhere") is None
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_no_such_target():
             "option `a` has no default",
         ),
         (
-            "from dataclasses import dataclass\nfrom swarmdsl.generator import option\n"
+            "from dataclasses import dataclass\nfrom swarmdsl.codegen.api import option\n"
             "@dataclass\nclass O:\n  a: int = option(1, '', only='b=2')\n"
             + GOOD.format(target="x").replace("[])", "[], options_type=O)"),
             "option `a` counts only with an option `b`, which is not there",
@@ -65,8 +65,8 @@ def test_no_such_target():
 )
 def test_a_broken_generator_harms_no_other(built_in, install, roster, source, reason):
     install("x", source)
-    broken = plugins.load("x")
-    assert isinstance(broken, plugins.Broken)
+    broken = registry.load("x")
+    assert isinstance(broken, registry.Broken)
     assert reason in broken.reason
     report = Diagnostics()
     assert "roster" in [generator.target for generator in all_targets(report)]
@@ -80,14 +80,14 @@ def test_a_broken_generator_harms_no_other(built_in, install, roster, source, re
 
 def test_a_name_that_cannot_be_a_folder_is_refused(install):
     install("../evil", GOOD.format(target="../evil"), module="evil")
-    assert isinstance(plugins.load("../evil"), plugins.Broken)
+    assert isinstance(registry.load("../evil"), registry.Broken)
 
 
 def test_two_packages_for_one_target_are_named(install):
     install("x", GOOD.format(target="x"), module="one")
     install("x", GOOD.format(target="x"), module="two")
-    broken = plugins.load("x")
-    assert isinstance(broken, plugins.Broken)
+    broken = registry.load("x")
+    assert isinstance(broken, registry.Broken)
     assert "one:generator" in broken.reason
     assert "two:generator" in broken.reason
 
@@ -102,7 +102,7 @@ def test_a_built_in_target_cannot_be_replaced(built_in, install):
 
 def test_the_built_in_targets_work():
     report = Diagnostics()
-    assert [generator.target for generator in all_targets(report)] == list(plugins.BUILT_IN)
+    assert [generator.target for generator in all_targets(report)] == list(registry.BUILT_IN)
     assert len(report) == 0
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from jinja2 import Environment, TemplateError, TemplateNotFound, UndefinedError
 
-from swarmdsl.templates import Templates
+from swarmdsl.codegen.templates import Templates
 
 
 @pytest.fixture

@@ -14,12 +14,12 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.preview.following import follow
-from swarmdsl.preview.pictures import Pictures, pictures
-from swarmdsl.preview.serving import News
+from swarmdsl.driver import pipeline
+from swarmdsl.ide.preview.live_trace import follow
+from swarmdsl.ide.preview.pictures import Pictures, pictures
+from swarmdsl.ide.preview.serving import News
 
 PATIENCE = 60
 MODEL = """package yard
@@ -82,7 +82,7 @@ class Page:
 def shown(tmp_path: Path) -> Pictures:
     path = tmp_path / "yard.swarm"
     path.write_text(MODEL, encoding="utf-8")
-    made = pictures(compiler.check([path]))
+    made = pictures(pipeline.check([path]))
     assert isinstance(made, Pictures), made
     return made
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.preview.ros2 import _Ears
-from swarmdsl.preview.serving import News
+from swarmdsl.ide.preview.ros2 import _Ears
+from swarmdsl.ide.preview.serving import News
 
 
 class Graph:

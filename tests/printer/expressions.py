@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 from hypothesis import strategies as st
 
-from swarmdsl.exchange.constants import (
+from swarmdsl.codegen.shared.constants import (
     UndefinedValueError,
     UnknownValueError,
     constant,
     evaluate,
 )
 from swarmdsl.ir import Binary, Call, EventData, Expression, FieldAccess, Literal, Named, Unary
-from swarmdsl.ir.types import (
+from swarmdsl.syntax.types import (
     BOOL,
     DURATION,
     FLOAT,

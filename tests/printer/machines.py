@@ -37,7 +37,7 @@ from swarmdsl.ir import (
     Variable,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING, Type
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Type
 
 from .expressions import delay, event_leaves, expressions, literals
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Severity
+from swarmdsl.base.diagnostics.collector import Severity
+from swarmdsl.codegen.swarm_printer.system import print_system
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.printer.system import print_system
 
 
 def compiled(*paths: Path) -> System:
     """The system of a valid model; warnings are fine."""
-    result = compiler.check(list(paths))
+    result = pipeline.check(list(paths))
     errors = [
         (found.code, found.message, found.primary and found.primary.span.text)
         for found in result.report

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hypothesis import strategies as st
 
+from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.ir import (
     Action,
     Communication,
@@ -41,8 +42,7 @@ from swarmdsl.ir import (
     System,
     VariableRef,
 )
-from swarmdsl.ir.types import FLOAT, INT, PRIMITIVES, STRING, Array, Primitive, Type
-from swarmdsl.naming import camel_case, snake_case
+from swarmdsl.syntax.types import FLOAT, INT, PRIMITIVES, STRING, Array, Primitive, Type
 
 from .expressions import expressions, literals, texts
 from .machines import PLAIN, World, docs_of, machines

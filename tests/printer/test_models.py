@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.codegen.swarm_printer.system import UnprintableError, normalized, print_system
 from swarmdsl.ir import Binary, Literal, Named, Service, State, StateMachine, System, Transition
-from swarmdsl.ir.types import FLOAT, INT
-from swarmdsl.printer.system import UnprintableError, normalized, print_system
+from swarmdsl.syntax.types import FLOAT, INT
 
 from .round_trip import compiled, printed_and_compiled
 

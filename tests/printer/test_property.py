@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from hypothesis import Phase, given, settings
 
+from swarmdsl.codegen.swarm_printer.system import normalized
 from swarmdsl.ir import System
-from swarmdsl.printer.system import normalized
 
 from .round_trip import printed_and_compiled
 from .systems import systems

@@ -6,7 +6,9 @@ import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from swarmdsl import compiler, ir, resources
+from swarmdsl import ir
+from swarmdsl.base import resources
+from swarmdsl.driver import pipeline
 
 PACKAGES = {
     "cpswarm": "the CPSwarm libraries as they are today",
@@ -18,7 +20,7 @@ def systems() -> Mapping[str, ir.System]:
     """Each of the two libraries, compiled."""
     found = {}
     for name in PACKAGES:
-        system = compiler.check([resources.library() / name]).system
+        system = pipeline.check([resources.library() / name]).system
         assert system is not None
         found[name] = system
     return found

@@ -8,9 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, ir, resources
-from swarmdsl.libraries import GROUP
-from swarmdsl.project.settings import Settings
+from swarmdsl import ir
+from swarmdsl.base import resources
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config.settings import Settings
+from swarmdsl.project.libraries import GROUP
 
 ROOT = Path(__file__).resolve().parents[2]
 WAREHOUSE = ROOT / "tests" / "plugins" / "warehouse" / "swarmdsl_warehouse"
@@ -69,7 +71,7 @@ def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
     found = []
     for place in places:
         settings = Settings(libraries=(root, root / "lib", tmp_path / "other"))
-        system = compiler.check([root / "models" / "main.swarm"], settings).system
+        system = pipeline.check([root / "models" / "main.swarm"], settings).system
         assert system is not None
         found += [function.communication.name for function in system.functions]
         (next(place.glob("*.swarm")) if place.name == "kit" else place / "kit.swarm").unlink()
@@ -150,7 +152,7 @@ def test_installed_libraries_are_not_looked_at_without_need(swarmc, project, ins
 def compiled(text: str, folder: Path) -> ir.System:
     path = folder / "main.swarm"
     path.write_text(text, encoding="utf-8")
-    result = compiler.check([path])
+    result = pipeline.check([path])
     assert result.system is not None, [found.message for found in result.report]
     return result.system
 
@@ -214,7 +216,7 @@ def test_what_is_wrong_in_a_library_is_told_and_no_more(tmp_path) -> None:
         encoding="utf-8",
     )
 
-    found = compiler.check([tmp_path / "model.swarm"])
+    found = pipeline.check([tmp_path / "model.swarm"])
 
     # Not that `wait` is no style of a state: that is the library's own affair.
     assert [(each.name, each.primary.span.line) for each in found.report] == [

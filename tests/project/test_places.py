@@ -10,9 +10,9 @@ import tomli
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.project.toml import Document, Keys, parse_toml
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver.config.toml import Document, Keys, parse_toml
 
 DOCUMENT = r'''# A comment with "quotes" and [brackets]
 top."quoted key".'literal key' = [1, [ "x" , 'y' ], { q = 1, r.s = "]" }, ] # more

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler, explain
+from swarmdsl.base.diagnostics import explain
+from swarmdsl.driver import pipeline
 
 from .conftest import ISLAND, MODEL
 
@@ -146,7 +147,7 @@ def test_a_project_file_may_say_nothing(swarmc, project, toml) -> None:
 
 
 def test_nothing_to_compile_is_no_system() -> None:
-    result = compiler.check([])
+    result = pipeline.check([])
 
     assert [found.name for found in result.report] == ["nothing-to-compile"]
     assert result.system is None

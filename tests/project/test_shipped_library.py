@@ -9,15 +9,17 @@ from pathlib import Path
 import pytest
 import yaml
 
-from swarmdsl import compiler, ir, resources
+from swarmdsl import ir
+from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.emit import Request
-from swarmdsl.exchange.constants import evaluate
-from swarmdsl.load import load
-from swarmdsl.ros.interface_file import parse_interface
-from swarmdsl.source import Source
-from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType
+from swarmdsl.codegen.emit import Request
+from swarmdsl.codegen.shared.constants import evaluate
+from swarmdsl.driver import pipeline
+from swarmdsl.project.loader import load
+from swarmdsl.project.rosidl.interface_file import parse_interface
+from swarmdsl.syntax.ast import ActionType, Field, MessageType, ServiceType
 
 from . import catalogue
 
@@ -46,7 +48,7 @@ def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
     path = tmp_path / "everything.swarm"
     path.write_text("\n".join(_everything(name, system)), encoding="utf-8")
     request = Request(target, {"profile": "portable"} if target == "scxml" else {})
-    result = compiler.build([path], [request], tmp_path / "out")
+    result = pipeline.build([path], [request], tmp_path / "out")
     made = [each for each in (tmp_path / "out" / target).rglob("*") if each.is_file()]
     text = "\n".join(each.read_text(encoding="utf-8") for each in made)
 
@@ -59,7 +61,7 @@ def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
 def test_skeletons_of_all_functions_and_nodes(tmp_path: Path) -> None:
     """For whoever writes them anew; of those in a library none is made otherwise."""
     place = resources.library() / "cpswarm"
-    result = compiler.build([place], [Request("skeleton")], tmp_path)
+    result = pipeline.build([place], [Request("skeleton")], tmp_path)
     made = {path.parent.name for path in tmp_path.rglob("package.xml")}
 
     assert [found.message for found in result.report] == []

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.interface_file import InterfaceFile, Kind, parse_interface
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.project.rosidl.interface_file import InterfaceFile, Kind, parse_interface
 
 ROOT = Path(__file__).resolve().parents[2]
 Read = Callable[..., InterfaceFile]

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 from rosbags.typesys import get_types_from_msg
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.interface_file import InterfaceFile, parse_interface
-from swarmdsl.ros.package_folder import InterfacePath, find_interfaces
-from swarmdsl.source import Source
-from swarmdsl.syntax import ActionType, MessageType, ServiceType
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.project.rosidl.interface_file import InterfaceFile, parse_interface
+from swarmdsl.project.rosidl.package_folder import InterfacePath, find_interfaces
+from swarmdsl.syntax.ast import ActionType, MessageType, ServiceType
 
 from .rosbags_types import written
 

@@ -6,11 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.declarations import Constant
-from swarmdsl.ros.interface_file import INTERFACE_KINDS, InterfaceFile, Kind, parse_interface
-from swarmdsl.source import Source
-from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType, Value, walk
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.project.rosidl.declarations import Constant
+from swarmdsl.project.rosidl.interface_file import (
+    INTERFACE_KINDS,
+    InterfaceFile,
+    Kind,
+    parse_interface,
+)
+from swarmdsl.syntax.ast import ActionType, Field, MessageType, ServiceType, Value, walk
 
 from .conftest import Read
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ros.package_folder import find_interfaces, find_parameters
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.project.rosidl.package_folder import find_interfaces, find_parameters
 
 AT = Span(Source("model.swarm", 'import ros "interfaces"'), 11, 23)
 

@@ -7,13 +7,13 @@ import sys
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.ir.types import PRIMITIVES, Named
-from swarmdsl.ros import standard
-from swarmdsl.ros.interface_file import parse_interface
-from swarmdsl.source import Source
-from swarmdsl.suggest import closest
-from swarmdsl.syntax import ActionType, Field, MessageType, ServiceType, TypeRef, walk
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.base.suggest import closest
+from swarmdsl.project.rosidl import standard
+from swarmdsl.project.rosidl.interface_file import parse_interface
+from swarmdsl.syntax.ast import ActionType, Field, MessageType, ServiceType, TypeRef, walk
+from swarmdsl.syntax.types import PRIMITIVES, Named
 
 from .rosbags_types import text
 
@@ -165,13 +165,13 @@ def test_nothing_is_read_before_it_is_asked_for_and_then_fast() -> None:
 import sys
 from pathlib import Path
 from time import process_time
-import swarmdsl.ros.interface_file
-from swarmdsl.ir.types import Named
+import swarmdsl.project.rosidl.interface_file
+from swarmdsl.syntax.types import Named
 
 read = []
 original = Path.read_text
 Path.read_text = lambda self, **options: (read.append(self.name), original(self, **options))[1]
-from swarmdsl.ros import standard
+from swarmdsl.project.rosidl import standard
 assert read == [], read
 start = process_time()
 assert standard.lookup(Named("geometry_msgs", "PoseStamped"))

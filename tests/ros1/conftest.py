@@ -17,22 +17,22 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from swarmdsl.generators.smach.package import used_types
+from swarmdsl.codegen.bundled.smach.package import used_types
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.features import used_features
-from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_files import definition, file_name
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen.features import used_features
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.codegen.ros.interface_files import definition, file_name
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
 
 HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 STAND_IN = HERE.parent / "smach" / "stand_in"
 # Interfaces that models name and may leave to others to describe.
-_LIBRARY = ROOT / "src" / "swarmdsl" / "library" / "cpswarm"
+_LIBRARY = ROOT / "src" / "swarmdsl" / "project" / "library" / "cpswarm"
 _DEBIAN = Path("/usr/lib/python3/dist-packages")
 
 
@@ -95,7 +95,7 @@ class Workspace:
 
     def can_make(self, folder: str) -> bool:
         """Whether the target can express an example."""
-        result = compiler.check(sorted((ROOT / "examples" / folder).glob("*.swarm")))
+        result = pipeline.check(sorted((ROOT / "examples" / folder).glob("*.swarm")))
         assert result.system is not None
         supported = load("smach").supports
         return all(feature in supported for feature, _ in used_features(result.system))
@@ -111,7 +111,7 @@ class Workspace:
         return self._made[text]
 
     def _make(self, paths: list[Path], name: str) -> tuple[System, Path, list[Path]]:
-        result = compiler.check(paths)
+        result = pipeline.check(paths)
         assert result.system is not None, [found.message for found in result.report]
         generator = load("smach")
         report = Diagnostics()
@@ -130,7 +130,7 @@ class Workspace:
 
     def _interfaces(self, system: System, folder: Path, source: Path) -> Path:
         """Make what is generated, what the model describes, and what the library does."""
-        library = compiler.check([_LIBRARY]).system
+        library = pipeline.check([_LIBRARY]).system
         assert library is not None
         for interface in (*library.interfaces, *system.interfaces):
             if not (_DEBIAN / interface.type.package).exists():

@@ -15,15 +15,15 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.ir.types import DURATION
-from swarmdsl.naming import snake_case
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
+from swarmdsl.syntax.types import DURATION
 
 HERE = Path(__file__).parent
 
@@ -152,6 +152,6 @@ def _agrees(node: Any, scenario: Path) -> None:
 
 @functools.cache
 def _system(model: Path) -> System:
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     return system

@@ -17,23 +17,23 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
 
-from swarmdsl.generators.ros2.actions import messages_of_actions
-from swarmdsl.generators.ros2.options import Options
-from swarmdsl.generators.ros2.package import (
+from swarmdsl.codegen.bundled.ros2.actions import messages_of_actions
+from swarmdsl.codegen.bundled.ros2.options import Options
+from swarmdsl.codegen.bundled.ros2.package import (
     called_functions,
     heard_events,
     sent_events,
 )
-from swarmdsl.generators.ros2.ported import ported
-from swarmdsl.generators.ros2.render import interface_files
+from swarmdsl.codegen.bundled.ros2.ported import ported
+from swarmdsl.codegen.bundled.ros2.render import interface_files
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import chosen_machines
-from swarmdsl.interface_files import named, parts
-from swarmdsl.interface_packages import InterfacePackage, packages_of
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen.ros.interface_files import named, parts
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, packages_of
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
-from swarmdsl.ir.types import STRING
+from swarmdsl.syntax.types import STRING
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -117,7 +117,7 @@ def sources() -> Iterator[tuple[str, str]]:
     """The packages of interfaces that the nodes of the models use and that no wheel has."""
     found: dict[Named, Interface] = {_HEADER.type: _HEADER}
     for model in MODELS:
-        system = compiler.check([model]).system
+        system = pipeline.check([model]).system
         assert system is not None, model
         for package in packages_of((each for each in system.interfaces if not each.external), 2):
             yield from _texts(package)

@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from swarmdsl.generators.ros2.names import type_name
+from swarmdsl.codegen.bundled.ros2.names import type_name
 
-from swarmdsl import compiler
-from swarmdsl.generator import chosen_machines
+from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import (
     Communication,
     DoneTrigger,
@@ -29,7 +30,6 @@ from swarmdsl.ir import (
     TimeTrigger,
     Transition,
 )
-from swarmdsl.naming import snake_case
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 # What machines wait for at most, in simulated seconds, and how often something is let happen.
@@ -222,7 +222,7 @@ def _with_those_around(configuration: list[str]) -> list[str]:
 
 @pytest.mark.parametrize("example", sorted(p.name for p in EXAMPLES.iterdir() if p.is_dir()))
 def test_its_nodes_come_through_all_their_states(ros: Any, example: str) -> None:
-    system = compiler.check([EXAMPLES / example]).system
+    system = pipeline.check([EXAMPLES / example]).system
     assert system is not None
     fakes = ros.fakes()
     robots = [Robot(ros, fakes, system, machine) for machine in chosen_machines(system)]

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.codes import CODES
-from swarmdsl.generator import OutputFile, Support
-from swarmdsl.plugins import load
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.codegen.api import OutputFile, Support
+from swarmdsl.codegen.registry import load
 
 
 def _constructs() -> tuple[str, str, dict[str, str]]:

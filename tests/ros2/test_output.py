@@ -13,11 +13,11 @@ import pytest
 import yaml
 from lxml import etree
 
-import swarmdsl.runtime
-from swarmdsl.generator import OutputFile
+import swarmdsl.execution.engine
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.simulate.table import table
 from swarmdsl.ir import System
-from swarmdsl.runtime import Machine
-from swarmdsl.simulate.table import table
 
 from .conftest import load_module
 
@@ -295,7 +295,7 @@ def test_traces_call_what_regions_take_as_a_simulation_does(
       }
     """
     files = generate(text)
-    names = dict(vars(swarmdsl.runtime))
+    names = dict(vars(swarmdsl.execution.engine))
     for module, wanted in (("host", "tree"), ("work", "STATES")):
         made = ast.parse(files[f"lab_behavior/lab_behavior/{module}.py"].text)
         made.body = [node for node in made.body if wanted in (_name(node), _assigned(node))]
@@ -318,7 +318,7 @@ def test_the_engine_is_whole(generate: Generate) -> None:
     """Each class and function of the engine is in the file, with the same code."""
     made = ast.parse(generate(MODEL)["lab_behavior/lab_behavior/engine.py"].text)
     found = {_name(node): _code(node) for node in made.body if _name(node)}
-    folder = Path(swarmdsl.runtime.__file__).parent
+    folder = Path(swarmdsl.execution.engine.__file__).parent
     for path in sorted(folder.glob("[a-z]*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
             if _name(node):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.runtime import (
+from swarmdsl.execution.engine import (
     Activity,
     Event,
     ExecutionError,

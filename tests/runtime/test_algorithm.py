@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from swarmdsl.runtime import (
+from swarmdsl.execution.engine import (
     Event,
     ExecutionError,
     Guard,

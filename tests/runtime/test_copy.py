@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-RUNTIME = Path(__file__).resolve().parents[2] / "src" / "swarmdsl" / "runtime"
+RUNTIME = Path(__file__).resolve().parents[2] / "src" / "swarmdsl" / "execution" / "engine"
 MODULES = sorted(RUNTIME.glob("*.py"))
 PROGRAM = """
 from robot.engine import Event, Instance, Machine, State, Transition

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
+from swarmdsl.execution.engine import Event, Instance
+from swarmdsl.execution.simulate.table import first_data, table
 from swarmdsl.ir import System
-from swarmdsl.runtime import Event, Instance
-from swarmdsl.simulate.table import first_data, table
 
 from .world import StillWorld, Trace
 

@@ -8,8 +8,8 @@ from hypothesis import event as seen
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from swarmdsl.runtime import Event, Instance, Kind, LoopError, Machine, State, Transition
-from swarmdsl.runtime.table import members
+from swarmdsl.execution.engine import Event, Instance, Kind, LoopError, Machine, State, Transition
+from swarmdsl.execution.engine.table import members
 
 from .world import StillWorld
 

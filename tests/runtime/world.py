@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from swarmdsl.runtime import Event, Instance, Machine, Observer, Run, State, Transition
-from swarmdsl.simulate.clock import Alarm, Clock
+from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, State, Transition
+from swarmdsl.execution.simulate.clock import Alarm, Clock
 
 
 class StillWorld:

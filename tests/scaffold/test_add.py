@@ -11,10 +11,10 @@ import pytest
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 
-from swarmdsl import compiler
-from swarmdsl.changes import writing
-from swarmdsl.changes.add import Place, add, declaration, part_of, state
-from swarmdsl.syntax import Member, Swarm
+from swarmdsl.driver import pipeline
+from swarmdsl.syntax.ast import Member, Swarm
+from swarmdsl.tools.refactor import element_text
+from swarmdsl.tools.refactor.add import Place, add, declaration, part_of, state
 
 MODEL = """/// A swarm of robots.
 package yard
@@ -334,23 +334,25 @@ types = st.sampled_from(["bool", "float64", "std_msgs/String", "geometry_msgs/Po
 
 
 @st.composite
-def things(draw: st.DrawFn) -> Callable[[compiler.Result, int], Place]:
+def things(draw: st.DrawFn) -> Callable[[pipeline.Result, int], Place]:
     """Something to add, made for a model."""
     start, doc, type_ = draw(names), draw(docs), draw(types)
     number = draw(st.integers(0, 10_000))
     kind = draw(st.sampled_from(["component", "event", "function", "machine", "part", "state"]))
 
-    def made(checked: compiler.Result, turn: int) -> Place:
+    def made(checked: pipeline.Result, turn: int) -> Place:
         name, small = f"{start}{turn}", f"{start.lower()}_{turn}"
         system = checked.system
         assert system is not None
         if kind == "event":
             return declaration(name, f"event {name} : std_msgs/String")
         if kind == "function":
-            text = writing.block(doc, f"function {small} : swarm", [f'service "{small}" : a/B'])
+            text = element_text.block(
+                doc, f"function {small} : swarm", [f'service "{small}" : a/B']
+            )
             return declaration(small, text)
         if kind == "machine":
-            return declaration(name, writing.machine(name, doc))
+            return declaration(name, element_text.machine(name, doc))
         if kind == "part" and system.swarms:
             swarm = system.swarms[number % len(system.swarms)]
             member = system.members[number % len(system.members)]
@@ -361,10 +363,10 @@ def things(draw: st.DrawFn) -> Callable[[compiler.Result, int], Place]:
             return part_of(member.name, small, Member, f"{small} : {component}")
         if kind == "state" and system.machines:
             machine = system.machines[number % len(system.machines)]
-            text = writing.block(doc, f"state {name}", [f"after {number + 1} ms -> {name}"])
+            text = element_text.block(doc, f"state {name}", [f"after {number + 1} ms -> {name}"])
             return state(f"{machine.name}.{name}", text)
-        ports = writing.Ports((f"data:{type_}@{small}",), (f"more:{type_}",))
-        return declaration(name, writing.block(doc, f"sensor {name}", ports.lines()))
+        ports = element_text.Ports((f"data:{type_}@{small}",), (f"more:{type_}",))
+        return declaration(name, element_text.block(doc, f"sensor {name}", ports.lines()))
 
     return made
 
@@ -394,7 +396,7 @@ def test_random_things_in_random_models(example, added, ends, tmp_path_factory) 
         file.write_bytes(file.read_bytes().replace(b"\n", ends.encode()))
     for number, make in enumerate(added):
         before = {file: file.read_bytes() for file in files}
-        checked = compiler.check([folder])
+        checked = pipeline.check([folder])
         done = add([folder], [make(checked, number)])
         after = {file: file.read_bytes() for file in files}
 
@@ -407,4 +409,4 @@ def test_random_things_in_random_models(example, added, ends, tmp_path_factory) 
             assert _is_insertion(before[file], after[file])
             assert len(re.findall(rb"(?<!\r)\n", after[file])) == 0 or ends == "\n"
             assert (b"\r\n" in after[file]) == (ends == "\r\n")
-        assert not compiler.check([folder]).report.has_errors
+        assert not pipeline.check([folder]).report.has_errors

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.project import find_settings
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
 
 WAYS = {
     "plain": ["rescue"],
@@ -66,7 +66,7 @@ def _targets(arguments: list[str]) -> set[str]:
 def test_the_swarm_has_what_the_command_line_says(swarmc, folder) -> None:
     swarmc("new", "rescue", "--member", "Uav=3", "--member", "Rover=2..*", "--sensor", "Eye")
     settings = find_settings([folder / "rescue"], Diagnostics())
-    system = compiler.check(settings.sources, settings).system
+    system = pipeline.check(settings.sources, settings).system
 
     assert system is not None
     (swarm,) = system.swarms

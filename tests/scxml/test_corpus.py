@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.runtime import Event, Instance
-from swarmdsl.scxml import read
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.execution.engine import Event, Instance
+from swarmdsl.execution.scxml import read
 
 from ..runtime.world import StillWorld
 

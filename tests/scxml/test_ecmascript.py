@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 from hypothesis import assume, given, settings
 
-from swarmdsl.runtime import Event, ExecutionError, Instance, Machine, State
-from swarmdsl.scxml.ecmascript import Unreadable, read
-from swarmdsl.scxml.values import text as text_of
-from swarmdsl.translate import translate
+from swarmdsl.execution.engine import Event, ExecutionError, Instance, Machine, State
+from swarmdsl.execution.scxml.ecmascript import Unreadable, read
+from swarmdsl.execution.scxml.values import text as text_of
+from swarmdsl.ir.expression_printer import translate
 
 from ..exchange.test_expressions import ECMASCRIPT, EXPRESSIONS, defined_value
 from ..runtime.world import StillWorld

@@ -9,16 +9,17 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler, ir
-from swarmdsl.defaults import default_value
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange import scxml
-from swarmdsl.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.default_values import default_value
+from swarmdsl.codegen.exchange import scxml
+from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, Transition
+from swarmdsl.execution.scxml import read
+from swarmdsl.execution.simulate.table import first_data, table
 from swarmdsl.ir import Action, Array, Primitive, Service, System
-from swarmdsl.runtime import Event, Instance, Machine, Observer, Run, Transition
-from swarmdsl.scxml import read
-from swarmdsl.simulate.table import first_data, table
-from swarmdsl.source import Source
 
 from ..runtime.world import StillWorld
 
@@ -207,7 +208,7 @@ def test_what_the_models_have_little_of(compiled: Callable[[str], System]) -> No
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_models(model: Path) -> None:
-    system = compiler.check([model]).system
+    system = pipeline.check([model]).system
     assert system is not None
     for machine in system.machines:
         document = portable(machine, system)

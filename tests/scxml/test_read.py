@@ -8,12 +8,12 @@ import re
 
 import pytest
 
-from swarmdsl.codes import CODES
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.explain import page_path
-from swarmdsl.runtime import Event, Instance, Machine
-from swarmdsl.scxml import read
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.explain import page_path
+from swarmdsl.base.source import Source
+from swarmdsl.execution.engine import Event, Instance, Machine
+from swarmdsl.execution.scxml import read
 
 from ..runtime.world import StillWorld, Trace, after
 

@@ -1,8 +1,8 @@
 """The model that editors have open in these tests."""
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format import formatted
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.syntax.formatter import formatted
 
 MODEL = """\
 /// Robots that go round. 🤖

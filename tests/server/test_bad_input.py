@@ -7,8 +7,8 @@ import time
 
 import pytest
 
-from swarmdsl.server.features import FEATURES
-from swarmdsl.server.models import Models
+from swarmdsl.ide.server.features import FEATURES
+from swarmdsl.ide.server.models import Models
 
 from .model import MODEL, ROVER
 from .test_process import SERVER, answer, message
@@ -237,7 +237,7 @@ def test_nothing_is_kept_of_files_that_were_closed(tmp_path):
 
 def test_a_workspace_that_fails_is_made_anew(tmp_path, monkeypatch):
     """What is half done after a mistake of the server itself is not used again."""
-    from swarmdsl.workspace import Workspace
+    from swarmdsl.driver.workspace import Workspace
 
     models = Models()
     path = tmp_path / "a.swarm"

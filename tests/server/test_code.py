@@ -5,9 +5,9 @@ from time import process_time
 
 import pytest
 
-from swarmdsl.server.code import found_in
-from swarmdsl.server.folds import folds
-from swarmdsl.source import Source
+from swarmdsl.base.source import Source
+from swarmdsl.ide.server.code import found_in
+from swarmdsl.ide.server.folding_range import folds
 
 WORD = re.compile(r"//[^\n]*|/\*|\w+")
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from swarmdsl.server.completion import completions
-from swarmdsl.server.models import Models
+from swarmdsl.ide.server.completion import completions
+from swarmdsl.ide.server.models import Models
 
 HEAD = """\
 package here

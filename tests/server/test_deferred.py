@@ -5,8 +5,8 @@ import subprocess
 import sys
 
 LOAD = """
-from swarmdsl.server import deferred
-deferred.load()
+from swarmdsl.ide.server import lazy_lsp_types
+lazy_lsp_types.load()
 """
 MESSAGES = [
     {"id": 1, "method": "textDocument/hover", "params": {
@@ -43,9 +43,9 @@ def run(program):
 
 def test_a_server_that_has_started_has_finished_few():
     unfinished = run(f"""{LOAD}
-from swarmdsl.server.service import Server
+from swarmdsl.ide.server.server import Server
 Server(None)
-print(len(deferred.unfinished()))
+print(len(lazy_lsp_types.unfinished()))
 """)
     assert int(unfinished) > 450
 
@@ -61,7 +61,7 @@ def test_two_threads_may_want_the_same():
 import attrs, threading
 from lsprotocol import types
 
-waiting = list(deferred.unfinished())
+waiting = list(lazy_lsp_types.unfinished())
 start, done = threading.Barrier(4), []
 
 def all_of_them():
@@ -75,7 +75,7 @@ for each in threads:
     each.start()
 for each in threads:
     each.join()
-print(len(waiting), len(done), len(deferred.unfinished()))
+print(len(waiting), len(done), len(lazy_lsp_types.unfinished()))
 """)
     waiting, done, unfinished = map(int, found.split())
     assert waiting > 500

@@ -4,8 +4,8 @@ import pytest
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
 
-from swarmdsl.server.models import Models
-from swarmdsl.workspace import Workspace
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.ide.server.models import Models
 
 from .editor import at
 from .model import MODEL, ROVER

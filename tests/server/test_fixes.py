@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.server.fixes import fix
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver import pipeline
+from swarmdsl.ide.server.fixes import fix
+from swarmdsl.syntax.parser.parse import parse
 
 MODEL = """\
 /// Robots that count.
@@ -54,7 +54,7 @@ def mended(path: Path) -> list[str]:
     """The titles of the changes, made one after the other until none is left."""
     titles: list[str] = []
     while True:
-        checked = compiler.check([path])
+        checked = pipeline.check([path])
         source = Source(str(path), path.read_text(encoding="utf-8"))
         declarations = parse(source, Diagnostics()).model.declarations
         proposed = (fix(each, declarations) for each in checked.report)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.server.folds import Fold, folds
-from swarmdsl.source import Source
+from swarmdsl.base.source import Source
+from swarmdsl.ide.server.folding_range import Fold, folds
 
 
 def test_what_can_be_folded() -> None:

@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 from lsprotocol import types as lsp
 
-from swarmdsl import compiler
-from swarmdsl.exchange.constants import params_by_name
-from swarmdsl.exchange.policy import goal_policy, result_policy
+from swarmdsl.codegen.exchange.content_policy import goal_policy, result_policy
+from swarmdsl.codegen.shared.constants import params_by_name
+from swarmdsl.driver import pipeline
 
 from .editor import at, named, position
 from .model import MODEL
@@ -195,7 +195,7 @@ async def test_policies_are_those_that_are_written(client, editor):
     )
     wanted = [
         f" {goal_policy(state.activity, params).value} → {result_policy(state.activity).value}"
-        for machine in compiler.check([BEHAVIOURS]).system.machines
+        for machine in pipeline.check([BEHAVIOURS]).system.machines
         for params in [params_by_name(machine.params)]
         for state in machine.walk()
         if state.activity is not None

@@ -8,8 +8,8 @@ import threading
 
 import pytest
 
-from swarmdsl.server import service, support
-from swarmdsl.server.streams import Incoming, Outgoing
+from swarmdsl.ide.server import server, support
+from swarmdsl.ide.server.io import Incoming, Outgoing
 
 INITIALIZE = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}
 
@@ -26,9 +26,9 @@ def run(*messages, until):
     """Serve messages until something happens; return what the server has sent."""
     reader, writer = os.pipe()
     out = io.BytesIO()
-    server = service.Server(Outgoing(out))
+    running = server.Server(Outgoing(out))
     with os.fdopen(reader, "rb") as incoming, os.fdopen(writer, "wb", buffering=0) as client:
-        serving = threading.Thread(target=server.serve, args=(Incoming(incoming),))
+        serving = threading.Thread(target=running.serve, args=(Incoming(incoming),))
         serving.start()
         for message in messages:
             content = json.dumps(message).encode()
@@ -43,7 +43,7 @@ def run(*messages, until):
 def test_it_gets_ready_for_the_next_request(collected, monkeypatch):
     done = []
     monkeypatch.setattr(support, "prepare", lambda: done.append("targets"))
-    monkeypatch.setattr(service, "parse", lambda source, report: done.append(source.text))
+    monkeypatch.setattr(server, "parse", lambda source, report: done.append(source.text))
     run(INITIALIZE, until=collected)
     assert done == ["targets", "event"]
 
@@ -55,7 +55,7 @@ def test_what_fails_then_is_told(collected, monkeypatch, capsys):
 
 
 def test_without_a_rest_garbage_is_looked_for_after_many_messages(collected, monkeypatch):
-    monkeypatch.setattr(service, "_MOST_MESSAGES", 3)
-    monkeypatch.setattr(service, "_REST", 60)
+    monkeypatch.setattr(server, "_MOST_MESSAGES", 3)
+    monkeypatch.setattr(server, "_REST", 60)
     ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
     run(INITIALIZE, ask, ask, until=collected)

@@ -9,12 +9,12 @@ from tempfile import TemporaryDirectory
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.parse import parse
-from swarmdsl.server.completion import completions
-from swarmdsl.server.models import Models
-from swarmdsl.server.snippets import snippets, table
-from swarmdsl.source import Source
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.ide.server.completion import completions
+from swarmdsl.ide.server.models import Models
+from swarmdsl.ide.server.snippets import snippets, table
+from swarmdsl.syntax.parser.parse import parse
 
 from .test_completion import state, work
 

@@ -5,11 +5,11 @@ import sys
 
 import pytest
 
-from swarmdsl.server.features import FEATURES, requests
+from swarmdsl.ide.server.features import FEATURES, requests
 
 STARTED = """
 import sys
-from swarmdsl.server.service import Server
+from swarmdsl.ide.server.server import Server
 Server(None)
 print(*sys.modules)
 """
@@ -23,6 +23,10 @@ def test_a_module_answers_what_is_said_of_it(module):
 def test_what_answers_is_imported_later():
     ran = subprocess.run([sys.executable, "-c", STARTED], capture_output=True, text=True)
     modules = ran.stdout.split()
-    assert "swarmdsl.server.session" in modules
-    late = {*(f"swarmdsl.server.{module}" for module in FEATURES), "swarmdsl.format", "click"}
+    assert "swarmdsl.ide.server.session" in modules
+    late = {
+        *(f"swarmdsl.ide.server.{module}" for module in FEATURES),
+        "swarmdsl.syntax.formatter",
+        "click",
+    }
     assert late.isdisjoint(modules)

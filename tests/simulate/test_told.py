@@ -12,14 +12,14 @@ from xml.etree import ElementTree
 import pytest
 from rich.console import Console
 
-from swarmdsl.runtime import Machine, State
-from swarmdsl.simulate.actors import Actor
-from swarmdsl.simulate.clock import Clock
-from swarmdsl.simulate.durations import SECOND, duration, shown
-from swarmdsl.simulate.live import Board
-from swarmdsl.simulate.scenario import Robot
-from swarmdsl.simulate.timeline import Timeline, nth_colour
-from swarmdsl.simulate.trace import Line
+from swarmdsl.execution.engine import Machine, State
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.durations import SECOND, duration, shown
+from swarmdsl.execution.simulate.live_table import Board
+from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.timeline import Timeline, nth_colour
+from swarmdsl.execution.simulate.trace import Line
 
 from .conftest import Simulate
 

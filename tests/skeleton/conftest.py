@@ -14,11 +14,11 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
 
 HERE = Path(__file__).parent
 MODEL = HERE / "model.swarm"
@@ -50,7 +50,7 @@ def emit(tmp_path_factory: pytest.TempPathFactory) -> Emit:
             path = tmp_path_factory.mktemp("model") / "model.swarm"
             path.write_text(model, encoding="utf-8")
             model = path
-        result = compiler.check([model])
+        result = pipeline.check([model])
         assert result.system is not None, [found.message for found in result.report]
         generator = load("skeleton")
         report = Diagnostics()

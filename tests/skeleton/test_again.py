@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.emit import Request
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 
 from .test_output import VARIANTS
 
@@ -33,11 +33,11 @@ def build(request: pytest.FixtureRequest, tmp_path: Path) -> Any:
     """Build a model, and return the result and the files of the user of node climb."""
     ros, language = request.param
 
-    def build(model: str) -> tuple[compiler.Result, list[Path]]:
+    def build(model: str) -> tuple[pipeline.Result, list[Path]]:
         path = tmp_path / "model.swarm"
         path.write_text(model, encoding="utf-8")
         options = {"ros": ros, "language": language}
-        result = compiler.build([path], [Request("skeleton", options)], tmp_path / "out")
+        result = pipeline.build([path], [Request("skeleton", options)], tmp_path / "out")
         folder = tmp_path / "out" / "skeleton" / "climb"
         files = (path for path in folder.rglob("*") if path.suffix not in OF_SWARMC)
         of_user = [path for path in files if path.is_file()]
@@ -46,7 +46,7 @@ def build(request: pytest.FixtureRequest, tmp_path: Path) -> Any:
     return build
 
 
-def outdated(result: compiler.Result) -> list[str]:
+def outdated(result: pipeline.Result) -> list[str]:
     assert not result.report.has_errors, [found.message for found in result.report]
     return [
         f"{found.message}: {found.help}" for found in result.report if found.name == "outdated-code"

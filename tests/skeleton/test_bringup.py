@@ -14,8 +14,8 @@ import yaml
 from lxml import etree
 
 from swarmdsl.cli import run as swarmc
-from swarmdsl.generator import Support
-from swarmdsl.plugins import load
+from swarmdsl.codegen.api import Support
+from swarmdsl.codegen.registry import load
 
 from .conftest import HERE, load_module
 

@@ -22,12 +22,12 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
 
 HERE = Path(__file__).parent
 STAND_IN = HERE / "stand_in"
@@ -228,7 +228,7 @@ def example(build: Callable[..., Robot], examples: Path) -> Callable[..., Robot]
 
     def example(folder: str, module: str) -> Robot:
         paths = sorted((examples / folder).glob("*.swarm"))
-        result = compiler.check(paths)
+        result = pipeline.check(paths)
         assert result.system is not None
         return build(result.system, module)
 

@@ -21,14 +21,15 @@ from typing import Any
 import pytest
 from hypothesis import Phase, given, settings
 
-from swarmdsl import compiler, ir
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
 from swarmdsl.cli import run
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
+from swarmdsl.execution.engine import Event, Instance, LoopError, Run
 from swarmdsl.ir import Array, Literal, Named, System
-from swarmdsl.ir.types import DURATION
-from swarmdsl.naming import snake_case
-from swarmdsl.plugins import load
-from swarmdsl.runtime import Event, Instance, LoopError, Run
+from swarmdsl.syntax.types import DURATION
 
 from ..agreement.engines import Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
@@ -363,7 +364,7 @@ def clock(build: Build, monkeypatch: pytest.MonkeyPatch) -> Any:
     "path", [pytest.param(p, id=(p.parent if p.suffix else p).name) for p in MODELS]
 )
 def test_models(path: Path, build: Build, clock: Any) -> None:
-    system = compiler.check([path]).system
+    system = pipeline.check([path]).system
     assert system is not None
     system = apart(system)
     for machine in system.machines:
@@ -380,7 +381,7 @@ def test_models_of_others(build: Build, clock: Any, tmp_path: Path) -> None:
     for document in DOCUMENTS:
         path = tmp_path / f"{document.stem}.swarm"
         assert run(["import", "scxml", str(document), "--adf", str(adf), "-o", str(path)]) == 0
-        system = compiler.check([path]).system
+        system = pipeline.check([path]).system
         assert system is not None
         system = apart(system)
         for machine in system.machines:

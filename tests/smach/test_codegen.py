@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from swarmdsl import compiler
 from swarmdsl.cli import run
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -64,7 +64,7 @@ def model_of(scxml: Path, adf: Path, folder: Path) -> System:
     """The same as a model: what is around the robot is made of it."""
     path = folder / "model.swarm"
     assert run(["import", "scxml", str(scxml), "--adf", str(adf), "-o", str(path)]) == 0
-    system = compiler.check([path]).system
+    system = pipeline.check([path]).system
     assert system is not None
     return system
 

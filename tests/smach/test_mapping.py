@@ -5,9 +5,9 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.codes import CODES
-from swarmdsl.generator import OutputFile, Support
-from swarmdsl.plugins import load
+from swarmdsl.base.diagnostics.catalog import CODES
+from swarmdsl.codegen.api import OutputFile, Support
+from swarmdsl.codegen.registry import load
 
 HEADER = """package lab
 message Note { level : int32 }

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.generator import OutputFile
-from swarmdsl.naming import snake_case
+from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen.api import OutputFile
 
 NAMES = [
     *("Main", "Run", "Threading", "Sys", "Copy", "Math", "Functools"),

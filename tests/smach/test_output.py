@@ -9,13 +9,14 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler, runtime
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.registry import load
+from swarmdsl.driver import pipeline
+from swarmdsl.execution import engine
 from swarmdsl.ir import System
-from swarmdsl.plugins import load
 
-ENGINE = Path(runtime.__file__).parent
+ENGINE = Path(engine.__file__).parent
 Files = dict[str, OutputFile]
 Generate = Callable[..., Files]
 
@@ -287,7 +288,7 @@ def _systems(examples: Path, compiled: Callable[[str], System]) -> list[System]:
     """The model above, and the examples."""
     systems = [compiled(MODEL)]
     for folder in sorted(path for path in examples.iterdir() if path.is_dir()):
-        system = compiler.check(sorted(folder.glob("*.swarm"))).system
+        system = pipeline.check(sorted(folder.glob("*.swarm"))).system
         assert system is not None
         systems.append(system)
     assert len(systems) > 3

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import yaml
 from lxml import etree
 
-from swarmdsl.generator import OutputFile
+from swarmdsl.codegen.api import OutputFile
 
 Generate = Callable[..., dict[str, OutputFile]]
 

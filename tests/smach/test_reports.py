@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Severity
-from swarmdsl.emit import Request
+from swarmdsl.base.diagnostics.collector import Severity
+from swarmdsl.codegen.emit import Request
+from swarmdsl.driver import pipeline
 
 Reported = Callable[..., list[tuple[str, str, str]]]
 
@@ -195,7 +195,7 @@ def _built(folder: Path, texts: dict[str, str]) -> list[tuple[str, str, str]]:
     for name, text in texts.items():
         (folder / f"{name}.swarm").write_text(text, encoding="utf-8")
     path = folder / f"{next(iter(texts))}.swarm"
-    report = compiler.build([path], [Request("smach", {})], folder / "out").report
+    report = pipeline.build([path], [Request("smach", {})], folder / "out").report
     return [
         (found.name, found.message, found.primary.span.text if found.primary else "")
         for found in report

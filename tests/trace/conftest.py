@@ -10,9 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run as swarmc
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.logs.command import run
+from swarmdsl.tools.trace.command import run
 
 MODEL = Path(__file__).parents[1] / "skeleton" / "model.swarm"
 NOTE = re.compile(r"(?:\[\S+\] )*(?: *--> | *\d* \| |  = note: | +\|$)")

@@ -6,14 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import manifest, map_file
+from swarmdsl.base.source import Piece, Source, Span
 from swarmdsl.cli import run
-from swarmdsl.generator import OutputFile
-from swarmdsl.map_file import FileMap, Model, Position, Positions
-from swarmdsl.python_source import comments
-from swarmdsl.source import Piece, Source, Span
-from swarmdsl.source_map import Entry, MappedText, Placed
-from swarmdsl.templates import Templates
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.python import comments
+from swarmdsl.codegen.source_map import Entry, MappedText, Placed
+from swarmdsl.codegen.templates import Templates
+from swarmdsl.output import manifest, source_maps
+from swarmdsl.output.source_maps import FileMap, Model, Position, Positions
 
 MODEL = Source("lab.swarm", "package lab\n\n  param a : bool\n  param b : bool\n")
 A, B = (Span(MODEL, start, start + 7) for start in (15, 32))
@@ -103,7 +103,7 @@ def test_a_manifest_gives_back_what_it_was_given(tmp_path: Path, place: Span) ->
         "smach/lab/mine.py": positions.file_map(OutputFile("lab/mine.py", text, keep=True)),
     }
     (tmp_path / manifest.NAME).write_bytes(manifest.to_bytes(manifest.Manifest(maps=maps)))
-    found = Position(Model("../models/lab.swarm", map_file.digest(MODEL.text)), 3, 3, 14)
+    found = Position(Model("../models/lab.swarm", source_maps.digest(MODEL.text)), 3, 3, 14)
 
     assert manifest.read(tmp_path).maps == maps
     assert maps["smach/lab/node.py"] == FileMap(found, ((2, found), (3, None)))
@@ -127,7 +127,7 @@ def test_a_place_in_a_piece_of_a_file_is_one_in_the_file(tmp_path: Path, place: 
 
 
 def test_libraries_of_swarmdsl_lie_wherever_it_is_installed() -> None:
-    library = map_file.resources.library()
+    library = source_maps.resources.library()
     path = min(library.rglob("*.swarm"))
     origin = Span(Source("x", path.read_text(encoding="utf-8"), path), 0, 1)
     position = Positions(Path()).file_map(OutputFile("x", "", origin=origin)).origin
@@ -154,13 +154,13 @@ def test_what_lies_in_no_file_is_not_mapped(tmp_path: Path) -> None:
     ],
 )
 def test_a_map_of_another_form_is_none(data: object) -> None:
-    assert map_file.from_json(data) == {}
+    assert source_maps.from_json(data) == {}
 
 
 @pytest.mark.parametrize("text", ["0:1:1+1", "x y z", "9=0", "0:-1:2+3 =0:1:1+1", "1=7:1:1+1"])
 def test_words_that_mean_nothing_are_passed_over(text: str) -> None:
     stored = {"version": 1, "models": [[], ["m"]], "files": {"a": text, "b": 3}}
-    found = map_file.from_json(stored)
+    found = source_maps.from_json(stored)
 
     assert found.keys() == {"a"}
     assert found["a"].position(5) is None

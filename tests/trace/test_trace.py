@@ -12,13 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import manifest
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run as swarmc
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.logs.command import run
-from swarmdsl.logs.folders import Folders
-from swarmdsl.logs.notes import Notes
-from swarmdsl.logs.stream import Tracer
+from swarmdsl.output import manifest
+from swarmdsl.tools.trace.annotations import Notes
+from swarmdsl.tools.trace.command import run
+from swarmdsl.tools.trace.generated_files import Folders
+from swarmdsl.tools.trace.stream import Tracer
 
 from .conftest import Build, Trace, line_of
 

@@ -8,11 +8,11 @@ from shutil import copytree, ignore_patterns
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Diagnostic
-from swarmdsl.lower import lower
-from swarmdsl.source import Span
-from swarmdsl.workspace import Workspace
+from swarmdsl.base.diagnostics.collector import Diagnostic
+from swarmdsl.base.source import Span
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.lowering import lower
 
 ROOT = Path(__file__).resolve().parents[2]
 SEEDS = 10
@@ -214,7 +214,7 @@ def test_edits(seed: int, tmp_path: Path, pytestconfig: pytest.Config) -> None:
                 history.append(f"==== {path.name}\n{text}")
             from_disk = dice.random() < 0.5 or None in texts.values()
             workspace.update(dict.fromkeys(texts) if from_disk else texts)
-            fresh = compiler.check([folder])
+            fresh = pipeline.check([folder])
             expected = list(map(plain, fresh.report))
             assert list(map(plain, workspace.report)) == expected, "\n".join(history[-2:])
             if fresh.valid is not None:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl import compiler
-from swarmdsl.diagnostics import Level
-from swarmdsl.project.settings import Settings
-from swarmdsl.workspace import Workspace
+from swarmdsl.base.diagnostics.collector import Level
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config.settings import Settings
+from swarmdsl.driver.workspace import Workspace
 
 Say = Callable[[str], list[str]]
 SETTINGS = Settings(levels={"unused-declaration": Level.WARN})
@@ -34,7 +34,7 @@ def say(tmp_path: Path) -> Say:
         file.write_text(text, encoding="utf-8")
         workspace.update({file: text})
         found = [(each.name, each.message) for each in workspace.report]
-        anew = compiler.check([file], SETTINGS).report
+        anew = pipeline.check([file], SETTINGS).report
         assert found == [(each.name, each.message) for each in anew]
         return [name for name, _ in found]
 

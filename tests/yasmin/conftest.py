@@ -16,11 +16,11 @@ from types import ModuleType
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.options import parse_options
+from swarmdsl.codegen.registry import load
 from swarmdsl.ir import System
-from swarmdsl.options import parse_options
-from swarmdsl.plugins import load
 
 from ..following.fixtures import Emit, generate, reported
 from ..following.generated import Builder, forget

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.plugins import load
+from swarmdsl.codegen.registry import load
 
 from ..following.table import HEADER, MODELS, Generate, Reported, check_row
 

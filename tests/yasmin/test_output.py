@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 from lxml import etree
 
-from swarmdsl import compiler
+from swarmdsl.base.naming import snake_case
+from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.naming import snake_case
 
 from ..following.agreement import ROOT
 from ..ros2.test_output import BARE, FORMAT, LINTERS, ruff
@@ -94,7 +94,7 @@ def systems(compiled: Callable[[str], System]) -> list[System]:
     """The model above, and the examples that this target can express."""
     found = [compiled(MODEL)]
     for name in ("minimal", "search_and_rescue", "emergency_exit", "flocking"):
-        system = compiler.check([ROOT / "examples" / name]).system
+        system = pipeline.check([ROOT / "examples" / name]).system
         assert system is not None
         found.append(system)
     return found

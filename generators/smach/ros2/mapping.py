@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.generator import Mapped, Support
+from swarmdsl.codegen.api import Mapped, Support
 
 from ...following.mapping import mapping
 

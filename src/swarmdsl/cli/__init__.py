@@ -18,7 +18,7 @@ from importlib import import_module
 from io import TextIOWrapper
 from typing import NoReturn
 
-from swarmdsl.cli.outcome import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
+from swarmdsl.cli.exit_code import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 
 # The names of the commands are those of their modules, and of the functions in them; a keyword of
 # Python has a `_` there.
@@ -108,13 +108,13 @@ def run(arguments: Sequence[str]) -> int:
 def _run_plainly(arguments: Sequence[str]) -> int | None:
     """Run a command that needs no Click; None where it is needed, for help or for complaints."""
     if list(arguments) in _SERVER:
-        from swarmdsl.server.start import serve_on_standard_streams
+        from swarmdsl.ide.server.start import serve_on_standard_streams
 
         return serve_on_standard_streams()
     if not arguments or arguments[0] not in PLAIN:
         return None
+    from swarmdsl.base.usage_error import UsageError
     from swarmdsl.cli.parameters import read
-    from swarmdsl.usage import UsageError
 
     name, *words = arguments
     module = import_module(f"{__name__}.{name}")

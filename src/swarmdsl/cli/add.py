@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.words import Choice, Group
+from swarmdsl.cli.suggestions import Choice, Group
 
 _FILE = click.Path(path_type=Path)
 _name = click.argument("name")
@@ -270,11 +270,11 @@ def state(**given: Any) -> int:
 
 
 def _run(kind: str, given: dict[str, Any]) -> int:
-    from swarmdsl.changes.add import add as added
-    from swarmdsl.changes.things import THINGS
-    from swarmdsl.cli.outcome import exit_code
-    from swarmdsl.render import render
-    from swarmdsl.usage import UsageError
+    from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.base.usage_error import UsageError
+    from swarmdsl.cli.exit_code import exit_code
+    from swarmdsl.tools.refactor.add import add as added
+    from swarmdsl.tools.refactor.new_elements import THINGS
 
     try:
         places = THINGS[kind](given)

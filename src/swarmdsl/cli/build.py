@@ -6,13 +6,13 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from swarmdsl.cli.outcome import briefly, conclude
+from swarmdsl.cli.exit_code import briefly, conclude
+from swarmdsl.cli.output_options import OPTIONS as OF_WRITING
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
-from swarmdsl.cli.writing import OPTIONS as OF_WRITING
 
 if TYPE_CHECKING:
-    from swarmdsl.compiler import Result
-    from swarmdsl.project.settings import Settings
+    from swarmdsl.driver.config.settings import Settings
+    from swarmdsl.driver.pipeline import Result
 
 EPILOG = "Example: swarmc build model.swarm --target smach --option smach.NAME=VALUE -o out"
 OPTIONS = (
@@ -78,11 +78,11 @@ def build(
     elsewhere is merged with what is new, and code for what the model does not have any more is
     put aside.
     """
-    from swarmdsl import compiler
-    from swarmdsl.cli.writing import writing
-    from swarmdsl.dataclass import replace
-    from swarmdsl.diagnostics import Diagnostics, Level
-    from swarmdsl.project.command_line import requests, run_settings
+    from swarmdsl.base.diagnostics.collector import Diagnostics, Level
+    from swarmdsl.base.records import replace
+    from swarmdsl.cli.output_options import writing
+    from swarmdsl.driver import pipeline
+    from swarmdsl.driver.config.command_line import requests, run_settings
 
     mode = writing(locals())
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
@@ -95,7 +95,7 @@ def build(
 
         def build_again(checked: Result, settings: Settings) -> Concluded:
             wanted = requests(targets, given, settings)
-            result = compiler.generate(checked, wanted, out or settings.out, how)
+            result = pipeline.generate(checked, wanted, out or settings.out, how)
 
             def say() -> str:
                 if not how.dry:
@@ -108,17 +108,17 @@ def build(
         return watch_files(paths, lambda report: run_settings(paths, levels, report), build_again)
     stream = sys.stderr if dump_ir else sys.stdout
     if report.has_errors:
-        return conclude(compiler.Result(report, files=1), format_, stream)
+        return conclude(pipeline.Result(report, files=1), format_, stream)
     folder = out or settings.out
     if clean:
         from swarmdsl.output.clean import clean as clean_folder
 
         written = clean_folder(folder, targets, report, dry=dry_run)
-        return mode.conclude(compiler.Result(report, files=0, written=written), format_)
+        return mode.conclude(pipeline.Result(report, files=0, written=written), format_)
     if not dump_ir:
-        result = compiler.build(settings.sources, wanted, folder, settings, how)
+        result = pipeline.build(settings.sources, wanted, folder, settings, how)
         return mode.conclude(result, format_)
-    result = compiler.check(settings.sources, settings)
+    result = pipeline.check(settings.sources, settings)
     if result.system is not None:
         from swarmdsl.ir.dump import dump
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from swarmdsl.cli.outcome import briefly, conclude
+from swarmdsl.cli.exit_code import briefly, conclude
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH
 
 EPILOG = "Example: swarmc check examples/search_and_rescue --format concise"
@@ -25,9 +25,9 @@ def check(
     A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
     names, or for the current folder.
     """
-    from swarmdsl import compiler
-    from swarmdsl.diagnostics import Diagnostics, Level
-    from swarmdsl.project.command_line import run_settings
+    from swarmdsl.base.diagnostics.collector import Diagnostics, Level
+    from swarmdsl.driver import pipeline
+    from swarmdsl.driver.config.command_line import run_settings
 
     levels = {Level.ALLOW: allow, Level.WARN: warn, Level.DENY: deny}
     if watch:
@@ -43,5 +43,5 @@ def check(
     report = Diagnostics()
     settings = run_settings(paths, levels, report)
     if report.has_errors:
-        return conclude(compiler.Result(report, files=1), format_, sys.stdout)
-    return conclude(compiler.check(settings.sources, settings), format_, sys.stdout)
+        return conclude(pipeline.Result(report, files=1), format_, sys.stdout)
+    return conclude(pipeline.check(settings.sources, settings), format_, sys.stdout)

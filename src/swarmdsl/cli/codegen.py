@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
+from swarmdsl.base.diagnostics.collector import Level
+from swarmdsl.base.usage_error import UsageError
 from swarmdsl.cli import options
-from swarmdsl.cli.words import Choice
-from swarmdsl.cli.writing import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
-from swarmdsl.diagnostics import Level
-from swarmdsl.project.command_line import named_levels
-from swarmdsl.usage import UsageError
+from swarmdsl.cli.output_options import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
+from swarmdsl.cli.suggestions import Choice
+from swarmdsl.driver.config.command_line import named_levels
 
 _FILE = options.PLACE
 
@@ -82,7 +82,7 @@ def codegen(
 
     To keep the model that is made of them on the way, use `swarmc import scxml`.
     """
-    from swarmdsl.codegen import codegen as generate
+    from swarmdsl.tools.codegen_command import codegen as generate
 
     try:
         how_to_write = writing(locals())

@@ -11,10 +11,10 @@ from types import ModuleType
 import click
 
 from swarmdsl import __version__
+from swarmdsl.base.usage_error import UsageError
 from swarmdsl.cli import COMMANDS, PLAIN, options
-from swarmdsl.cli.outcome import INTERRUPTED, OK
-from swarmdsl.cli.words import Group, unknown_option
-from swarmdsl.usage import UsageError
+from swarmdsl.cli.exit_code import INTERRUPTED, OK
+from swarmdsl.cli.suggestions import Group, unknown_option
 
 
 class _Commands(Group):
@@ -69,7 +69,7 @@ def cli(context: click.Context, version: bool, verbose: bool) -> None:
     if version:
         click.echo(f"swarmc, version {__version__}")
         if verbose:
-            from swarmdsl.doctor import environment
+            from swarmdsl.tools.doctor import environment
 
             for name, value in environment():
                 click.echo(f"{name}: {value}")

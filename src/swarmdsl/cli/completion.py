@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import OK
-from swarmdsl.cli.words import Choice
+from swarmdsl.cli.exit_code import OK
+from swarmdsl.cli.suggestions import Choice
 
 
 @click.command(epilog="Example: swarmc completion bash")

@@ -8,8 +8,8 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
-from swarmdsl.cli.words import Choice
+from swarmdsl.cli.exit_code import exit_code
+from swarmdsl.cli.suggestions import Choice
 
 
 @click.command(
@@ -55,9 +55,9 @@ def diagram(
     A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
     names, or for the current folder. Nothing is drawn of a model with errors.
     """
-    from swarmdsl.diagram.command import draw
-    from swarmdsl.diagram.formats import SUFFIXES
-    from swarmdsl.render import render, summary
+    from swarmdsl.base.diagnostics.render import render, summary
+    from swarmdsl.tools.diagram.command import draw
+    from swarmdsl.tools.diagram.formats import SUFFIXES
 
     if out is not None:
         others = {each: f"--format {name}" for name, each in SUFFIXES.items() if name != format_}

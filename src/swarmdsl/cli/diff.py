@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import OK
-from swarmdsl.cli.words import Choice
-from swarmdsl.compare.rules import RULES
+from swarmdsl.cli.exit_code import OK
+from swarmdsl.cli.suggestions import Choice
+from swarmdsl.tools.compare.rules import RULES
 
 if TYPE_CHECKING:
-    from swarmdsl.compare.revisions import Revision
+    from swarmdsl.base.source import Span
     from swarmdsl.ir import System
-    from swarmdsl.source import Span
+    from swarmdsl.tools.compare.revisions import Revision
 
 # As diff(1) has it: 1 for a difference, 2 where it cannot be told.
 DIFFERENT, TROUBLE = 1, 2
@@ -28,7 +28,7 @@ def _rule(word: str) -> str:
     """A rule by its name, in which small letters count as capital ones."""
     rule = word.upper()
     if rule not in RULES:
-        from swarmdsl.suggest import did_you_mean
+        from swarmdsl.base.suggest import did_you_mean
 
         hint = did_you_mean(rule, RULES) or "`swarmc diff --rules` lists all"
         raise click.BadParameter(f"there is no rule `{word}`: {hint}")
@@ -89,10 +89,10 @@ def diff(
     nothing is different (with --breaking: nothing breaks), 1 where something is, and 2 where a
     model cannot be read.
     """
-    from swarmdsl.compare import report
-    from swarmdsl.compare.comparison import compare
-    from swarmdsl.compare.revisions import against as revision
-    from swarmdsl.compare.revisions import is_revision, named
+    from swarmdsl.tools.compare import report
+    from swarmdsl.tools.compare.comparison import compare
+    from swarmdsl.tools.compare.revisions import against as revision
+    from swarmdsl.tools.compare.revisions import is_revision, named
 
     if not models and against is not None:
         models = (".",)
@@ -147,11 +147,11 @@ class _Shown:
 
 def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System | None:
     """The model; None, and told, where it has errors."""
-    from swarmdsl import compiler
-    from swarmdsl.compare.revisions import take_out
-    from swarmdsl.diagnostics import Diagnostics, Severity
-    from swarmdsl.project.command_line import run_settings
-    from swarmdsl.render import render
+    from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+    from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.driver import pipeline
+    from swarmdsl.driver.config.command_line import run_settings
+    from swarmdsl.tools.compare.revisions import take_out
 
     report = Diagnostics()
     path: Path | None
@@ -164,7 +164,7 @@ def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System |
     if path is not None:
         settings = run_settings((path,), {}, report)
         if not report.has_errors:
-            result = compiler.check(settings.sources, settings)
+            result = pipeline.check(settings.sources, settings)
             if result.system is not None:
                 return result.system
             report = result.report

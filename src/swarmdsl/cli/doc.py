@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
+from swarmdsl.cli.exit_code import exit_code
 
 
 @click.command(epilog="Example: swarmc doc examples/search_and_rescue -o sar.html")
@@ -34,8 +34,8 @@ def doc(paths: tuple[Path, ...], out: Path | None, libraries: bool, format_: str
     with what is said of them, diagrams, tables, links wherever something is named, and a search.
     Nothing is written of a model with errors.
     """
-    from swarmdsl.document.command import run
-    from swarmdsl.render import render, summary
+    from swarmdsl.base.diagnostics.render import render, summary
+    from swarmdsl.tools.document.command import run
 
     documented = run(paths, out, libraries=libraries)
     render(documented.report, format_, sys.stderr)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, OK
-from swarmdsl.cli.words import Choice
+from swarmdsl.cli.exit_code import ERRORS, OK
+from swarmdsl.cli.suggestions import Choice
 
 
 @click.command(epilog="Example: swarmc doctor ros2")
@@ -26,8 +26,8 @@ def doctor(purposes: tuple[str, ...], format_: str) -> int:
     A PURPOSE is `git`, `ros1`, `ros2` or `skeleton`. Where one is named, the exit code is 1 if a
     tool for it is missing.
     """
-    from swarmdsl import doctor as tools
-    from swarmdsl.suggest import did_you_mean
+    from swarmdsl.base.suggest import did_you_mean
+    from swarmdsl.tools import doctor as tools
 
     known = [purpose.name for purpose in tools.PURPOSES]
     for name in purposes:

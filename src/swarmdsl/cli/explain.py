@@ -6,15 +6,15 @@ import sys
 
 import click
 
-from swarmdsl.cli.outcome import OK
+from swarmdsl.cli.exit_code import OK
 
 
 @click.command(epilog="Example: swarmc explain SW0202")
 @click.argument("word", metavar="[CODE|NAME]", required=False)
 def explain(word: str | None) -> int:
     """Explain a diagnostic, or list all there are."""
-    from swarmdsl import explain as pages
-    from swarmdsl.codes import CODES
+    from swarmdsl.base.diagnostics import explain as pages
+    from swarmdsl.base.diagnostics.catalog import CODES
 
     if word is None:
         width = max(map(len, CODES))
@@ -24,7 +24,7 @@ def explain(word: str | None) -> int:
         return OK
     code = pages.find_code(word)
     if code is None:
-        from swarmdsl.suggest import did_you_mean
+        from swarmdsl.base.suggest import did_you_mean
 
         known = [*CODES, *(entry.code for entry in CODES.values())]
         hint = did_you_mean(word, known) or "`swarmc explain` lists all"

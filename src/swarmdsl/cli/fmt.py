@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
+from swarmdsl.base.diagnostics.render import render
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, OK, exit_code
-from swarmdsl.render import render
+from swarmdsl.cli.exit_code import ERRORS, OK, exit_code
 
 
 @click.command(epilog="Example: swarmc fmt examples --diff")
@@ -25,16 +25,16 @@ def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, format_: str) -> 
     standard input, whose layout goes to standard output. A file with syntax errors is left
     as it is. With `--check` and `--diff`, the exit code is 1 when there is something to change.
     """
-    from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.format import command
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.cli import format_command
 
     if Path("-") in paths and len(paths) > 1:
         raise click.UsageError("`-` stands alone")
     report = Diagnostics()
     if check_only or diff:
-        outcome = command.inspect(paths, report, as_diff=diff)
+        outcome = format_command.inspect(paths, report, as_diff=diff)
     else:
-        outcome = command.rewrite(paths, report)
+        outcome = format_command.rewrite(paths, report)
     render(report, format_, sys.stderr)
     if outcome.summary:
         click.echo(outcome.summary, err=True)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.words import Group
+from swarmdsl.cli.suggestions import Group
 
 if TYPE_CHECKING:
     from swarmdsl.importing.command import Format
@@ -119,9 +119,9 @@ def _run(
     force: bool,
     format_: str,
 ) -> int:
-    from swarmdsl.cli.outcome import ERRORS, exit_code
+    from swarmdsl.base.diagnostics.render import render, summary
+    from swarmdsl.cli.exit_code import ERRORS, exit_code
     from swarmdsl.importing.command import run
-    from swarmdsl.render import render, summary
 
     if dry_run and out is None:
         raise click.UsageError("--dry-run shows what would become of a file: name it with -o")

@@ -26,7 +26,7 @@ def lsp(stdio: bool, port: int | None) -> int:
     """Serve editors: the Language Server Protocol."""
     if stdio and port is not None:
         raise click.UsageError("`--stdio` and `--tcp` exclude each other")
-    from swarmdsl.server.start import serve, serve_on_standard_streams
+    from swarmdsl.ide.server.start import serve, serve_on_standard_streams
 
     if port is None:
         return serve_on_standard_streams()

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import OK
+from swarmdsl.cli.exit_code import OK
 
 if TYPE_CHECKING:
-    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.base.diagnostics.collector import Diagnostics
 
 # As git wants it of a merge driver: 1 for conflicts, more where there is no result.
 CONFLICTS, TROUBLE = 1, 2
@@ -32,9 +32,9 @@ def merge(base: Path, ours: Path, theirs: Path, out: Path | None) -> int:
     does it. Where a file has syntax errors, git merges line by line. The exit code is 0 for a
     clean merge, 1 where there are conflicts, and 2 where a file cannot be read.
     """
-    from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.merging.files import merge_files
-    from swarmdsl.render import render
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.tools.merge.files import merge_files
 
     report = Diagnostics()
     merged = merge_files(base, ours, theirs, report)
@@ -56,7 +56,7 @@ def merge(base: Path, ours: Path, theirs: Path, out: Path | None) -> int:
 
 
 def _write(out: Path, content: bytes, report: Diagnostics) -> None:
-    from swarmdsl.staging import Staging
+    from swarmdsl.base.atomic_write import Staging
 
     try:
         with Staging() as staging:

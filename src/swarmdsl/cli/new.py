@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
-from swarmdsl.cli.words import Choice
+from swarmdsl.cli.exit_code import exit_code
+from swarmdsl.cli.suggestions import Choice
 
 if TYPE_CHECKING:
-    from swarmdsl.scaffold.plan import Plan
+    from swarmdsl.tools.scaffold.plan import Plan
 
 
 class _Target(Choice):
@@ -22,7 +22,7 @@ class _Target(Choice):
     def convert(
         self, value: Any, param: click.Parameter | None, context: click.Context | None
     ) -> Any:
-        from swarmdsl.plugins import ROS_1, similar_target
+        from swarmdsl.codegen.registry import ROS_1, similar_target
 
         if value in ROS_1:
             self.fail(f"there is no target `{value}`: {similar_target(value)}", param, context)
@@ -99,9 +99,9 @@ def new(
     simulated, tested and built as it is. Without NAME, on a terminal, you are asked. A
     folder that has something in it is left alone.
     """
-    from swarmdsl.render import render
-    from swarmdsl.scaffold.new import create
-    from swarmdsl.scaffold.plan import Plan, Robots
+    from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.tools.scaffold.new import create
+    from swarmdsl.tools.scaffold.plan import Plan, Robots
 
     if len(set(targets)) > 1:
         way = "build for the other with `swarmc build --target`, to another folder"
@@ -133,7 +133,7 @@ def new(
 def _asked(plan: Plan, folder: Path | None) -> Plan:
     from rich.console import Console
 
-    from swarmdsl.scaffold.wizard import ask
+    from swarmdsl.tools.scaffold.wizard import ask
 
     try:
         return ask(plan, Console(stderr=True), folder)

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import click
 
 from swarmdsl.cli.parameters import FORMAT, LEVELS, Option
-from swarmdsl.cli.words import Choice
+from swarmdsl.cli.suggestions import Choice
 
 
 class _Place(click.Path):

@@ -11,8 +11,8 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.render import FORMATS
+from swarmdsl.base.diagnostics.render import FORMATS
+from swarmdsl.base.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 
 import click
 
+from swarmdsl.base.records import replace
 from swarmdsl.cli import options
-from swarmdsl.dataclass import replace
 
 if TYPE_CHECKING:
-    from swarmdsl.preview.editors import Editor
+    from swarmdsl.ide.preview.editors import Editor
 
 
 def _editor(_context: click.Context, _param: click.Parameter, text: str | None) -> Editor | None:
     """That of the command line, else one that is found."""
-    from swarmdsl.preview.editors import TemplateError, editor, found_editor
+    from swarmdsl.ide.preview.editors import TemplateError, editor, found_editor
 
     try:
         return editor(text) if text is not None else found_editor()
@@ -71,17 +71,17 @@ def preview(
     the model has errors, it shows how the diagrams were before. `--follow` shows where robots
     are as well: those of a simulation in real time, or others.
     """
-    from swarmdsl.cli.outcome import briefly
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.base.diagnostics.render import render
+    from swarmdsl.cli.exit_code import briefly
     from swarmdsl.cli.watch import Concluded, watch_files
-    from swarmdsl.compiler import Result
-    from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.preview.following import follow
-    from swarmdsl.preview.pictures import pictures
-    from swarmdsl.preview.ros2 import PREFIX, UnavailableError, listening
-    from swarmdsl.preview.serving import News, serving
-    from swarmdsl.project.command_line import run_settings
-    from swarmdsl.project.settings import Settings
-    from swarmdsl.render import render
+    from swarmdsl.driver.config.command_line import run_settings
+    from swarmdsl.driver.config.settings import Settings
+    from swarmdsl.driver.pipeline import Result
+    from swarmdsl.ide.preview.live_trace import follow
+    from swarmdsl.ide.preview.pictures import pictures
+    from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError, listening
+    from swarmdsl.ide.preview.serving import News, serving
 
     gc.enable()  # it runs for hours
     if hasattr(signal, "SIGPIPE"):

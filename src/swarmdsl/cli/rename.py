@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
+from swarmdsl.cli.exit_code import exit_code
 
 
 @click.command(epilog="Example: swarmc rename UavSearch.TakeOff Climb --dry-run")
@@ -25,8 +25,8 @@ def rename(old: str, new: str, paths: tuple[Path, ...], dry_run: bool, format_: 
     member, `Search.Rise` a state of a machine. NEW is one word. A name that makes a mistake
     of anything, or that means something else already, is not given.
     """
-    from swarmdsl.changes.rename import rename as renamed
-    from swarmdsl.render import counted, render
+    from swarmdsl.base.diagnostics.render import counted, render
+    from swarmdsl.tools.refactor.rename import rename as renamed
 
     done = renamed(paths, old, new, dry_run=dry_run)
     render(done.report, format_, sys.stderr)

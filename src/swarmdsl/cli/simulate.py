@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
+from swarmdsl.base.diagnostics.render import render
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, INTERRUPTED, OK
-from swarmdsl.cli.words import Choice
-from swarmdsl.render import render
+from swarmdsl.cli.exit_code import ERRORS, INTERRUPTED, OK
+from swarmdsl.cli.suggestions import Choice
 
 
 def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
     """A length of time with its unit, in nanoseconds."""
-    from swarmdsl.simulate.durations import duration
+    from swarmdsl.execution.simulate.durations import duration
 
     length = duration(text) if text is not None else None
     if text is not None and length is None:
@@ -87,8 +87,8 @@ def simulate(
     Without a scenario, every function succeeds after a second. What happens goes to standard
     output, a summary to standard error.
     """
-    from swarmdsl.simulate.command import Request
-    from swarmdsl.simulate.command import simulate as simulate_
+    from swarmdsl.execution.simulate.command import Request
+    from swarmdsl.execution.simulate.command import simulate as simulate_
 
     if machine is not None and swarm is not None:
         raise click.UsageError("`--machine` and `--swarm` are not given together")

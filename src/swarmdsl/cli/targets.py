@@ -6,10 +6,10 @@ import sys
 
 import click
 
+from swarmdsl.base.diagnostics.render import render
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
-from swarmdsl.cli.words import Choice
-from swarmdsl.render import render
+from swarmdsl.cli.exit_code import exit_code
+from swarmdsl.cli.suggestions import Choice
 
 
 @click.command(epilog="Example: swarmc targets smach")
@@ -25,8 +25,8 @@ from swarmdsl.render import render
 @options.debug
 def targets(name: str | None, format_: str) -> int:
     """List the targets, or say what one takes and cannot express."""
-    from swarmdsl import targets as known
-    from swarmdsl.diagnostics import Diagnostics
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.codegen import target_info as known
 
     report = Diagnostics()
     found = known.all_targets(report) if name is None else known.one_target(name, report)

@@ -8,7 +8,7 @@ from pathlib import Path
 import click
 
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import ERRORS, OK
+from swarmdsl.cli.exit_code import ERRORS, OK
 
 
 @click.command(epilog="Example: swarmc test examples/search_and_rescue -k abort --trace")
@@ -53,7 +53,7 @@ def test(
     Tests are in files called NAME.swarmtest.toml; a FOLDER stands for all of these below it,
     nothing for the current folder.
     """
-    from swarmdsl.testing import command
+    from swarmdsl.execution.testing import command
 
     request = command.Request(paths, pattern, seed, junit, trace, coverage, fail_under, format_)
     return OK if command.run(request, sys.stdout, sys.stderr) else ERRORS

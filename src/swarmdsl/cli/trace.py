@@ -10,9 +10,9 @@ from pathlib import Path
 
 import click
 
+from swarmdsl.base.diagnostics.render import render
 from swarmdsl.cli import options
-from swarmdsl.cli.outcome import exit_code
-from swarmdsl.render import render
+from swarmdsl.cli.exit_code import exit_code
 
 
 @click.command(epilog="Example: swarmc trace robot.log, or colcon build 2>&1 | swarmc trace")
@@ -37,8 +37,8 @@ def trace(paths: tuple[Path, ...], outs: tuple[Path, ...], format_: str) -> int:
     of nodes. Below each line that names a generated file stands the place in the model that it
     was made for. Reads the standard input where no LOG is named.
     """
-    from swarmdsl.diagnostics import Diagnostics
-    from swarmdsl.logs.command import run
+    from swarmdsl.base.diagnostics.collector import Diagnostics
+    from swarmdsl.tools.trace.command import run
 
     report = Diagnostics()
     gc.enable()  # this can run for days

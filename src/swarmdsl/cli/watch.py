@@ -11,13 +11,13 @@ from time import perf_counter, sleep, strftime
 
 import click
 
-from swarmdsl.compiler import Result
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.project import places
-from swarmdsl.project.settings import FILE_NAME, Settings
-from swarmdsl.usage import UsageError
-from swarmdsl.workspace import Workspace
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.usage_error import UsageError
+from swarmdsl.driver.config import places
+from swarmdsl.driver.config.settings import FILE_NAME, Settings
+from swarmdsl.driver.pipeline import Result
+from swarmdsl.driver.workspace import Workspace
 
 _PAUSE = 0.2
 """Seconds between two looks at the files."""

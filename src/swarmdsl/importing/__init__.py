@@ -9,24 +9,24 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.execution.scxml.document import Document
 from swarmdsl.importing import adf
 from swarmdsl.importing.activities import Activities
+from swarmdsl.importing.activity_outcomes import settle
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.drafts import Draft, drop_rest, read_drafts
 from swarmdsl.importing.events import Events
-from swarmdsl.importing.idioms import Ends, fold_idioms
 from swarmdsl.importing.library import Library
-from swarmdsl.importing.lowered import fold_lowered
 from swarmdsl.importing.machine import MachineMaker
 from swarmdsl.importing.names import is_plain
-from swarmdsl.importing.outcomes import settle
+from swarmdsl.importing.partial_states import Draft, drop_rest, read_drafts
 from swarmdsl.importing.portable import Described
 from swarmdsl.importing.repair import read
+from swarmdsl.importing.scxml_patterns import Ends, fold_idioms
 from swarmdsl.importing.targets import resolve
+from swarmdsl.importing.unlower import fold_lowered
 from swarmdsl.ir import System
-from swarmdsl.scxml.document import Document
-from swarmdsl.source import Source
 
 # As many as a machine may have with all that it reuses.
 _MOST_STATES = 10_000

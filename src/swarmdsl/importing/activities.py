@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData
 from swarmdsl.importing.expressions import UnsayableError, path
@@ -21,8 +22,7 @@ from swarmdsl.ir import (
     Type,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, FLOATS, INTEGERS, STRING
-from swarmdsl.scxml.document import Document, Node
+from swarmdsl.syntax.types import BOOL, FLOATS, INTEGERS, STRING
 
 _ZEROS: dict[str, Literal] = {
     **{name: Literal(0, Primitive(name)) for name in INTEGERS},

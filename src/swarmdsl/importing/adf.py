@@ -11,7 +11,8 @@ import re
 from collections.abc import Iterator
 from typing import Any, Literal
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
 from swarmdsl.importing.json_file import Content, read_json
 from swarmdsl.importing.library import Library
 from swarmdsl.importing.names import Names, is_plain, value_names
@@ -36,8 +37,7 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir import Literal as Value
-from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
-from swarmdsl.source import Source, Span
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 _CATEGORIES: dict[str, Literal["abstraction", "swarm"]] = {

@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterator
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.types import qualified
 from swarmdsl.ir import Named, Policy
-from swarmdsl.scxml.document import Document, Node
 
 _BODIES = {"rosaction": "action", "rosservice": "service", "rosmonitor": "monitor"}
 _TYPES = {"ROS_ACTION": "rosaction", "ROS_SERVICE": "rosservice", "ROS_MONITOR": "rosmonitor"}

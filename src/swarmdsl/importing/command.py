@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.format.files import Layout
-from swarmdsl.format.files import write as write_layouts
+from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.driver.format_files import Layout
+from swarmdsl.driver.format_files import write as write_layouts
 from swarmdsl.importing.files import package_of, read_files
 from swarmdsl.importing.ros import import_ros, library_functions
 from swarmdsl.importing.text import checked, text_of
 from swarmdsl.importing.update import Guess
 from swarmdsl.importing.update.on_disk import read_existing, updated
-from swarmdsl.staging import Staging
 
 Format = Literal["scxml", "adf", "amf", "ros"]
 # What a package of ROS does not say of the functions in it.

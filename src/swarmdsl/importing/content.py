@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from functools import reduce
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.exchange.scxml.portable import SEND_TYPE
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
+from swarmdsl.execution.scxml.document import SCXML, Document, Node
 from swarmdsl.importing.data import MachineData
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsayableError, path
 from swarmdsl.ir import Assignment, Binary, Effect, Event, Expression, Send, Type, Unary
 from swarmdsl.ir.expressions import reads
-from swarmdsl.ir.types import BOOL
-from swarmdsl.scxml.document import SCXML, Document, Node
+from swarmdsl.syntax.types import BOOL
 
 _NOT_HERE = {
     "log": "a model writes no log",

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.importing.drafts import Draft
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.expressions import Expressions, UnsayableError, constant
-from swarmdsl.importing.idioms import contents
 from swarmdsl.importing.library import Library
 from swarmdsl.importing.names import is_plain, value_names
+from swarmdsl.importing.partial_states import Draft
 from swarmdsl.importing.portable import Described
+from swarmdsl.importing.scxml_patterns import contents
 from swarmdsl.ir import (
     Expression,
     Literal,
@@ -22,8 +23,7 @@ from swarmdsl.ir import (
     Variable,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, FLOAT, INT
-from swarmdsl.scxml.document import Document, Node
+from swarmdsl.syntax.types import BOOL, FLOAT, INT
 
 _INSIDE = re.compile(r"\bIn\(\s*['\"]?([^'\"()\s]+)['\"]?\s*\)")
 _STAYED_IN = (StateKind.SIMPLE, StateKind.COMPOSITE, StateKind.PARALLEL)

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.source import Span
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.calls import Monitor
-from swarmdsl.importing.drafts import OUTCOMES, Draft
-from swarmdsl.importing.idioms import Ends, contents
 from swarmdsl.importing.names import Names
+from swarmdsl.importing.partial_states import OUTCOMES, Draft
+from swarmdsl.importing.scxml_patterns import Ends, contents
 from swarmdsl.ir import Event, Named, Type
-from swarmdsl.naming import snake_case
-from swarmdsl.scxml.document import Document, Node
-from swarmdsl.source import Span
 
 _BRIDGE = "bridge/events/"
 _INTERNAL = ("done.", "error.")

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from swarmdsl.importing.shapes import (
+from swarmdsl.execution.scxml.ecmascript import Unreadable, parse, unquoted
+from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
     OPERATORS,
     Types,
@@ -34,8 +35,7 @@ from swarmdsl.ir import (
     Unary,
     VariableRef,
 )
-from swarmdsl.ir.types import BOOL, DURATION, FLOAT, INT, STRING
-from swarmdsl.scxml.ecmascript import Unreadable, parse, unquoted
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
 # How many values each takes, or more.
 _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1}

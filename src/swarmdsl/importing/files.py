@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Literal
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.source import Source
 from swarmdsl.importing import import_adf, import_scxml
 from swarmdsl.ir import System
-from swarmdsl.naming import snake_case
-from swarmdsl.reading import read_source
-from swarmdsl.source import Source
+from swarmdsl.project.read_source import read_source
 
 MOST = 16 * 2**20
 """How many bytes a file of others may have."""

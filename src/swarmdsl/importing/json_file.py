@@ -6,8 +6,8 @@ import json
 import re
 from typing import Any, NoReturn
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
 
 DEEPEST = 100
 """How deep objects and lists may stand in each other."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import replace
+from swarmdsl.base.records import replace
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.names import Names, type_names, value_names
 from swarmdsl.importing.types import data_type
@@ -24,11 +24,11 @@ from swarmdsl.ir import (
     System,
     Type,
 )
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
-from swarmdsl.ros.interface_file import Kind
-from swarmdsl.ros.standard import lookup
-from swarmdsl.syntax import ActionType, MessageType, ServiceType
-from swarmdsl.syntax import Field as Described
+from swarmdsl.project.rosidl.interface_file import Kind
+from swarmdsl.project.rosidl.standard import lookup
+from swarmdsl.syntax.ast import ActionType, MessageType, ServiceType
+from swarmdsl.syntax.ast import Field as Described
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 
 class Library:

@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.activities import Activities
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.content import Content, all_of
 from swarmdsl.importing.data import MachineData
-from swarmdsl.importing.drafts import Draft, Edge
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsayableError
-from swarmdsl.importing.idioms import Ends
 from swarmdsl.importing.names import is_plain, type_names
+from swarmdsl.importing.partial_states import Draft, Edge
 from swarmdsl.importing.portable import Described, comment_of, doc_of, docs_of
+from swarmdsl.importing.scxml_patterns import Ends
 from swarmdsl.importing.triggers import Triggers
 from swarmdsl.ir import (
     Activity,
@@ -27,8 +28,7 @@ from swarmdsl.ir import (
     Transition,
     Trigger,
 )
-from swarmdsl.ir.types import BOOL
-from swarmdsl.scxml.document import Document, Node
+from swarmdsl.syntax.types import BOOL
 
 
 class MachineMaker:

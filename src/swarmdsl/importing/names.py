@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 
-from swarmdsl.naming import camel_case, snake_case
-from swarmdsl.syntax_advice import keywords
+from swarmdsl.base.naming import camel_case, snake_case
+from swarmdsl.syntax.errors.hints import keywords
 
 _PLAIN = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 

@@ -12,10 +12,10 @@ import re
 from collections.abc import Iterable
 from functools import cache
 
-from swarmdsl.dataclass import replace
-from swarmdsl.generator import OutputFile
-from swarmdsl.source import Source, Span
-from swarmdsl.source_map import Entry, MappedText
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Source, Span
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.source_map import Entry, MappedText
 
 # A topic and a server are called by a text, and all else by a name.
 _NAME = re.compile(r'(?:in|out|inout|action|service)\b[^"]*"([^"\\]+)"|([A-Za-z_]\w*)\Z')

@@ -11,12 +11,12 @@ import re
 
 import yaml
 
-from swarmdsl.dataclass import dataclass, field
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Source, Span
 from swarmdsl.importing.names import Names, is_plain, value_names
 from swarmdsl.ir import Array, Literal, Param, Primitive, Type
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
-from swarmdsl.source import Source, Span
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 _OF_A_NODE = "ros__parameters"
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}

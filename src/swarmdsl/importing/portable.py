@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.importing.drafts import Draft
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.expressions import UnsayableError, constant
+from swarmdsl.importing.partial_states import Draft
 from swarmdsl.importing.types import written_type
 from swarmdsl.ir import (
     Action,
@@ -24,7 +25,6 @@ from swarmdsl.ir import (
     Type,
 )
 from swarmdsl.ir.docs import Docs
-from swarmdsl.scxml.document import Document, Node
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from functools import partial
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.scxml.document import SCXML, Document, parse
-from swarmdsl.source import Source, Span
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.execution.scxml.document import SCXML, Document, parse
 
 # Each keeps the length of the text, so that places stay what they are: the quote that the Modelio
 # exporter forgets takes the place of indentation in the next line.

@@ -9,9 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from swarmdsl import compiler, resources
-from swarmdsl.dataclass import replace
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.analysis.resolve.types import written_type
+from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Source, Span
+from swarmdsl.driver import pipeline
 from swarmdsl.importing.files import MOST
 from swarmdsl.importing.names import type_names
 from swarmdsl.importing.params import Owner, read_params
@@ -29,17 +32,15 @@ from swarmdsl.ir import (
     Service,
     System,
 )
-from swarmdsl.ir.types import BOOL, FLOAT, INT, STRING
-from swarmdsl.link_types import written_type
-from swarmdsl.reading import read_source
-from swarmdsl.ros.interface_file import InterfaceFile, parse_interface
-from swarmdsl.ros.package_folder import find_interfaces, find_parameters
-from swarmdsl.ros.standard import lookup
-from swarmdsl.ros.values import Values
-from swarmdsl.source import Source, Span
-from swarmdsl.syntax import ActionType, MessageType, ServiceType, Value
-from swarmdsl.syntax import Constant as WrittenConstant
-from swarmdsl.syntax import Field as WrittenField
+from swarmdsl.project.read_source import read_source
+from swarmdsl.project.rosidl.interface_file import InterfaceFile, parse_interface
+from swarmdsl.project.rosidl.package_folder import find_interfaces, find_parameters
+from swarmdsl.project.rosidl.standard import lookup
+from swarmdsl.project.rosidl.values import Values
+from swarmdsl.syntax.ast import ActionType, MessageType, ServiceType, Value
+from swarmdsl.syntax.ast import Constant as WrittenConstant
+from swarmdsl.syntax.ast import Field as WrittenField
+from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
@@ -149,6 +150,6 @@ def _components(
 
 def library_functions() -> dict[str, Function]:
     """The functions in the library that comes with swarmdsl, by their names."""
-    system = compiler.check([resources.library() / "cpswarm"]).system
+    system = pipeline.check([resources.library() / "cpswarm"]).system
     assert system is not None
     return {function.name: function for function in system.functions}

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.dataclass import replace
-from swarmdsl.diagnostics import Diagnostics, Label
-from swarmdsl.importing.drafts import THREADS, Draft, Edge
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import replace
+from swarmdsl.execution.scxml.document import Document, Node
+from swarmdsl.importing.partial_states import THREADS, Draft, Edge
 from swarmdsl.ir import StateKind
-from swarmdsl.scxml.document import Document, Node
 
 
 def resolve(top: Draft, document: Document, report: Diagnostics) -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.format import formatted
+from swarmdsl.analysis.checks import validate
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.swarm_printer.system import UnprintableError, print_system
 from swarmdsl.importing.update import read_model
 from swarmdsl.ir import System
-from swarmdsl.load import Project
-from swarmdsl.printer.system import UnprintableError, print_system
-from swarmdsl.source import Source
-from swarmdsl.validate import validate
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.formatter import formatted
 
 
 def text_of(system: System, path: Path, report: Diagnostics) -> str | None:

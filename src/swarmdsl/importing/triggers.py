@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 
+from swarmdsl.execution.scxml.content import delay_of
+from swarmdsl.execution.scxml.document import Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData
-from swarmdsl.importing.drafts import OUTCOMES, Draft, Edge
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.expressions import UnsayableError
-from swarmdsl.importing.idioms import Ends
+from swarmdsl.importing.partial_states import OUTCOMES, Draft, Edge
+from swarmdsl.importing.scxml_patterns import Ends
 from swarmdsl.ir import (
     Binary,
     DoneTrigger,
@@ -24,9 +26,7 @@ from swarmdsl.ir import (
     Trigger,
     Type,
 )
-from swarmdsl.ir.types import DURATION, INT
-from swarmdsl.scxml.content import delay_of
-from swarmdsl.scxml.document import Node
+from swarmdsl.syntax.types import DURATION, INT
 
 # What the portable profile writes for a delay that is computed, and what others may.
 _COMPUTED = re.compile(r'Math\.max\(0, Math\.ceil\((.*)\)\) \+ "ms"')

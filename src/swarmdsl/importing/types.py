@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from swarmdsl.ir import Array, Named, Primitive, Type
-from swarmdsl.ir.types import PRIMITIVES
+from swarmdsl.syntax.types import PRIMITIVES
 
 # Scripts of the code generator find bare names in these two packages.
 _VALUES = ("Bool", "Int", "UInt", "Double", "String")

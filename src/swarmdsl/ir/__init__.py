@@ -67,12 +67,18 @@ if TYPE_CHECKING:
         Variable,
     )
     from swarmdsl.ir.system import System
-    from swarmdsl.ir.types import Array, Named, Primitive, Type
+    from swarmdsl.syntax.types import Array, Named, Primitive, Type
 else:
     # Others have a `Literal` too, that of typing; the one of `expressions`, the last, is meant.
     _PARTS = (
-        *("types", "docs", "interfaces", "architecture", "statemachine", "optimization"),
-        *("system", "expressions"),
+        "swarmdsl.syntax.types",
+        *(
+            f"{__name__}.{part}"
+            for part in (
+                *("docs", "interfaces", "architecture", "statemachine", "optimization"),
+                *("system", "expressions"),
+            )
+        ),
     )
 
     def __getattr__(name):
@@ -80,7 +86,7 @@ else:
         if name not in __all__:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         for part in _PARTS:
-            names = vars(import_module(f"{__name__}.{part}"))
+            names = vars(import_module(part))
             globals().update((known, names[known]) for known in names.keys() & set(__all__))
         return globals()[name]
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
-from swarmdsl.ir.types import Type
-from swarmdsl.source import Span
+from swarmdsl.syntax.types import Type
 
 Direction = Literal["in", "out", "inout"]
 

@@ -9,10 +9,10 @@ from enum import Enum
 from typing import Any, get_args
 
 from swarmdsl.ir.architecture import Multiplicity, PortRef
+from swarmdsl.ir.expression_printer import Dialect, translate
 from swarmdsl.ir.expressions import Expression, Literal
 from swarmdsl.ir.system import System
-from swarmdsl.ir.types import DURATION, Array, Named, Primitive
-from swarmdsl.translate import Dialect, translate
+from swarmdsl.syntax.types import DURATION, Array, Named, Primitive
 
 _WIDTH = 100
 _EXPRESSIONS = get_args(Expression)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.dataclass import field as dataclass_field
-from swarmdsl.ir.types import DURATION, Type
-from swarmdsl.source import Span
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import field as dataclass_field
+from swarmdsl.base.source import Span
+from swarmdsl.syntax.types import DURATION, Type
 
 
 @dataclass(frozen=True, slots=True)

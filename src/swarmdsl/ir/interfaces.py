@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.base.naming import incoming_topic
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
 from swarmdsl.ir.expressions import Expression
-from swarmdsl.ir.types import Named, Type
-from swarmdsl.naming import incoming_topic
-from swarmdsl.source import Span
+from swarmdsl.syntax.types import Named, Type
 
 
 @dataclass(frozen=True, slots=True)

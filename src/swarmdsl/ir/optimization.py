@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Literal
 
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Field, Param
-from swarmdsl.source import Span
 
 
 @dataclass(frozen=True, slots=True)

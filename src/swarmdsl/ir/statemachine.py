@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.dataclass import field as dataclass_field
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.records import field as dataclass_field
+from swarmdsl.base.source import Span
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
-from swarmdsl.ir.types import Type
-from swarmdsl.source import Span
+from swarmdsl.syntax.types import Type
 
 
 class StateKind(Enum):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from swarmdsl.action_messages import ways_made
-from swarmdsl.dataclass import dataclass, field
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
 from swarmdsl.ir.interfaces import Action, Event, Field, Function, Interface, Message
 from swarmdsl.ir.optimization import Fitness, Optimization
 from swarmdsl.ir.statemachine import StateMachine
-from swarmdsl.ir.types import Named
-from swarmdsl.source import Span
+from swarmdsl.syntax.action_messages import ways_made
+from swarmdsl.syntax.types import Named
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.output import remarks
-from swarmdsl.output.carry_out import carry_out
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.output import warnings
+from swarmdsl.output.apply import carry_out
 from swarmdsl.output.changes import Action, Change, How, Written
 from swarmdsl.output.disk import report_os_error
-from swarmdsl.output.leaving import drop_stale
-from swarmdsl.output.moves import add_strays, find_moves, find_renamed
-from swarmdsl.output.opening import opened
 from swarmdsl.output.plan import Plan
+from swarmdsl.output.prepare import opened
+from swarmdsl.output.removals import drop_stale
+from swarmdsl.output.renames import add_strays, find_moves, find_renamed
 from swarmdsl.output.stale import report_stale
 from swarmdsl.output.updating import update
 
@@ -68,7 +68,7 @@ def decide(plan: Plan, output: Mapping[str, Sequence[OutputFile]]) -> None:
     find_renamed(plan, made)
     gone = plan.written.paths(Action.REMOVE, Action.PARK)
     if gone and plan.before.model != plan.manifest.model and plan.before.model:
-        remarks.report_other_model(plan.disk.out, plan.before.model, len(gone), plan.remarks)
+        warnings.report_other_model(plan.disk.out, plan.before.model, len(gone), plan.remarks)
 
 
 __all__ = ["Action", "Change", "How", "Written", "write"]

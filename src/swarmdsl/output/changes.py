@@ -5,7 +5,7 @@ from __future__ import annotations
 from enum import Enum
 from pathlib import Path
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.base.records import dataclass
 
 PARKED = ".parked"
 """The folder for files that are put aside. Tools of ROS pass over a folder of such a name."""

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection
 from pathlib import Path
 
-from swarmdsl import manifest, plugins
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.output import texts
-from swarmdsl.output.carry_out import carry_out
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen import registry
+from swarmdsl.output import manifest, texts
+from swarmdsl.output.apply import carry_out
 from swarmdsl.output.changes import How, Written
-from swarmdsl.output.leaving import remove_generated
-from swarmdsl.output.opening import opened
-from swarmdsl.suggest import suggest
+from swarmdsl.output.prepare import opened
+from swarmdsl.output.removals import remove_generated
 
 
 def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool) -> Written | None:
@@ -27,7 +27,7 @@ def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool
         if plan is None:
             return None
         there = {path.partition("/")[0] for path in plan.before.files}
-        for target in sorted(set(targets) - there - set(plugins.target_names())):
+        for target in sorted(set(targets) - there - set(registry.target_names())):
             hint = suggest(target, there, "targets")
             report.report("unknown-target", name=target, help=hint)
         remove_generated(plan, targets or there)

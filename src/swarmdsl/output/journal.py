@@ -13,13 +13,13 @@ import os
 from hashlib import sha256
 from pathlib import Path
 
-from swarmdsl import manifest
-from swarmdsl.dataclass import dataclass
-from swarmdsl.manifest import Manifest
+from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.relative_paths import stays_inside
+from swarmdsl.output import manifest
 from swarmdsl.output.changes import PARKED, Renames
 from swarmdsl.output.disk import Disk
-from swarmdsl.output_path import stays_inside
-from swarmdsl.staging import Staging
+from swarmdsl.output.manifest import Manifest
 
 NAME = ".swarmdsl.pending"
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from difflib import SequenceMatcher
 
-from swarmdsl.dataclass import dataclass
+from swarmdsl.base.records import dataclass
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from functools import cached_property
 
-from swarmdsl.naming import camel_case, snake_case
+from swarmdsl.base.naming import camel_case, snake_case
 
 _WORD = re.compile(r"\w+")
 

@@ -1,6 +1,6 @@
 """What is to be done in an output folder, and the steps that it is made of.
 
-Nothing on disk changes: `swarmdsl.output.carry_out` does that.
+Nothing on disk changes: `swarmdsl.output.apply` does that.
 """
 
 from __future__ import annotations
@@ -8,18 +8,17 @@ from __future__ import annotations
 from contextlib import suppress
 from functools import cached_property
 
-from swarmdsl import regions
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
-from swarmdsl.manifest import Hashes, Manifest, content_hash
-from swarmdsl.map_file import Maps, Positions
-from swarmdsl.output import remarks
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.output import user_regions, warnings
 from swarmdsl.output.changes import PARKED, Action, Change, How, Written
 from swarmdsl.output.disk import Disk
+from swarmdsl.output.manifest import Hashes, Manifest, content_hash
 from swarmdsl.output.names import Names
-from swarmdsl.output.remarks import NEW
+from swarmdsl.output.source_maps import Maps, Positions
 from swarmdsl.output.texts import Texts
+from swarmdsl.output.warnings import NEW
 
 
 @dataclass(frozen=True)
@@ -119,13 +118,13 @@ class Plan:
                 # What the user has seen of what is generated is in it, and nothing newer.
                 self.hashes[path] = known or self.texts.add("")
                 self.edited.append(path)
-                remarks.report_neighbour(self.disk.out / path, self.remarks)
+                warnings.report_neighbour(self.disk.out / path, self.remarks)
 
     def is_pristine(self, path: str, content: bytes, base: str | None) -> bool:
         """Whether a file is as swarmc wrote it, with no line of the user in a region."""
         # What would be in place of another file has the lines from there.
         is_copy = path.endswith(NEW)
-        return self.is_generated(content, base) and (is_copy or not regions.kept(content))
+        return self.is_generated(content, base) and (is_copy or not user_regions.kept(content))
 
     def is_generated(self, content: bytes, base: str | None) -> bool:
         """The same, but for what is in regions."""
@@ -135,7 +134,7 @@ class Plan:
         """Whether a file is in the output folder, whatever links lead there; if not, report it."""
         if self.leads_inside(path):
             return True
-        remarks.report_link(self.disk.link_outside(path), path, self.report)
+        warnings.report_link(self.disk.link_outside(path), path, self.report)
         return False
 
     def leads_inside(self, path: str) -> bool:

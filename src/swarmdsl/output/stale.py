@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from swarmdsl import manifest
-from swarmdsl.diagnostics import Diagnostics
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.output import manifest
 from swarmdsl.output.changes import Action, Written
-from swarmdsl.output.remarks import NEW, NOTE
+from swarmdsl.output.warnings import NEW, NOTE
 
 _BUILD = "build again"
 _EDITED = "build again, and put the edit into a region, a file of yours, or the model"

@@ -14,8 +14,8 @@ from functools import cached_property
 from hashlib import sha256
 from pathlib import Path
 
-from swarmdsl.fitting_code import mark_in
-from swarmdsl.manifest import content_hash
+from swarmdsl.codegen.user_code_marks import mark_in
+from swarmdsl.output.manifest import content_hash
 
 NAME = ".swarmdsl.texts"
 

@@ -7,18 +7,17 @@ worked on: it is kept where it is there to be filled in, else merged with what i
 
 from __future__ import annotations
 
-from swarmdsl import regions
-from swarmdsl.dataclass import replace
-from swarmdsl.fitting_code import mark_of, outdated
-from swarmdsl.generator import OutputFile
-from swarmdsl.manifest import content_hash
-from swarmdsl.output import line_ends, remarks
+from swarmdsl.base.records import replace
+from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.user_code_marks import mark_of, outdated
+from swarmdsl.output import line_ends, user_regions, warnings
 from swarmdsl.output.changes import PARKED, Action
-from swarmdsl.output.moves import renamed
+from swarmdsl.output.manifest import content_hash
 from swarmdsl.output.names import Names
 from swarmdsl.output.plan import Found, Plan
-from swarmdsl.output.remarks import NEW, NOTE
-from swarmdsl.suggest import suggest
+from swarmdsl.output.renames import renamed
+from swarmdsl.output.warnings import NEW, NOTE
 
 
 def update(plan: Plan, path: str, file: OutputFile) -> None:
@@ -66,10 +65,10 @@ def _keep(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> 
         # What its code builds on is still the old text.
         plan.hashes[path] = found.base or plan.hashes[path]
         facts = plan.texts.facts(marks[0]) if marks[0] else None
-        note = remarks.changed_below(path, file, found.content, marks, base, facts)
+        note = warnings.changed_below(path, file, found.content, marks, base, facts)
         place = plan.disk.out / path
         plan.add_neighbour(f"{path}{NOTE}", note)
-        remarks.report_outdated(place, file, found.content, marks, facts, plan.remarks)
+        warnings.report_outdated(place, file, found.content, marks, facts, plan.remarks)
     if found.source is None:
         plan.kept.append(path)
     else:
@@ -82,13 +81,13 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
     if pristine:
         found = replace(found, base=content_hash(found.content))
     found = renamed(plan, path, file, new, found)
-    of_user = regions.kept(found.content)
-    filled, lost = regions.filled(new, of_user)
+    of_user = user_regions.kept(found.content)
+    filled, lost = user_regions.filled(new, of_user)
     if found.content == filled or (pristine and not lost):
         _settle(plan, path, file, found, filled)
         return
     is_foreign = found.base is None and found.source is None
-    is_damaged = not is_foreign and (bool(lost) or regions.fault(found.content) is not None)
+    is_damaged = not is_foreign and (bool(lost) or user_regions.fault(found.content) is not None)
     if plan.how.force and not is_damaged:
         plan.change(Action.OVERWRITE, path, found.content, filled, file, found.source)
     elif is_foreign:
@@ -99,19 +98,24 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
 
 def _report_marks(plan: Plan, path: str, content: bytes, new: bytes) -> bool:
     """Tell of marks for which lines in regions are not known as such; whether there are any."""
-    place, known = plan.disk.out / path, regions.ids(new)
-    strange = [(id_, line) for id_, line in regions.ids(content).items() if id_ not in known]
+    place, known = plan.disk.out / path, user_regions.ids(new)
+    strange = [(id_, line) for id_, line in user_regions.ids(content).items() if id_ not in known]
     for id_, line in strange:
         fault, hint = f"no region `{id_}` is generated", suggest(id_, known, "regions")
-        remarks.report_damaged(place, content, line, fault, hint, plan.remarks)
-    wrong = regions.fault(content)
+        warnings.report_damaged(place, content, line, fault, hint, plan.remarks)
+    wrong = user_regions.fault(content)
     if wrong is not None:
-        remarks.report_damaged(place, content, wrong.line, wrong.fault, None, plan.remarks)
+        warnings.report_damaged(place, content, wrong.line, wrong.fault, None, plan.remarks)
     return bool(strange) or wrong is not None
 
 
 def _merge(
-    plan: Plan, path: str, file: OutputFile, filled: bytes, found: Found, of_user: regions.Texts
+    plan: Plan,
+    path: str,
+    file: OutputFile,
+    filled: bytes,
+    found: Found,
+    of_user: user_regions.Texts,
 ) -> None:
     # Imported here because most builds merge nothing, and it is slow.
     from swarmdsl.output.merge import merge
@@ -134,14 +138,14 @@ def _merge(
         # Where nothing is known of it, all of it is the user's: it was made from nothing.
         plan.hashes[path] = base_hash or plan.texts.add("")
         plan.add_neighbour(neighbour, filled)
-        remarks.report_conflict(place, found.content, merged, plan.remarks)
+        warnings.report_conflict(place, found.content, merged, plan.remarks)
         if found.source is None:
             plan.conflicts.append(path)
         else:
             plan.bring(path, found, found.content)
         return
     if not told:
-        remarks.report_edited(place, found.content, base, merged.taken, plan.remarks)
+        warnings.report_edited(place, found.content, base, merged.taken, plan.remarks)
     if found.source is not None:
         plan.bring(path, found, merged.text)
     elif merged.text == found.content:
@@ -150,13 +154,15 @@ def _merge(
         plan.change(Action.MERGE, path, found.content, merged.text, file)
 
 
-def _base_as_edited(base: bytes, found: Found, filled: bytes, of_user: regions.Texts) -> bytes:
+def _base_as_edited(base: bytes, found: Found, filled: bytes, of_user: user_regions.Texts) -> bytes:
     """The text from before with the regions of the user that stay, and under the new name."""
     if found.names is not None:
         text, _ = found.names.rewritten(base.decode(), filled.decode(errors="surrogateescape"))
         base = text.encode(errors="surrogateescape")
-    staying = regions.ids(filled)
-    base, _ = regions.filled(base, {id_: text for id_, text in of_user.items() if id_ in staying})
+    staying = user_regions.ids(filled)
+    base, _ = user_regions.filled(
+        base, {id_: text for id_, text in of_user.items() if id_ in staying}
+    )
     return base
 
 

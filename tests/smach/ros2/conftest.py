@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.generator import OutputFile
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen.api import OutputFile
 from swarmdsl.ir import System
 
 from ...following.fixtures import Emit, generate, reported

@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
+from swarmdsl.execution.engine import Event
 from swarmdsl.ir import System
-from swarmdsl.runtime import Event
 
 from ...agreement.scripts import Subject
 from ...following.agreement import PATIENCE, Host

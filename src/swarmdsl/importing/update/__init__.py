@@ -7,17 +7,16 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.enums import underlying
-from swarmdsl.format.tokens import tokenize
+from swarmdsl.analysis.types.enum_values import underlying
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.text_edits import Edits
 from swarmdsl.importing.update.declarations import merge_component, merge_event, merge_function
-from swarmdsl.importing.update.edits import Edits
 from swarmdsl.importing.update.interfaces import is_described, merge_interface
 from swarmdsl.importing.update.known import Key, Model, groups_before, of_group, read_model
 from swarmdsl.importing.update.merging import Guess, Merge, written
 from swarmdsl.ir import Array, Primitive, Type
-from swarmdsl.load import File
-from swarmdsl.syntax import (
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import (
     Component,
     Declaration,
     EnumType,
@@ -26,6 +25,7 @@ from swarmdsl.syntax import (
     Interface,
     StateMachine,
 )
+from swarmdsl.syntax.formatter.tokens import tokenize
 
 
 def update(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from swarmdsl.analysis.event_topics import topic_of
+from swarmdsl.base.naming import snake_case
 from swarmdsl.importing.update.merging import Merge, commented, of_class, written
 from swarmdsl.importing.update.values import default_change
-from swarmdsl.naming import snake_case
-from swarmdsl.syntax import (
+from swarmdsl.syntax.ast import (
     Communication,
     Component,
     Event,
@@ -14,7 +15,6 @@ from swarmdsl.syntax import (
     Param,
     Port,
 )
-from swarmdsl.topics import topic_of
 
 
 def merge_event(merge: Merge, old: Event, new: Event) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 from swarmdsl.importing.update.merging import Merge, written
-from swarmdsl.syntax import (
+from swarmdsl.syntax.ast import (
     ActionType,
     Constant,
     Field,

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from swarmdsl.dataclass import dataclass, field
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.link import link
-from swarmdsl.link_types import interface_name
-from swarmdsl.load import File, Project, Reader, load, parsed_model
-from swarmdsl.source import Source, Span
-from swarmdsl.syntax import (
+from swarmdsl.analysis.resolve.linker import link
+from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Source, Span
+from swarmdsl.project.loader import File, Project, Reader, load, parsed_model
+from swarmdsl.syntax.ast import (
     ActionType,
     AliasType,
     Component,

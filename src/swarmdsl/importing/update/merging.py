@@ -10,15 +10,15 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from functools import cached_property
 from typing import TypeVar
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics
-from swarmdsl.folding import Folding
-from swarmdsl.format.tokens import Tokens
-from swarmdsl.importing.update.edits import Edits
+from swarmdsl.analysis.types.constant_folding import Folding
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.base.text_edits import Edits
 from swarmdsl.importing.update.values import default_change
 from swarmdsl.ir import Type
-from swarmdsl.source import Span
-from swarmdsl.syntax import Constant, Documented, Param, TypeRef
+from swarmdsl.syntax.ast import Constant, Documented, Param, TypeRef
+from swarmdsl.syntax.formatter.tokens import Tokens
 
 Guess = tuple[str, str]
 """What an import has made up, and does not know: the name of a declaration, and what of it."""

@@ -8,17 +8,17 @@ from collections.abc import Collection, Mapping
 from functools import cached_property
 from pathlib import Path
 
-from swarmdsl import compiler
-from swarmdsl.dataclass import dataclass
-from swarmdsl.diagnostics import Diagnostics, Severity
-from swarmdsl.format.files import Layout, layout_of
+from swarmdsl.analysis.checks import validate
+from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.records import dataclass
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.config.settings import Settings
+from swarmdsl.driver.format_files import Layout, layout_of
 from swarmdsl.importing.update import Guess, Key, Model, read_model, update
 from swarmdsl.ir import Communication, Function, Named, System
-from swarmdsl.project import find_settings
-from swarmdsl.project.settings import Settings
-from swarmdsl.reading import read_bytes
-from swarmdsl.syntax import Function as Declared
-from swarmdsl.validate import validate
+from swarmdsl.project.read_source import read_bytes
+from swarmdsl.syntax.ast import Function as Declared
 
 
 @dataclass(eq=False)
@@ -32,7 +32,7 @@ class Existing:
     @cached_property
     def system(self) -> System | None:
         """What it means; None where it has errors."""
-        return compiler.check([self.path], self.settings).system
+        return pipeline.check([self.path], self.settings).system
 
     def operations(self) -> set[Key]:
         """The functions and services that are operations: they are declared with their owners."""

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from swarmdsl.dataclass import dataclass
-from swarmdsl.folding import Folded, Folding
-from swarmdsl.inference.fitting import is_float, is_number, is_text, range_of
+from swarmdsl.analysis.types.constant_folding import Folded, Folding
+from swarmdsl.analysis.types.fitting import is_float, is_number, is_text, range_of
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.swarm_printer.expressions import expression
 from swarmdsl.ir import Literal
-from swarmdsl.ir.types import DURATION, FLOAT, INT, Named, Primitive, Type
-from swarmdsl.printer.expressions import expression
-from swarmdsl.source import Span
-from swarmdsl.syntax import Constant, OperatorUse, Param, Value
+from swarmdsl.syntax.ast import Constant, OperatorUse, Param, Value
+from swarmdsl.syntax.types import DURATION, FLOAT, INT, Named, Primitive, Type
 
 _NANOSECONDS = 1_000_000_000
 

@@ -1,0 +1,168 @@
+"""Activities: goals and requests filled, results and responses stored."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.types import Typing, assignable, report_unknown_field
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Activity,
+    Argument,
+    Communication,
+    Field,
+    Operation,
+    Parameter,
+    ResultMapping,
+    ServiceType,
+    StateMachine,
+    Word,
+    nodes_of,
+)
+from swarmdsl.syntax.types import Named
+
+
+def check_activities(machine: StateMachine, context: Context) -> None:
+    """Check each call of a function against the interface of its action or service."""
+    users: dict[str, Activity] = {}
+    for activity in nodes_of(machine, Activity):
+        _check_activity(activity, context)
+        for callback in (activity.goal_callback, activity.result_callback):
+            if callback is not None:
+                _check_callback(callback, activity, users, context)
+
+
+def _check_activity(activity: Activity, context: Context) -> None:
+    context.check_repeated((argument.name for argument in activity.arguments), "field")
+    context.check_repeated((result.field for result in activity.results), "field")
+    function = activity.function.target
+    if isinstance(function, Operation):
+        _check_operation(activity, function, context)
+        return
+    call = (
+        next((item for item in function.items if isinstance(item, Communication)), None)
+        if function is not None
+        else None
+    )
+    known = (
+        context.interfaces.get(
+            call.type.type, ActionType if call.paradigm == "action" else ServiceType
+        )
+        if call and isinstance(call.type.type, Named)
+        else None
+    )
+    sent: list[Field] | None = None
+    received: list[Field] | None = None
+    words = ("", "")
+    if known in context.damaged:
+        known = None
+    match known:
+        case ActionType():
+            sent, received, words = known.goal, known.result, ("goal", "result")
+        case ServiceType():
+            sent, received, words = known.request, known.response, ("request", "response")
+    name = f"`{call.type.span.text}`" if call else ""
+    if activity.goal_callback is None:
+        owner = f"the {words[0]} of {name}"
+        if check_arguments(activity.arguments, sent, owner, context.typing):
+            _check_missing(activity, sent, owner, context)
+    for result in activity.results:
+        _check_result(result, received, f"the {words[1]} of {name}", context)
+
+
+def _check_operation(activity: Activity, operation: Operation, context: Context) -> None:
+    """An operation takes its `in` parameters and gives its `out` parameters."""
+    owner = f"operation `{operation.name}`"
+    taken = [p for p in operation.parameters if p.direction != "out"]
+    given = [p for p in operation.parameters if p.direction == "out"]
+    if activity.goal_callback is None and check_arguments(
+        activity.arguments, taken, owner, context.typing
+    ):
+        _check_missing(activity, taken, owner, context)
+    for result in activity.results:
+        _check_result(result, given, owner, context)
+
+
+def check_arguments(
+    arguments: list[Argument],
+    fields: Sequence[Field | Parameter] | None,
+    owner: str,
+    typing: Typing,
+) -> bool:
+    """Check values given to fields by name; return whether all the fields exist.
+
+    `fields` None means that they are not known.
+    """
+    exist = True
+    for argument in arguments:
+        wanted = None
+        if fields is not None:
+            field = next((known for known in fields if known.name == argument.name), None)
+            if field is None:
+                exist = False
+                report_unknown_field(
+                    owner, argument.name, argument.name.span, fields, typing.report
+                )
+            else:
+                wanted = field.type.type
+        typing.expect(argument.value.tree, wanted)
+    return exist
+
+
+def _check_missing(
+    activity: Activity,
+    fields: Sequence[Field | Parameter] | None,
+    owner: str,
+    context: Context,
+) -> None:
+    given = {str(argument.name) for argument in activity.arguments}
+    missing = [field for field in fields or () if field.name not in given]
+    if missing:
+        names = [str(field.name) for field in missing]
+        values = ", ".join(f"{name} = ..." for name in names)
+        context.report.report(
+            "missing-field",
+            activity.function.span,
+            owner=owner,
+            fields=listed(names, "and"),
+            related=tuple(Label(field.name.span, "declared here") for field in missing),
+            help=f"add `{values}`",
+        )
+
+
+def _check_result(
+    result: ResultMapping, fields: Sequence[Field | Parameter] | None, owner: str, context: Context
+) -> None:
+    tree = result.target.tree
+    if tree is not None and not assignable(tree):
+        context.report.report(
+            "not-assignable",
+            result.target.span,
+            text=result.target.span.text,
+            help="a result is stored in a variable, or in a field of one",
+        )
+        return
+    found = next((field for field in fields or () if field.name == result.field), None)
+    if found is None and fields is not None:
+        report_unknown_field(owner, result.field, result.field.span, fields, context.report)
+    if tree is None or found is None:
+        return
+    wanted = context.typing.infer(tree)
+    context.check_fits(found.type.type, wanted, result.span)
+
+
+def _check_callback(
+    callback: Word, activity: Activity, users: dict[str, Activity], context: Context
+) -> None:
+    """One callback serves one function: its goal has one type."""
+    first = users.setdefault(str(callback), activity)
+    if first.function.target is not activity.function.target:
+        context.report.report(
+            "shared-callback",
+            callback.span,
+            name=callback,
+            related=(Label(first.function.span, "it serves this function already"),),
+            help="each function needs a callback of its own: goals and results differ in type",
+        )

@@ -1,0 +1,159 @@
+"""Regions that disagree about an event: it leads out in two ways, or stores two values."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of, possible
+from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.analysis.resolve.machines import regions
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.base.source import Span
+from swarmdsl.syntax.ast import (
+    Assignment,
+    Event,
+    FieldUse,
+    MonitorTrigger,
+    NameUse,
+    Parallel,
+    Region,
+    StateMachine,
+    Transition,
+    nodes_of,
+)
+
+# More than people write for one event; what comes after them is not compared with more.
+_MOST_COMPARED = 50
+_Source = Event | MonitorTrigger
+# The transitions in each region.
+_Inside = Mapping[Region, Sequence[Transition]]
+
+
+def check_conflicts(machine: StateMachine, context: Context) -> None:
+    """Check what the regions of each parallel state do on one event."""
+    parallels = nodes_of(machine, Parallel)
+    if not parallels:
+        return
+    outline = context.outline(machine)
+    inside: dict[Region, list[Transition]] = {region: [] for region in nodes_of(machine, Region)}
+    for state, transitions in outline.transitions.items():
+        for outer in outline.around(state):
+            if isinstance(outer, Region):
+                inside[outer] += transitions
+    for found in inside.values():
+        found.sort(key=lambda transition: transition.span.start)
+    for parallel in parallels:
+        _check_ways_out(parallel, inside, outline, context)
+        _check_stored(parallel, inside, outline, context)
+
+
+def _check_stored(parallel: Parallel, inside: _Inside, outline: Outline, context: Context) -> None:
+    """Report the second of two different values that two regions store on one event.
+
+    SCXML runs the effects in the order of the text (3.13): the last one counts. What says
+    the same in both regions (`n = n + 1`) does not depend on the order.
+    """
+    earlier: dict[Hashable, list[tuple[Transition, Assignment]]] = {}
+    for region in regions(parallel):
+        found = [
+            store
+            for transition in inside[region]
+            if _stays(transition, region, outline)
+            for store in _stores(transition)
+        ]
+        for event, transition, effect in found:
+            for before, first in earlier.get((_heard(event), _path(effect)[0]), ()):
+                if _differ(first, effect) and possible(
+                    [condition_of(before, context), condition_of(transition, context)]
+                ):
+                    context.report.report(
+                        "conflicting-effects",
+                        effect.span,
+                        variable=effect.target.span.text,
+                        event=_called(event),
+                        related=(Label(first.span, "this is done first, in another region"),),
+                        help="assign in one of the regions, or give each a variable of its own",
+                    )
+                    break
+        for event, transition, effect in found:
+            others = earlier.setdefault((_heard(event), _path(effect)[0]), [])
+            if len(others) < _MOST_COMPARED:
+                others.append((transition, effect))
+
+
+def _stays(transition: Transition, region: Region, outline: Outline) -> bool:
+    if transition.target is None:
+        return True
+    target = transition.target.target
+    return target is not None and region in outline.around(target)
+
+
+def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Assignment]]:
+    """What a transition stores, for each event that it waits for."""
+    events = {_heard(event): event for event in map(awaited, transition.triggers) if event}
+    for event in events.values():
+        for effect in transition.effects:
+            if isinstance(effect, Assignment) and _path(effect):
+                yield event, transition, effect
+
+
+def _heard(event: _Source) -> Hashable:
+    return heard_on(event), event.type.type
+
+
+def _differ(first: Assignment, second: Assignment) -> bool:
+    """Whether two assignments to one variable store other values in the same place of it."""
+    one, other = _path(first), _path(second)
+    length = min(len(one), len(other))
+    return one[:length] == other[:length] and _words(first.span) != _words(second.span)
+
+
+def _path(effect: Assignment) -> tuple[Hashable, ...]:
+    """The variable that is assigned to, and the fields in it; nothing if it is not known."""
+    fields: list[str] = []
+    tree = effect.target.tree
+    while isinstance(tree, FieldUse):
+        fields.insert(0, str(tree.name))
+        tree = tree.base
+    if not isinstance(tree, NameUse) or tree.target is None:
+        return ()
+    return (tree.target, *fields)
+
+
+def _words(span: Span) -> str:
+    return "".join(span.text.split())
+
+
+def _called(event: _Source) -> str:
+    return f"event `{event.name}`" if isinstance(event, Event) else f"topic `{event.topic}`"
+
+
+def _check_ways_out(
+    parallel: Parallel, inside: _Inside, outline: Outline, context: Context
+) -> None:
+    """Report the second of two transitions that leave a parallel state on one event.
+
+    SCXML takes the first in the text (3.13); whoever reads the model should not have to know.
+    """
+    leaving: dict[Hashable, tuple[Region, Transition]] = {}
+    for region in regions(parallel):
+        for transition in inside[region]:
+            target = transition.target.target if transition.target is not None else None
+            if target is None or region in outline.around(target):
+                continue
+            for event in map(awaited, transition.triggers):
+                if event is None:
+                    continue
+                where, first = leaving.setdefault(_heard(event), (region, transition))
+                if where is region or (first.target and first.target.target is target):
+                    continue
+                context.report.report(
+                    "conflicting-regions",
+                    transition.span,
+                    event=_called(event),
+                    state=parallel.name,
+                    related=(Label(first.span, "this one is taken"),),
+                    help=f"move the transition to state `{parallel.name}`",
+                )

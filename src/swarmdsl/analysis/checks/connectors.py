@@ -1,0 +1,198 @@
+"""Connectors: from a sender to a receiver, of one type, and to each port that needs one."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.port_nets import Net, Pin, PortTopic, nets
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.types import fits
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.base.naming import snake_case
+from swarmdsl.syntax.ast import Connector, Member, Part, Port, PortRef
+
+
+def check_connectors(member: Member, context: Context) -> None:
+    """Check the connectors of a member, and what they leave unconnected."""
+    connectors = all_items(member, Connector)
+    _check_connected(member, connectors, context)
+    _check_driven_once(connectors, context)
+    _check_topics(member, connectors, context)
+    for item in member.items:
+        if isinstance(item, Connector):
+            _check_connector(item, context)
+
+
+def _check_connected(member: Member, connectors: list[Connector], context: Context) -> None:
+    """Check that something is connected to each `in` port of a part without a topic of its own."""
+    # Either end: a connector that is the wrong way round is reported as such.
+    ends = [end for connector in connectors for end in (connector.source, connector.target)]
+    connected = {(end.part.target, end.port.target) for end in ends if end.part is not None}
+    # Of two with one name, which are reported, connectors lead to the first.
+    parts = {str(part.name): part for part in reversed(all_items(member, Part))}
+    own = {item for item in member.items if isinstance(item, Part)}
+    for part in parts.values():
+        if part not in own or part.component.target is None:
+            continue
+        ports = {str(port.name): port for port in reversed(all_items(part.component.target, Port))}
+        for port in ports.values():
+            if port.direction == "in" and port.topic is None and (part, port) not in connected:
+                context.report.report(
+                    "unconnected-port",
+                    part.name.span,
+                    port=f"{part.name}.{port.name}",
+                    related=(Label(port.name.span, "declared here"),),
+                    help=f"add `connect ... -> {part.name}.{port.name}`, or give the port a topic",
+                )
+
+
+def _check_driven_once(connectors: list[Connector], context: Context) -> None:
+    """Check that no port gets its data from two connectors, and no connector is there twice."""
+    first: dict[tuple[Part | None, Port], dict[tuple[Part | None, Port], Connector]] = {}
+    for connector in connectors:
+        end, source = connector.target, connector.source.port.target
+        if source is None or end.port.target is None:
+            continue
+        if "start" not in _places(connector.source, source) or "end" not in _places(
+            end, end.port.target
+        ):
+            continue  # leads the wrong way, which is reported
+        ends = [
+            (each.part.target if each.part is not None else None, port)
+            for each, port in ((connector.source, source), (end, end.port.target))
+        ]
+        by_source = first.setdefault(ends[1], {})
+        same = by_source.get(ends[0])
+        others = list(by_source.values())
+        by_source.setdefault(ends[0], connector)
+        if same is not None:
+            context.report.report(
+                "repeated-item",
+                connector.span,
+                item="this connector",
+                related=(Label(same.span, "first given here"),),
+            )
+        elif others:
+            context.report.report(
+                "driven-twice",
+                end.span,
+                port=end.span.text,
+                related=(Label(others[0].span, "already connected here"),),
+                help="what comes from two sides mixes on one topic: give each a port of its own",
+            )
+
+
+def _check_topics(member: Member, connectors: list[Connector], context: Context) -> None:
+    """Check that ports can be on the topics that are given for them, and only connected ones meet.
+
+    What is given for a port of the member itself goes before what its parts say.
+    """
+    declared: dict[Pin, Port] = {(None, str(p.name)): p for p in all_items(member, Port)}
+    for part in all_items(member, Part):
+        if part.component.target is not None:
+            ports = all_items(part.component.target, Port)
+            declared.update(((str(part.name), str(port.name)), port) for port in ports)
+    topics = {pin: _topic(pin, port) for pin, port in declared.items()}
+    ends = [(connector.source, connector.target) for connector in connectors]
+    at = {_pin(end): end for both in reversed(ends) for end in both}
+    first: dict[str, Net] = {}
+    for net in nets(topics, ((_pin(source), _pin(target)) for source, target in ends)):
+        other = first.setdefault(net.topic, net)
+        if other is not net:
+            context.report.report(
+                "shared-topic",
+                at[net.pins[0]].span,
+                topic=net.topic,
+                related=(Label(at[other.pins[0]].span, "the other one is here"),),
+                help="each hears what the other one sends: give the ports topics of their own",
+            )
+        if net.pins[0][0] is None:
+            continue
+        for pin in net.pins:
+            if topics[pin].given and topics[pin].topic != net.topic:
+                context.report.report(
+                    "replaced-topic",
+                    at[pin].span,
+                    port=at[pin].span.text,
+                    topic=net.topic,
+                    own=topics[pin].topic,
+                    related=(Label(declared[pin].name.span, "declared here"),),
+                    help="what is connected is on one topic: give it at one of the ports, or at "
+                    "a port of the member",
+                )
+
+
+def _topic(pin: Pin, port: Port) -> PortTopic:
+    name = snake_case(port.name)
+    topic = str(port.topic) if port.topic is not None else name
+    return PortTopic(topic, pin[0] is None or topic != name, port.direction != "in")
+
+
+def _pin(end: PortRef) -> Pin:
+    return end.part.name if end.part is not None else None, end.port.name
+
+
+def _check_connector(connector: Connector, context: Context) -> None:
+    source, target = connector.source.port.target, connector.target.port.target
+    if source is None or target is None:
+        return
+    if not _check_direction(connector, source, target, context):
+        return
+    if source is target and connector.source.span.text == connector.target.span.text:
+        context.report.report(
+            "port-direction",
+            connector.span,
+            fault=f"this connector leads from `{connector.source.span.text}` back to itself",
+            help="name another port, or remove the connector",
+        )
+    elif not fits(source.type.type, target.type.type):
+        context.report.report(
+            "port-type-mismatch",
+            connector.span,
+            source=connector.source.span.text,
+            target=connector.target.span.text,
+            sent=f"`{source.type.type}`",
+            taken=f"`{target.type.type}`",
+            related=(
+                Label(source.type.span, f"`{connector.source.span.text}` is declared here"),
+                Label(target.type.span, f"`{connector.target.span.text}` is declared here"),
+            ),
+            help="give both ports one type, or put a component between them that converts",
+        )
+
+
+def _check_direction(connector: Connector, source: Port, target: Port, context: Context) -> bool:
+    """Check that a connector leads from a sender to a receiver; return whether it does."""
+    ends = ((connector.source, source, "start"), (connector.target, target, "end"))
+    wrong = [(end, port) for end, port, place in ends if place not in _places(end, port)]
+    if len(wrong) == 2:
+        context.report.report(
+            "port-direction",
+            connector.span,
+            fault="this connector leads from the receiver to the sender",
+            related=tuple(Label(port.name.span, _as_declared(end, port)) for end, port in wrong),
+            help=f"write `connect {connector.target.span.text} -> {connector.source.span.text}`",
+        )
+        return False
+    for end, port in wrong:
+        context.report.report(
+            "port-direction",
+            end.span,
+            fault=f"a connector cannot {'end' if end is connector.target else 'start'} here: "
+            + _as_declared(end, port),
+            related=(Label(port.name.span, "declared here"),),
+        )
+    return not wrong
+
+
+def _places(end: PortRef, port: Port) -> tuple[str, ...]:
+    """Where in a connector a port may stand; the member's own ports are seen from inside."""
+    if port.direction == "inout":
+        return ("start", "end")
+    return ("start",) if (port.direction == "out") == (end.part is not None) else ("end",)
+
+
+def _as_declared(end: PortRef, port: Port) -> str:
+    if end.part is not None:
+        return f"`{end.span.text}` is an `{port.direction}` port"
+    way = "enters" if port.direction == "in" else "leaves"
+    return f"by `{port.direction}` port `{end.span.text}` data {way} the member"

@@ -1,0 +1,45 @@
+"""Variables that lead nowhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.analysis.checks.accesses import stores_of
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.syntax.ast import (
+    FieldUse,
+    NameUse,
+    StateMachine,
+    Variable,
+    nodes_of,
+)
+from swarmdsl.syntax.types import Named
+
+
+def check_variables(machine: StateMachine, context: Context) -> None:
+    """A variable is written before it is of use, and read to be of use."""
+    stores = set(_stores(machine))
+    written = {use.target for use in stores}
+    read = {use.target for use in nodes_of(machine, NameUse) if use not in stores}
+    for item in machine.items:
+        if not isinstance(item, Variable):
+            continue
+        if item not in read and item not in written:
+            fault = "is never used"
+        elif item not in read:
+            fault = "is written and never read"
+        elif item not in written and item.initial is None and not isinstance(item.type.type, Named):
+            fault = "is read and never written"
+        else:
+            continue
+        context.report.report("idle-variable", item.name.span, name=item.name, fault=fault)
+
+
+def _stores(machine: StateMachine) -> Iterator[NameUse]:
+    """The names that stand where a value is stored: the variable is written there, not read."""
+    for node in stores_of(machine):
+        tree = node.target.tree
+        while isinstance(tree, FieldUse):
+            tree = tree.base
+        if isinstance(tree, NameUse):
+            yield tree

@@ -1,0 +1,228 @@
+"""Events between machines: what is sent is waited for, and what is waited for is sent.
+
+A swarm event is judged in each swarm, over the machines of its members; one of a machine
+that belongs to no swarm, over all machines. An event of the robot may come from a node that
+is no part of the model, or go to one.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable, Iterator, Mapping
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.analysis.resolve.inheritance import all_items, lineage
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.syntax.ast import (
+    BehaviorUse,
+    Component,
+    Declaration,
+    Event,
+    EventTrigger,
+    Member,
+    MonitorTrigger,
+    Part,
+    Ref,
+    Role,
+    Send,
+    State,
+    StateMachine,
+    Swarm,
+    nodes_of,
+)
+
+
+@dataclass
+class Exchange:
+    """What machines that hear each other send and wait for: the first place for each topic.
+
+    Not `complete` where a name was not resolved or a piece could not be parsed: what seems to
+    be missing may be that.
+    """
+
+    name: str = ""
+    machines: set[StateMachine] = field(default_factory=set)
+    sent: dict[str, Send] = field(default_factory=dict)
+    awaited: dict[str, EventTrigger | MonitorTrigger] = field(default_factory=dict)
+    complete: bool = True
+
+    def add(self, others: Iterable[Exchange | None]) -> Exchange:
+        """Add those of others; None stands for one that was not found."""
+        for other in others:
+            if other is None:
+                self.complete = False
+                continue
+            self.machines |= other.machines
+            for topic, send in other.sent.items():
+                self.sent.setdefault(topic, send)
+            for topic, trigger in other.awaited.items():
+                self.awaited.setdefault(topic, trigger)
+            self.complete = self.complete and other.complete
+        return self
+
+
+def check_events(used: Iterable[Declaration], context: Context) -> None:
+    """Check the events of all machines of the system."""
+    before = context.known.exchanges
+    found: dict[Declaration | None, Exchange] = {}
+    nodes = [node for node in used if isinstance(node, (StateMachine, Member, Swarm))]
+    machines = [node for node in nodes if isinstance(node, StateMachine)]
+    members = [node for node in nodes if isinstance(node, Member)]
+    swarms = [node for node in nodes if isinstance(node, Swarm)]
+    for machine in machines:
+        found[machine] = before.get(machine) or _of_machine(machine, context)
+    for member in members:
+        found[member] = before.get(member) or _of_member(member, found, context)
+    for swarm in swarms:
+        found[swarm] = before.get(swarm) or _of_swarm(swarm, found, context)
+    context.known.exchanges = found
+    groups = [(found[swarm], found[swarm]) for swarm in swarms]
+    in_swarms: set[StateMachine | None] = set().union(*(group.machines for group, _ in groups))
+    alone = [found[machine] for machine in machines if machine not in in_swarms]
+    if alone:
+        everyone = Exchange().add(found[machine] for machine in machines)
+        groups.append((Exchange().add(alone), everyone))
+    _check_swarm_events(groups, context)
+    _check_own_events([found[member] for member in members], context)
+
+
+def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Context) -> None:
+    """Check the swarm events of the first of each two exchanges over the second."""
+    unhandled: dict[Send, list[str]] = {}
+    unsent: dict[EventTrigger, list[str]] = {}
+    for judged, known in groups:
+        if not known.complete:
+            continue
+        for topic, send in judged.sent.items():
+            if _is_swarm_event(send) and topic not in known.awaited:
+                unhandled.setdefault(send, []).append(known.name)
+        for topic, trigger in judged.awaited.items():
+            if topic in known.sent or isinstance(trigger, MonitorTrigger):
+                continue
+            if _is_swarm_event(trigger):
+                unsent.setdefault(trigger, []).append(known.name)
+    for send, names in unhandled.items():
+        context.report.report(
+            "unhandled-event",
+            send.event.span,
+            where=_where("swarm", names),
+            name=send.event.name,
+            help=f"add `on {send.event.name} -> ...` to a state of a machine that should react",
+        )
+    if not context.report.wants("unsent-event"):
+        return
+    for trigger, names in unsent.items():
+        context.report.report(
+            "unsent-event",
+            trigger.span,
+            where=_where("swarm", names),
+            name=trigger.event.name,
+            help=f"add `send {trigger.event.name}` to an effect, unless an operator sends it",
+        )
+
+
+def _check_own_events(members: list[Exchange], context: Context) -> None:
+    """An event of the robot that a member sends reaches no other member.
+
+    That is said where another one waits for it: where nobody does, it is meant for a node
+    outside of the model.
+    """
+    senders: dict[str, list[Exchange]] = {}
+    hearing: dict[str, EventTrigger | MonitorTrigger] = {}
+    for member in members:
+        for topic in member.sent:
+            senders.setdefault(topic, []).append(member)
+        for topic, trigger in member.awaited.items():
+            hearing.setdefault(topic, trigger)
+    for topic, own in senders.items():
+        send = own[0].sent[topic]
+        if _is_swarm_event(send) or topic not in hearing:
+            continue
+        if any(topic in member.awaited or not member.complete for member in own):
+            continue
+        context.report.report(
+            "unhandled-event",
+            send.event.span,
+            where=_where("member", [member.name for member in own]),
+            name=send.event.name,
+            related=(Label(hearing[topic].span, "this waits in another member"),),
+            help=f"as `swarm event {send.event.name}` it is heard by the other members",
+        )
+
+
+def _is_swarm_event(node: Send | EventTrigger) -> bool:
+    return node.event.target is not None and node.event.target.swarm
+
+
+def _where(kind: str, names: list[str]) -> str:
+    plural = "s" if len(names) > 1 else ""
+    return f" in {kind}{plural} {listed(names, 'and')}" if all(names) else ""
+
+
+def _of_machine(machine: StateMachine, context: Context) -> Exchange:
+    """What one machine sends and waits for."""
+    found = Exchange(machines={machine}, complete=machine not in context.damaged)
+    kinds: tuple[type[Send | EventTrigger | MonitorTrigger], ...]
+    kinds = (Send, EventTrigger, MonitorTrigger)
+    nodes = (node for kind in kinds for node in nodes_of(machine, kind))
+    for node in sorted(nodes, key=lambda node: node.span.start):
+        match node:
+            case Send(event=Ref(target=None)) | EventTrigger(event=Ref(target=None)):
+                found.complete = False
+            case Send(event=Ref(target=Event() as event)):
+                found.sent.setdefault(heard_on(event), node)
+            case EventTrigger() | MonitorTrigger():
+                source = awaited(node)
+                assert source is not None
+                found.awaited.setdefault(heard_on(source), node)
+    return found
+
+
+def _of_member(
+    member: Member, known: Mapping[Declaration | None, Exchange], context: Context
+) -> Exchange:
+    """What the machines of a member send and wait for."""
+    machines = _machines(member, context)
+    return Exchange(str(member.name)).add(known.get(machine) for machine in machines)
+
+
+def _of_swarm(
+    swarm: Swarm, known: Mapping[Declaration | None, Exchange], context: Context
+) -> Exchange:
+    """What the members of a swarm send and wait for."""
+    roles = [item for item in swarm.items if isinstance(item, Role)]
+    found = Exchange(str(swarm.name), complete=swarm not in context.damaged)
+    return found.add(known.get(role.member.target) for role in roles)
+
+
+def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]:
+    """The behaviours of a member and its parts, and the machines that these reuse.
+
+    None stands for what may be missing.
+    """
+    ahead = deque(_behaviors(member, context))
+    seen = set()
+    while ahead:
+        machine = ahead.popleft()
+        if machine in seen:
+            continue
+        seen.add(machine)
+        yield machine
+        for state in nodes_of(machine, State) if machine is not None else ():
+            if state.machine is not None:
+                ahead.append(state.machine.target)
+
+
+def _behaviors(member: Member, context: Context) -> Iterator[StateMachine | None]:
+    parts = [part.component.target for part in all_items(member, Part)]
+    owners: list[Member | Component | None] = [member, *parts]
+    for owner in owners:
+        for each in lineage(owner) if owner is not None else ():
+            if each in context.damaged or (each.base is not None and each.base.target is None):
+                yield None
+        for use in all_items(owner, BehaviorUse) if owner is not None else ():
+            yield use.machine.target
+        if owner is None:
+            yield None

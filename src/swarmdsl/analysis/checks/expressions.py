@@ -1,0 +1,124 @@
+"""Types of guards, effects, delays and values in a state machine."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.activities import check_arguments
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.enums import check_first_value
+from swarmdsl.analysis.checks.guard_satisfiability import guard_condition
+from swarmdsl.analysis.checks.interfaces import check_graph_name
+from swarmdsl.analysis.types import Typing, assignable
+from swarmdsl.syntax.ast import (
+    Assignment,
+    Branch,
+    Effect,
+    Entry,
+    EventTrigger,
+    Exit,
+    Expression,
+    ExpressionTree,
+    MessageType,
+    MonitorTrigger,
+    OperatorUse,
+    Param,
+    Send,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Variable,
+    nodes_of,
+)
+from swarmdsl.syntax.types import BOOL, DURATION, Named
+
+
+def check_expressions(machine: StateMachine, context: Context) -> None:
+    """Check every expression of a machine but those of activities.
+
+    The conditions that its guards are become known with their types.
+    """
+    for param in nodes_of(machine, Param):
+        context.check_default(param, param.default)
+    for variable in nodes_of(machine, Variable):
+        context.check_default(variable, variable.initial)
+        check_first_value(variable, context)
+    for time in nodes_of(machine, TimeTrigger):
+        _check_delay(time.delay, context)
+    for monitor in nodes_of(machine, MonitorTrigger):
+        check_graph_name(monitor.topic, "a topic", context)
+        context.check_kind(monitor.type, MessageType)
+    for transition in nodes_of(machine, Transition):
+        if transition.guard is None and not transition.effects:
+            continue
+        triggers = transition.triggers
+        events = [t for t in triggers if isinstance(t, (EventTrigger, MonitorTrigger))]
+        all_events = events and len(events) == len(triggers)
+        typing = context.with_event(events) if all_events else context.typing
+        _check_guard(transition, typing, context)
+        _check_effects(transition.effects, typing, context)
+    for branch in nodes_of(machine, Branch):
+        _check_guard(branch, context.typing, context)
+        _check_effects(branch.effects, context.typing, context)
+    for entry in nodes_of(machine, Entry):
+        _check_effects(entry.effects, context.typing, context)
+    for exit_ in nodes_of(machine, Exit):
+        _check_effects(exit_.effects, context.typing, context)
+
+
+def _check_guard(item: Transition | Branch, typing: Typing, context: Context) -> None:
+    """Check the type of a guard; without a mistake it is a condition."""
+    tree = item.guard.tree if item.guard is not None else None
+    if tree is not None and typing.expect(tree, BOOL):
+        context.conditions[item] = guard_condition(tree, typing)
+
+
+def _check_delay(delay: Expression, context: Context) -> None:
+    context.expect(delay, DURATION, context.typing)
+    if delay.tree is not None and _negative(delay.tree, context.typing):
+        context.report.report("negative-delay", delay.span)
+    elif delay.tree is not None and _zero(delay.tree, context.typing):
+        context.report.report(
+            "zero-delay",
+            delay.span,
+            help="give it a length; `on done` of a state that does nothing is at once",
+        )
+
+
+def _negative(delay: ExpressionTree, typing: Typing) -> bool:
+    """Whether a delay is below zero, also that of a param: params of delays are not."""
+    value = typing.folding.value(delay)
+    if isinstance(value, (int, float)):
+        return value < 0
+    return isinstance(delay, OperatorUse) and delay.operator == "-" and len(delay.operands) == 1
+
+
+def _zero(delay: ExpressionTree, typing: Typing) -> bool:
+    """Whether a delay is nothing; a number is none, which is reported as such."""
+    return typing.folding.value(delay) == 0 and typing.infer(delay) == DURATION
+
+
+def _check_effects(effects: list[Effect], typing: Typing, context: Context) -> None:
+    for effect in effects:
+        match effect:
+            case Assignment():
+                _check_assignment(effect, typing, context)
+            case Send():
+                context.check_repeated((argument.name for argument in effect.arguments), "field")
+                event = effect.event.target
+                type_ = event.type.type if event is not None else None
+                fields = typing.interfaces.fields(type_) if isinstance(type_, Named) else None
+                check_arguments(effect.arguments, fields, f"`{type_}`", typing)
+
+
+def _check_assignment(effect: Assignment, typing: Typing, context: Context) -> None:
+    target = effect.target.tree
+    if target is None:
+        return
+    if not assignable(target):
+        context.report.report(
+            "not-assignable",
+            effect.target.span,
+            text=effect.target.span.text,
+            help="only variables (`var name : Type`) and their fields can be assigned to",
+        )
+        return
+    typing.expect(effect.value.tree, typing.infer(target))

@@ -1,0 +1,221 @@
+"""Events and functions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.event_topics import heard_on, topic_of
+from swarmdsl.analysis.resolve.scopes import kind_of
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.graphs import cycles
+from swarmdsl.project.loader import File
+from swarmdsl.project.rosidl import standard
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Communication,
+    Declaration,
+    Event,
+    Field,
+    Function,
+    FunctionPort,
+    Interface,
+    MessageType,
+    MonitorTrigger,
+    Param,
+    Port,
+    ServiceType,
+    StateMachine,
+    StructType,
+    TypeRef,
+    Variable,
+    Word,
+    by_class,
+    nodes_of,
+)
+from swarmdsl.syntax.types import Array, Named
+
+# Relative, absolute or private; parts with a letter (ROS 2: or `_`) first.
+_GRAPH_NAME = re.compile(r"[~/]?/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
+# What holds a value.
+_VALUES: tuple[type[Field | Param | Port | Variable], ...] = (Field, Param, Port, Variable)
+
+
+def check_message_cycles(context: Context) -> None:
+    """No message contains itself, in an array or through others: ROS cannot send it."""
+    messages = {
+        type_: node.fields
+        for type_, node in context.interfaces.declared.items()
+        if isinstance(node, (StructType, MessageType))
+    }
+
+    def inside(type_: Named) -> Iterator[tuple[Field, Named]]:
+        for field in messages[type_]:
+            element = field.type.type
+            if isinstance(element, Array):
+                element = element.element
+            if isinstance(element, Named) and element in messages:
+                yield field, element
+
+    for type_, fields in cycles(messages, inside):
+        *way, last = fields
+        context.report.report(
+            "type-cycle",
+            last.type.span,
+            name=type_.name,
+            related=tuple(Label(field.type.span, "by way of this field") for field in way),
+        )
+
+
+def check_values(declaration: Declaration, context: Context) -> None:
+    """A value is no service and no action."""
+    found = by_class(declaration)
+    for node in (node for kind in _VALUES for node in found.get(kind, ())):
+        type_ = node.type.type
+        element = type_.element if isinstance(type_, Array) else type_
+        known = context.interfaces.get(element) if isinstance(element, Named) else None
+        if isinstance(known, (ServiceType, ActionType)):
+            context.check_kind(node.type, MessageType)
+
+
+def check_known(declaration: Declaration, context: Context) -> None:
+    """An interface of a package that is known exists; nearly the name of one is a slip.
+
+    Of what nothing describes only who asks is told: it may be on the robot.
+    """
+    for node in nodes_of(declaration, TypeRef):
+        element = node.type.element if isinstance(node.type, Array) else node.type
+        if not isinstance(element, Named) or context.interfaces.get(element) is not None:
+            continue
+        similar = context.interfaces.similar(element)
+        if similar is not None or context.interfaces.missing(element):
+            help_ = f"did you mean `{similar}`?" if similar is not None else None
+            context.report.report("unknown-interface", node.span, name=element, help=help_)
+        elif context.report.wants("undescribed-interface"):
+            context.report.report(
+                "undescribed-interface",
+                node.span,
+                name=element,
+                notes=(f"a workspace needs package `{element.package}`, from wherever it comes",),
+                help='describe it in the model, or `import ros "FOLDER"`, that of its package',
+            )
+
+
+def check_standard(declared: Interface, context: Context) -> None:
+    """What has the name of an interface that ROS comes with is described as there.
+
+    Where ROS 1 and ROS 2 differ, either will do.
+    """
+    package, _, name = declared.name.rpartition("/")
+    standard_one = context.interfaces.standard(Named(package, name), type(declared))
+    if standard_one is None:
+        return
+    own = [_shape(field) for field in _fields(declared)]
+    versions = [
+        [field for field in _fields(standard_one) if standard.only_in(field) in (None, version)]
+        for version in (1, 2)
+    ]
+    if any(own == [_shape(field) for field in fields] for fields in versions):
+        return
+    shown = listed([f"{field.name} : {field.type.type}" for field in versions[1]], "and")
+    context.report.report(
+        "other-than-standard",
+        declared.name.span,
+        name=declared.name,
+        help=f"that has {shown or 'no field'}: leave this out, or give it another name",
+    )
+
+
+def _fields(interface: Interface) -> list[Field]:
+    match interface:
+        case MessageType(fields=fields):
+            return fields
+        case ServiceType(request=request, response=response):
+            return [*request, *response]
+        case ActionType(goal=goal, result=result, feedback=feedback):
+            return [*goal, *result, *feedback]
+    return []
+
+
+def _shape(field: Field) -> tuple[str, str]:
+    """Its name and type; a time and a duration are messages in ROS 2."""
+    written = str(field.type.type).replace("builtin_interfaces/", "").lower()
+    return str(field.name), written
+
+
+def check_event(event: Event, context: Context) -> None:
+    """An event comes with a message, on a topic."""
+    context.check_kind(event.type, MessageType)
+    if event.topic is not None:
+        check_graph_name(event.topic, "a topic", context)
+
+
+def check_graph_name(name: Word, what: str, context: Context) -> None:
+    """A topic, an action or a service has a name that ROS takes (REP 144 and its successors)."""
+    if not _GRAPH_NAME.fullmatch(name):
+        context.report.report(
+            "bad-topic",
+            name.span,
+            name=name,
+            what=what,
+            help="letters, digits and `_`, in parts divided by `/`, each with a letter first",
+        )
+
+
+def check_topics(used: Iterable[tuple[File, Declaration]], report: Diagnostics) -> None:
+    """Two events on one topic, declared or monitored, carry one type of message.
+
+    Those of libraries count first, and what is declared before what is monitored: the
+    mistake is where it can be mended.
+    """
+    pairs = sorted(used, key=lambda pair: not pair[0].library)
+    sources: list[Event | MonitorTrigger] = [node for _, node in pairs if isinstance(node, Event)]
+    for _, machine in pairs:
+        if isinstance(machine, StateMachine):
+            sources += nodes_of(machine, MonitorTrigger)
+    first: dict[str, Event | MonitorTrigger] = {}
+    for source in sources:
+        known = first.setdefault(heard_on(source), source)
+        if None in (known.type.type, source.type.type) or known.type.type == source.type.type:
+            continue
+        report.report(
+            "topic-types",
+            source.type.span,
+            topic=topic_of(source) if isinstance(source, Event) else source.topic,
+            first=known.type.type,
+            second=source.type.type,
+            related=(
+                Label(
+                    known.type.span,
+                    "declared here" if isinstance(known, Event) else "monitored here",
+                ),
+            ),
+            help=f"write `{known.type.type}`, or monitor another topic"
+            if isinstance(source, MonitorTrigger)
+            else 'give one of the events another topic: `on "name"`',
+        )
+
+
+def check_function(function: Function, context: Context) -> None:
+    """A function is called in one way, and its ports carry messages."""
+    calls = [item for item in function.items if isinstance(item, Communication)]
+    if not calls:
+        context.report.report(
+            "unbound-function",
+            function.name.span,
+            name=function.name,
+            help='say how it is called, `action "cmd/name" : package/Type` for instance',
+        )
+    context.check_single([call.span for call in calls], "how the function is called")
+    for item in function.items:
+        match item:
+            case Communication():
+                wanted = ActionType if item.paradigm == "action" else ServiceType
+                check_graph_name(item.name, kind_of(wanted), context)
+                context.check_kind(item.type, wanted)
+            case FunctionPort():
+                check_graph_name(item.topic, "a topic", context)
+                context.check_kind(item.type, MessageType)
+            case Param():
+                context.check_default(item, item.default)

@@ -1,0 +1,175 @@
+"""No name is declared twice where one of the two would be hidden."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar
+
+from swarmdsl.analysis.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.inheritance import all_items, lineage
+from swarmdsl.analysis.resolve.machines import regions, vertices
+from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Component,
+    Declaration,
+    EnumType,
+    EnumValue,
+    Event,
+    Field,
+    Fitness,
+    FitnessInput,
+    Function,
+    Interface,
+    Member,
+    MessageType,
+    Node,
+    Operation,
+    Parallel,
+    Param,
+    Parameter,
+    Part,
+    Port,
+    Region,
+    Role,
+    ServiceType,
+    State,
+    StateMachine,
+    StructType,
+    Swarm,
+    Variable,
+    Vertex,
+    Word,
+    by_class,
+)
+from swarmdsl.syntax.recovery.patched_text import stands_for_nothing
+from swarmdsl.syntax.types import PRIMITIVES
+
+Named = (
+    Declaration
+    | Field
+    | EnumValue
+    | Operation
+    | Parameter
+    | FitnessInput
+    | Param
+    | Port
+    | Part
+    | Variable
+    | Vertex
+    | Region
+    | Role
+)
+
+N = TypeVar("N", bound=Named)
+
+# SCXML's own events start like this (SCXML 1.0, 5.10.1); `done` is a keyword anyway.
+RESERVED_EVENTS = ("error",)
+
+
+def check_names(project: Project, report: Diagnostics) -> None:
+    """Check top-level names across files.
+
+    An interface of ROS that a library describes is the project's own where that does so too.
+    """
+    top_level: dict[Hashable, Declaration] = {}
+    own = own_interfaces(project)
+    for file in project.files:
+        package = file.package
+        for declaration in file.model.declarations:
+            name = str(declaration.name)
+            _check_first((package, name), declaration, top_level, report)
+            if isinstance(declaration, Interface):
+                # `Pose` of package `geo` and `geo/Pose` are one interface.
+                described = interface_name(file, name)
+                if not (only_retells(file) and described in own):
+                    _check_first(described, declaration, top_level, report)
+
+
+def check_names_inside(
+    declaration: Declaration, report: Diagnostics, lost: Collection[str] = ()
+) -> None:
+    """Check all names inside a declaration, and that its own may be used.
+
+    Of the `lost` words, which stand where the text is wrong, those of types are no names.
+    """
+    no_names = set(PRIMITIVES).intersection(lost)
+    if isinstance(declaration, Event) and declaration.name in RESERVED_EVENTS:
+        report.report(
+            "reserved-event-name",
+            declaration.name.span,
+            name=declaration.name,
+            help="SCXML keeps it for errors of its own",
+        )
+    for kind, nodes in by_class(declaration).items():
+        if kind not in _NAMESPACES:
+            continue
+        for among in (names for node in nodes for names in _NAMESPACES[kind](node)):
+            if len(among) < 2 or len({named.name for named in among}) == len(among):
+                continue
+            seen: dict[Hashable, Named] = {}
+            for named in among:
+                if named.name not in no_names:
+                    _check_first(str(named.name), named, seen, report)
+
+
+def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
+    """The named items, inherited ones first, without params that others take the place of."""
+    kinds = (Port, Param, Operation, Part)
+    own = [item for item in owner.items if isinstance(item, kinds)]
+    params = set(all_items(owner, Param))
+    inherited = [
+        item
+        for base in reversed(lineage(owner)[1:])
+        for item in base.items
+        if isinstance(item, kinds) and (item in params or not isinstance(item, Param))
+    ]
+    return [*inherited, *own]
+
+
+def _of(*kinds: type[Named]) -> Callable[[Any], Iterable[Sequence[Named]]]:
+    """The items of these kinds in a node."""
+    return lambda node: ([item for item in node.items if isinstance(item, kinds)],)
+
+
+# The groups of named things in a node whose names must differ.
+_NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
+    StructType: lambda node: (node.fields,),
+    MessageType: lambda node: ([*node.constants, *node.fields],),
+    ServiceType: lambda node: (node.request, node.response),
+    ActionType: lambda node: (node.goal, node.result, node.feedback),
+    Function: _of(Param),
+    Component: lambda node: (_items(node),),
+    Member: lambda node: (_items(node),),
+    EnumType: lambda node: (node.values,),
+    Operation: lambda node: (node.parameters,),
+    Fitness: _of(FitnessInput, Param),
+    Swarm: _of(Role),
+    StateMachine: lambda node: (
+        [item for item in node.items if isinstance(item, (Param, Variable))],
+        vertices(node),
+    ),
+    Parallel: lambda node: (regions(node),),
+    State: lambda node: (vertices(node),),
+    Region: lambda node: (vertices(node),),
+}
+
+
+def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:
+    name: Word = named.name
+    if stands_for_nothing(name):
+        return
+    first = seen.setdefault(key, named)
+    if first is not named:
+        kind, earlier = kind_of(named), kind_of(first)
+        also = "" if kind == earlier else f", as {earlier}"
+        report.report(
+            "duplicate-name",
+            name.span,
+            kind=bare(kind),
+            name=name,
+            related=(Label(first.name.span, f"first declared here{also}"),),
+        )

@@ -1,0 +1,141 @@
+"""Which states a machine can ever be in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.resolve.machines import all_resolved, regions, vertices
+from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.syntax.ast import (
+    Branch,
+    Choice,
+    Container,
+    DoneTrigger,
+    FinalState,
+    History,
+    Parallel,
+    Region,
+    State,
+    StateMachine,
+    Transition,
+    Vertex,
+)
+
+
+def check_reachability(machine: StateMachine, context: Context) -> None:
+    """Report states that no way from the initial state leads to.
+
+    Guards and triggers are taken to be possible. Of states inside each other that are not
+    reached only the outermost is reported. What is wrong already is not reported again: in a
+    container without initial state any may be the first, of two states with one name only one
+    can be meant, and where a name was not resolved it may have meant any state.
+    """
+    if not all_resolved(machine):
+        return
+    outline = context.outline(machine)
+    reached: set[Vertex | Region] = set()
+    work = _initials(machine, outline)
+    while work:
+        state = work.pop()
+        if state in reached:
+            continue
+        reached.add(state)
+        work += _successors(state, outline)
+        outer = outline.container[state]
+        if not isinstance(outer, StateMachine):
+            work.append(outer)  # to be in a state is to be in those around it
+    if reached.issuperset(outline.vertices):
+        return
+    waiting = _waiting(reached, outline)
+    ended = {outline.container[end] for end in reached if isinstance(end, FinalState)}
+    for state in _unreached(machine, reached):
+        context.report.report(
+            "unreachable-state",
+            state.name.span,
+            kind=bare(kind_of(state)),
+            name=state.name,
+            related=tuple(
+                Label(trigger.span, "so this never happens")
+                for trigger in _in_vain(state, waiting, ended, outline)
+            ),
+        )
+
+
+def _initials(container: Container, outline: Outline) -> list[Vertex | Region]:
+    """What is entered with a container: its regions, or its initial state."""
+    initials = outline.initials[container]
+    if not initials:
+        return [*outline.inside[container]]
+    return [item.target.target for item in initials if item.target.target is not None]
+
+
+def _successors(state: Vertex | Region, outline: Outline) -> list[Vertex | Region]:
+    """What a state leads to: what is entered with it, its transitions' targets."""
+    found: list[Vertex | Region] = []
+    arrows: Sequence[Transition | Branch | History] = ()
+    match state:
+        case State() | Parallel():
+            found, arrows = _initials(state, outline), outline.transitions[state]
+        case Region():
+            found = _initials(state, outline)
+        case Choice():
+            arrows = state.branches
+        case History():
+            arrows = [state]
+    targets = [arrow.target.target for arrow in arrows if arrow.target is not None]
+    return found + [target for target in targets if target is not None]
+
+
+# By a final state those that wait for it, by a container those that wait for any of its.
+_Waiting = Mapping[Vertex | Container | None, Sequence[DoneTrigger]]
+
+
+def _waiting(reached: set[Vertex | Region], outline: Outline) -> _Waiting:
+    """The triggers that wait for the end of something, in states that are reached."""
+    found: dict[Vertex | Container | None, list[DoneTrigger]] = {}
+    for owner, transitions in outline.transitions.items():
+        if owner not in reached:
+            continue
+        for transition in transitions:
+            for trigger in transition.triggers:
+                if isinstance(trigger, DoneTrigger):
+                    of = trigger.region.target if trigger.region is not None else owner
+                    end = of if trigger.final is None else trigger.final.target
+                    found.setdefault(end, []).append(trigger)
+    return found
+
+
+def _in_vain(
+    final: Vertex, waiting: _Waiting, ended: set[Container], outline: Outline
+) -> list[DoneTrigger]:
+    """The triggers that wait for a final state, which is not reached.
+
+    `ended` is what has another one that is.
+    A parallel state waits for each of its regions, each for any of its final states.
+    """
+    if not isinstance(final, FinalState):
+        return []
+    container = outline.container[final]
+    found = [*waiting.get(final, ())]
+    if container not in ended:
+        found += waiting.get(container, ())
+        if isinstance(container, Region):
+            found += waiting.get(outline.container[container], ())
+    return sorted(found, key=lambda trigger: trigger.span.start)
+
+
+def _unreached(container: Container, reached: set[Vertex | Region]) -> Iterator[Vertex]:
+    """The outermost states inside that are not reached, of those with one name the first."""
+    for region in regions(container):
+        yield from _unreached(region, reached)
+    names = set()
+    for state in vertices(container):
+        if state in reached:
+            if isinstance(state, (State, Parallel)):
+                yield from _unreached(state, reached)
+        elif state.name not in names:
+            yield state
+        names.add(state.name)

@@ -1,0 +1,257 @@
+"""Order: which transitions of a state, or branches of a choice, are ever taken.
+
+Of several that are enabled the first in the text is taken (SCXML 3.13), and one that needs no
+event before all that wait for one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Mapping, Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.delays import Leaving, check_late, leaves, sooner_one, soonest_of
+from swarmdsl.analysis.checks.guard_satisfiability import certain, condition_of, negated, possible
+from swarmdsl.analysis.checks.livelock import Settling, at_once
+from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.syntax.ast import (
+    Branch,
+    Choice,
+    Container,
+    DoneTrigger,
+    EventTrigger,
+    MonitorTrigger,
+    OutcomeTrigger,
+    Parallel,
+    Ref,
+    Region,
+    State,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    nodes_of,
+)
+
+_AT_ONCE = ("at once",)
+# More guards than people write for one event; what comes after them is not compared with more.
+_MOST_COMPARED = 50
+
+
+def check_order(machine: StateMachine, settling: Settling, context: Context) -> None:
+    """Report what is never taken because something else always comes before it."""
+    outline = context.outline(machine)
+    has_delays = bool(nodes_of(machine, TimeTrigger))
+    # By state what leaves it, or one around it, first: of those around others, which come before.
+    ends: dict[Container, Leaving] = {}
+    for state, transitions in outline.transitions.items():
+        alive = transitions
+        if state in settling.immediate:
+            dead = _check_immediate(state, transitions, settling, context)
+            alive = [each for each in transitions if each not in dead]
+        soonest: Sequence[Leaving] = ()
+        if has_delays:
+            soonest = soonest_of(alive, context)
+            outer = ends.get(_owner(state, outline))
+            if outer is not None:
+                alive = [each for each in alive if not check_late(each, outer, context)]
+            first = [each for each in (outer, *soonest[:1]) if each is not None]
+            if first:
+                ends[state] = min(first, key=lambda each: each[0])
+        _check_transitions(alive, state, soonest, context)
+    for choice in nodes_of(machine, Choice):
+        _check_branches(choice, context)
+
+
+def _check_immediate(
+    state: State | Parallel,
+    transitions: Sequence[Transition],
+    settling: Settling,
+    context: Context,
+) -> set[Transition]:
+    """Report what stands beside the way out that a state takes at once; return all of it.
+
+    Where it is left at once in a circle of such states, that is the mistake.
+    """
+    first = settling.immediate[state][0]
+    if first.target is None:
+        return set()
+    before = transitions[: transitions.index(first)]
+    dead = [
+        *(t for t in before if t.triggers and not any(at_once(each, state) for each in t.triggers)),
+        *transitions[len(before) + 1 :],
+    ]
+    if dead and first not in settling.endless:
+        context.report.report(
+            "transition-never-fires",
+            dead[0].span,
+            related=(
+                Label(first.span, "the state is left by this one as soon as it is entered"),
+                *(Label(other.span, "nor can this one fire") for other in dead[1:]),
+            ),
+            help=f"let `{state.name}` wait before it is left, or remove what it cannot wait for",
+        )
+    return set(dead)
+
+
+def _check_transitions(
+    transitions: Sequence[Transition],
+    state: State | Parallel,
+    soonest: Sequence[Leaving],
+    context: Context,
+) -> None:
+    if len(transitions) == 1 and len(transitions[0].triggers) < 2:
+        return  # nothing to compare it with
+    earlier: dict[Hashable, list[Transition]] = {}
+    for transition in transitions:
+        keys = [_keys(trigger, state) for trigger in transition.triggers] or [[_AT_ONCE]]
+        if len(keys) > 1:
+            _check_repeated(transition.triggers, keys, context)
+        blockers = [
+            _covering(transition, _all(earlier, each), context) if earlier else [] for each in keys
+        ]
+        if soonest:
+            for number, trigger in enumerate(transition.triggers):
+                sooner = sooner_one(trigger, transition, soonest, context)
+                blockers[number] = [sooner] if sooner is not None else blockers[number]
+        if all(blockers):
+            _report(transition, blockers[0], context)
+        elif not _decided(transition, context):
+            for each in filter(None, keys):
+                key = each[0]
+                found = earlier.setdefault(key, [])
+                few = len(found) < _MOST_COMPARED or transition.guard is None
+                if few and (key[0] != "after" or leaves(transition)):
+                    found.append(transition)
+
+
+def _check_repeated(
+    triggers: Sequence[Trigger], keys: Sequence[list[tuple[Hashable, ...]]], context: Context
+) -> None:
+    """Report the second of two triggers of one transition that react to the same."""
+    seen: dict[Hashable, Trigger] = {}
+    for trigger, reacts in zip(triggers, keys, strict=False):
+        first = next((seen[key] for key in reacts if key in seen), None)
+        if first is not None:
+            context.report.report(
+                "repeated-trigger",
+                trigger.span,
+                trigger=first.span.text,
+                related=(Label(first.span, "by this"),),
+                help="remove one of the two",
+            )
+        elif reacts:
+            seen[reacts[0]] = trigger
+
+
+def _check_branches(choice: Choice, context: Context) -> None:
+    earlier: list[Branch] = []
+    last: Branch | None = None
+    for branch in choice.branches:
+        if last is not None:
+            context.report.report(
+                "transition-never-fires",
+                branch.span,
+                related=(Label(last.span, "this one is always taken first"),),
+                help="`else` comes last",
+            )
+            continue
+        blockers = _covering(branch, earlier, context)
+        if blockers:
+            _report(branch, blockers, context)
+        elif branch.otherwise:
+            last = branch
+        elif len(earlier) < _MOST_COMPARED and not _decided(branch, context):
+            earlier.append(branch)
+
+
+def _decided(item: Transition | Branch, context: Context) -> bool:
+    """Whether its guard decides nothing, which is reported as such."""
+    return item.guard is not None and certain(item, context) is not None
+
+
+def _covering(
+    item: Transition | Branch, earlier: Sequence[Transition | Branch], context: Context
+) -> list[Transition | Branch]:
+    """Those of the earlier ones of which one is taken whenever this one could be.
+
+    What has no guard is there for what others leave: it is covered by another without one only.
+    """
+    plain = [before for before in earlier if before.guard is None and isinstance(item, Transition)]
+    if plain or item.guard is None:
+        return list(plain[:1])
+    if certain(item, context) is False:
+        return []
+    # What holds comes last, which is looked at first: it leaves least of the values.
+    holds = condition_of(item, context)
+    passed = {before: negated(condition_of(before, context)) for before in earlier}
+    if not passed:
+        return []
+    for before, condition in passed.items():
+        if not possible([condition, holds]):
+            return [before]
+    if possible([*passed.values(), holds]):
+        return []
+    for before in earlier:
+        others = [condition for each, condition in passed.items() if each is not before]
+        if not possible([*others, holds]):
+            del passed[before]
+    return list(passed)
+
+
+def _report(
+    item: Transition | Branch, blockers: Sequence[Transition | Branch], context: Context
+) -> None:
+    guards = [blocker.guard for blocker in blockers if blocker.guard is not None]
+    if not guards:
+        related = [Label(blockers[0].span, "this one is always taken first")]
+        help_ = "give the first one a guard, or remove one of the two"
+    else:
+        message = "whenever the guard holds, this one does, and is looked at first"
+        if len(guards) > 1:
+            message = "whenever the guard holds, one of these does, and is looked at first"
+        elif item.guard is not None and _words(guards[0].span.text) == _words(item.guard.span.text):
+            message = "the same guard holds here first"
+        related = [
+            Label(guards[0].span, message),
+            *(Label(guard.span, "or this one") for guard in guards[1:]),
+        ]
+        help_ = "change one of the guards, their order, or remove a transition"
+    context.report.report("transition-never-fires", item.span, related=tuple(related), help=help_)
+
+
+def _words(text: str) -> str:
+    return "".join(text.split())
+
+
+def _all(
+    earlier: Mapping[Hashable, list[Transition]], keys: list[tuple[Hashable, ...]]
+) -> list[Transition]:
+    found = {transition: None for key in keys for transition in earlier.get(key, ())}
+    return sorted(found, key=lambda transition: transition.span.start) if found else []
+
+
+def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...]]:
+    """What a trigger reacts to, first itself, then the more general triggers that cover it."""
+    if at_once(trigger, state):
+        return [_AT_ONCE]
+    match trigger:
+        case EventTrigger() | MonitorTrigger():
+            event = awaited(trigger)
+            return [("event", heard_on(event), event.type.type)] if event is not None else []
+        case OutcomeTrigger(outcome=outcome):
+            return [("outcome", outcome)]
+        case DoneTrigger(region=Ref(target=None)) | DoneTrigger(final=Ref(target=None)):
+            return []
+        case DoneTrigger(region=region, final=final):
+            whole = ("done", region.name if region else None, None)
+            return [whole] if final is None else [(*whole[:2], final.name), whole]
+        case TimeTrigger(delay=delay):
+            return [("after", delay.span.text)]
+
+
+def _owner(state: State | Parallel, outline: Outline) -> Container:
+    """The state that another one is in, or the machine."""
+    container = outline.container[state]
+    return outline.container[container] if isinstance(container, Region) else container

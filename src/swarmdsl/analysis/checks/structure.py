@@ -1,0 +1,198 @@
+"""What stands in a state machine: initial and final states, regions, contents of states."""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of, negated, possible
+from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.resolve.machines import all_resolved, content, regions
+from swarmdsl.base.diagnostics.collector import Label
+from swarmdsl.syntax.ast import (
+    Activity,
+    Choice,
+    Container,
+    FinalState,
+    History,
+    NameUse,
+    Parallel,
+    Param,
+    Ref,
+    Region,
+    State,
+    StateMachine,
+    nodes_of,
+)
+
+
+def check_structure(machine: StateMachine, context: Context) -> None:
+    """Check a machine and all its states."""
+    if not machine.endless and not completes(machine, context):
+        context.report.report(
+            "missing-final",
+            machine.name.span,
+            owner=f"state machine `{machine.name}`",
+            help="add `final Done`, or write `endless statemachine` if it never ends",
+        )
+    outline = context.outline(machine)
+    _check_initial(machine, f"state machine `{machine.name}`", outline, context)
+    for region in nodes_of(machine, Region):
+        _check_initial(region, f"region `{region.name}`", outline, context)
+    for parallel in nodes_of(machine, Parallel):
+        if not regions(parallel):
+            context.report.report(
+                "too-few-regions",
+                parallel.name.span,
+                name=parallel.name,
+                help="add `region Name { ... }`; one without is a plain `state`",
+            )
+    for state in nodes_of(machine, State):
+        _check_state(state, outline, context)
+    for choice in nodes_of(machine, Choice):
+        _check_choice(choice, context)
+    _check_levels(outline, context)
+
+
+def _check_state(state: State, outline: Outline, context: Context) -> None:
+    activities = [item for item in state.items if isinstance(item, Activity)]
+    context.check_single([item.span for item in activities], "the activity")
+    contents = []
+    if state.machine is not None:
+        contents.append("the content of another machine")
+    if outline.inside[state]:
+        contents.append("states of its own")
+        if state.machine is None:
+            _check_initial(state, f"composite state `{state.name}`", outline, context)
+    else:
+        for initial in outline.initials[state]:
+            context.report.report(
+                "mixed-content",
+                initial.span,
+                state=state.name,
+                content="an initial state and no states",
+                help="add the states, or remove this line",
+            )
+    if activities:
+        contents.append("an activity")
+    if len(contents) > 1:
+        context.report.report(
+            "mixed-content",
+            state.name.span,
+            state=state.name,
+            content=" and ".join(contents),
+            help="keep one of them; put the rest into a state of its own",
+        )
+    if state.machine is not None and state.machine.target is not None:
+        _check_reuse(state, state.machine.target, context)
+
+
+def _check_levels(outline: Outline, context: Context) -> None:
+    """Check that an internal transition leads inward and a history has something to resume."""
+    for history in nodes_of(outline.machine, History):
+        if outline.container[history] is outline.machine:
+            context.report.report(
+                "misplaced-history",
+                history.name.span,
+                name=history.name,
+                fault="stands outside of any composite state",
+                help="put it into the state that it leads back into",
+            )
+    for state, transitions in outline.transitions.items():
+        for item in transitions:
+            target = item.target.target if item.target is not None else None
+            if item.target is None or target is None or not item.internal:
+                continue
+            if state not in outline.around(target):
+                context.report.report(
+                    "misplaced-internal",
+                    item.target.span,
+                    state=state.name,
+                    target=target.name,
+                    help="it leads to a state inside its own, or has no target at all",
+                )
+
+
+def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
+    """Check that the params of a reused machine are given, or have a default."""
+    assert state.machine is not None
+    params = {str(item.name): item for item in machine.items if isinstance(item, Param)}
+    context.check_repeated((binding.name for binding in state.bindings), "param")
+    given = {str(binding.name) for binding in state.bindings}
+    for binding in state.bindings:
+        param = params.get(str(binding.name))
+        if param is None:
+            owner = f"state machine `{machine.name}`"
+            context.report_unknown_param(binding.name, owner, params)
+        else:
+            context.expect(binding.value, param.type.type, context.typing)
+    _check_foreign_params(state.machine, machine, context)
+    for param in params.values():
+        if param.default is None and str(param.name) not in given:
+            context.report.report(
+                "missing-value",
+                state.machine.span,
+                name=param.name,
+                machine=machine.name,
+                related=(Label(param.name.span, "declared here, without a default"),),
+                help=f"bind it: `{state.machine.name}({param.name} = ...)`",
+            )
+
+
+def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context: Context) -> None:
+    """Check that a reused machine reads no param of a member: the one around has no such."""
+    own = {item for item in machine.items if isinstance(item, Param)}
+    for use in nodes_of(machine, NameUse):
+        if isinstance(use.target, Param) and use.target not in own:
+            context.report.report(
+                "missing-value",
+                ref.span,
+                name=use.name,
+                machine=machine.name,
+                related=(Label(use.span, "this is a param of a member"),),
+                help=f"declare `param {use.name}` in `{machine.name}` and bind it here",
+            )
+            return
+
+
+def _check_initial(container: Container, owner: str, outline: Outline, context: Context) -> None:
+    found = outline.initials[container]
+    if not found:
+        # Best one that is active for a while: a history has nothing to resume at the start.
+        states = [state for state in outline.inside[container] if not isinstance(state, History)]
+        inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
+        context.report.report(
+            "missing-initial",
+            container.name.span,
+            owner=owner,
+            help=f"add `initial {inside[0].name}`, for instance"
+            if inside
+            else "add a state, and `initial` with its name",
+        )
+    context.check_single([item.span for item in found], "the initial state")
+
+
+def _check_choice(choice: Choice, context: Context) -> None:
+    """A choice can always be left: by `else`, or since one of its guards always holds."""
+    conditions = [condition_of(branch, context) for branch in choice.branches]
+    otherwise = any(branch.otherwise for branch in choice.branches)
+    if not otherwise and possible(negated(each) for each in conditions):
+        context.report.report(
+            "choice-without-else",
+            choice.name.span,
+            name=choice.name,
+            help="add `else -> ...`",
+        )
+
+
+def completes(state: Container, context: Context) -> bool:
+    """Whether a state can become done: each region, or itself, has a final state.
+
+    Where something is missing it may be one: a name that was not resolved can mean it, and
+    text that could not be parsed declare it.
+    """
+    if isinstance(state, Parallel):
+        return all(completes(region, context) for region in regions(state))
+    inside = content(state)
+    if inside is None or inside in context.damaged:
+        return True
+    final = any(isinstance(item, FinalState) for item in inside.items)
+    return final or not all_resolved(inside)

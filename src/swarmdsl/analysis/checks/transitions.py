@@ -1,0 +1,179 @@
+"""Transitions: what triggers them, and where they may lead."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.structure import completes
+from swarmdsl.analysis.resolve.machines import regions
+from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.base.diagnostics.collector import Label, listed
+from swarmdsl.syntax.ast import (
+    Activity,
+    Branch,
+    Choice,
+    Communication,
+    DoneTrigger,
+    Function,
+    OutcomeTrigger,
+    Parallel,
+    Region,
+    State,
+    StateMachine,
+    Transition,
+    Trigger,
+    Vertex,
+    nodes_of,
+)
+
+
+def check_transitions(machine: StateMachine, context: Context) -> None:
+    """Check the transitions of all states of a machine."""
+    for state, transitions in context.outline(machine).transitions.items():
+        for transition in transitions:
+            for trigger in transition.triggers:
+                _check_trigger(trigger, state, context)
+        if isinstance(state, State):
+            _check_outcomes(state, transitions, context)
+            _check_preempted(state, transitions, context)
+    _check_targets(machine, context)
+
+
+def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) -> None:
+    match trigger:
+        case OutcomeTrigger(outcome=outcome):
+            if not _activities(owner):
+                context.report.report(
+                    "outcome-without-activity",
+                    trigger.span,
+                    state=owner.name,
+                    outcome=outcome,
+                    help="add `do function` to the state, or wait for `done`",
+                )
+        case DoneTrigger(region=region, final=final):
+            of = region.target if region is not None else owner
+            if of is not None and (final is None or final.target is not None):
+                _check_completes(trigger, of, context)
+
+
+def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
+    """A state without content is never done, nor is content without a final state."""
+    simple = isinstance(of, State) and of.machine is None and not _has_states(of)
+    if simple and not _activities(of) and trigger.final is None:
+        return  # a state that does nothing is done at once
+    if not simple and completes(of, context):
+        return
+    help_ = "add a final state to it"
+    related = [Label(of.name.span, "declared here")]
+    if isinstance(of, Parallel):
+        help_ = "a parallel state is done when each of its regions has reached a final state"
+        endless = [region for region in regions(of) if not completes(region, context)]
+        related = [Label(region.name.span, "this region has no final state") for region in endless]
+    elif isinstance(of, State) and of.machine is not None:
+        help_ = f"state machine `{of.machine.name}` has no final state"
+    elif simple:
+        help_ = "`succeeded` and `aborted` are the ends of an activity"
+    context.report.report(
+        "done-without-content",
+        trigger.span,
+        owner=f"{bare(kind_of(of))} `{of.name}`",
+        related=tuple(related),
+        help=help_,
+    )
+
+
+def _check_outcomes(state: State, transitions: Sequence[Transition], context: Context) -> None:
+    """Each end of the activity needs a transition that is taken without condition."""
+    unhandled: list[str] = []
+    guarded: list[Transition] = []
+    for outcome in ("succeeded", "aborted"):
+        handled = [
+            transition
+            for transition in transitions
+            for trigger in transition.triggers
+            if isinstance(trigger, OutcomeTrigger) and trigger.outcome == outcome
+        ]
+        if all(transition.guard is not None for transition in handled):
+            unhandled.append(outcome)
+            guarded += handled
+    # Which of its contents a state keeps is to be decided first.
+    if not unhandled or state.machine is not None or _has_states(state):
+        return
+    for activity in _activities(state)[:1]:
+        context.report.report(
+            "unhandled-outcome",
+            activity.function.span,
+            outcomes=f"outcome{'s' * (len(unhandled) - 1)} {listed(unhandled, 'and')}",
+            function=activity.function.name,
+            related=tuple(
+                Label(transition.span, "only while its guard holds") for transition in guarded
+            ),
+            help=f"add {listed([f'on {outcome} -> ...' for outcome in unhandled], 'and')} "
+            f"to state `{state.name}`",
+        )
+
+
+def _check_preempted(state: State, transitions: Sequence[Transition], context: Context) -> None:
+    """What calls a service is never preempted: a request cannot be taken back, by no side."""
+    calls = [call for each in _activities(state) if (call := _call_of(each)) is not None]
+    if not calls or calls[0].paradigm != "service":
+        return
+    for transition in transitions:
+        if transition.triggers and all(
+            isinstance(trigger, OutcomeTrigger) and trigger.outcome == "preempted"
+            for trigger in transition.triggers
+        ):
+            context.report.report(
+                "transition-never-fires",
+                transition.span,
+                related=(Label(calls[0].span, "a service ends as `succeeded` or `aborted`"),),
+                help="remove it: only what calls an action can be preempted",
+            )
+
+
+def _call_of(activity: Activity) -> Communication | None:
+    """How the function that is called is reached; None for what is not known or an operation."""
+    function = activity.function.target
+    items = function.items if isinstance(function, Function) else ()
+    return next((item for item in items if isinstance(item, Communication)), None)
+
+
+def _check_targets(machine: StateMachine, context: Context) -> None:
+    """A transition cannot lead from one region into another of the same parallel state."""
+    if not nodes_of(machine, Parallel):
+        return
+    outline = context.outline(machine)
+    arrows: list[tuple[Vertex, Transition | Branch]] = [
+        (state, transition) for state, all_ in outline.transitions.items() for transition in all_
+    ]
+    choices = nodes_of(machine, Choice)
+    arrows += [(choice, branch) for choice in choices for branch in choice.branches]
+    for source, arrow in arrows:
+        target = arrow.target.target if arrow.target is not None else None
+        if arrow.target is None or target is None:
+            continue
+        ways = zip(_regions_around(source, outline), _regions_around(target, outline), strict=False)
+        for here, there in ways:
+            if here is not there and outline.container[here] is outline.container[there]:
+                context.report.report(
+                    "target-outside",
+                    arrow.target.span,
+                    target=arrow.target.name,
+                    reason=f"it is in region `{there.name}`, the transition in `{here.name}`",
+                    related=(Label(target.name.span, "declared here"),),
+                )
+
+
+def _regions_around(vertex: Vertex, outline: Outline) -> list[Region]:
+    """The regions that a state is in, the outermost first."""
+    return [each for each in outline.around(vertex) if isinstance(each, Region)][::-1]
+
+
+def _activities(state: State | Parallel | Region) -> list[Activity]:
+    return [item for item in state.items if isinstance(item, Activity)]
+
+
+def _has_states(state: State) -> bool:
+    return any(isinstance(item, Vertex) for item in state.items)

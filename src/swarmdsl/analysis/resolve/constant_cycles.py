@@ -1,0 +1,31 @@
+"""Constants that are defined by themselves: the circle is reported and opened."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.graphs import cycles
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import Constant, NameUse, nodes_of
+
+
+def open_cycles(project: Project, report: Diagnostics) -> None:
+    """Report each circle of constants; the use that closes it means nothing from then on."""
+    constants = [node for _, node in project.declarations() if isinstance(node, Constant)]
+
+    def used(constant: Constant) -> Iterator[tuple[NameUse, Constant]]:
+        for node in nodes_of(constant, NameUse):
+            if isinstance(node.target, Constant):
+                yield node, node.target
+
+    for constant, uses in cycles(constants, used):
+        *way, last = uses
+        report.report(
+            "constant-cycle",
+            last.span,
+            name=constant.name,
+            related=tuple(Label(use.span, "by way of this") for use in way),
+            help="write the value of one of them" if way else "write its value",
+        )
+        last.target = None

@@ -1,0 +1,330 @@
+"""Names to what they mean, across files.
+
+Sets `Ref.target`, `TypeRef.type`, `NameUse.target` and `Activity.owner`. What a name does not
+mean is reported and stays None; later phases pass over it without a word.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import cache
+from typing import Any, TypeVar
+
+from swarmdsl.analysis.resolve.constant_cycles import open_cycles
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.machines import link_machine
+from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, bare, kind_of, report_unresolved
+from swarmdsl.analysis.resolve.types import TypeLinker
+from swarmdsl.analysis.resolve.values import ValueLinker, Values
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.suggest import closest
+from swarmdsl.project.loader import File, Project
+from swarmdsl.syntax.ast import (
+    Activity,
+    BehaviorUse,
+    Component,
+    Connector,
+    CountRange,
+    EnumType,
+    Environment,
+    Event,
+    EventTrigger,
+    Expression,
+    Fitness,
+    FitnessInput,
+    Function,
+    Member,
+    Node,
+    Operation,
+    Optimization,
+    Param,
+    ParamRange,
+    Part,
+    Port,
+    PortRef,
+    Ref,
+    Role,
+    State,
+    StateMachine,
+    Swarm,
+    TopLevel,
+    TypeRef,
+    Variable,
+    nodes_of,
+    references,
+)
+
+_TOP_LEVEL: dict[str, type[Any]] = {
+    kind.__name__: kind
+    for kind in (StateMachine, Component, Member, Environment, Event, Function, Fitness, Swarm)
+}
+
+K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
+# What the ends of an activity are called elsewhere: in SMACH, in YASMIN, in behaviour trees.
+_OTHER_OUTCOMES = {
+    **dict.fromkeys(("success", "succeed", "finished", "complete", "completed", "ok"), "succeeded"),
+    **dict.fromkeys(("failure", "failed", "fail", "error"), "aborted"),
+    **dict.fromkeys(("preempt", "cancel", "canceled", "cancelled"), "preempted"),
+}
+
+
+def link(project: Project, report: Diagnostics) -> None:
+    """Resolve every name of every file."""
+    linker = Linker(project, Scopes(project))
+    owners = [*project.declarations(), *project.optimizations()]
+    for file, owner in owners:
+        linker.link_outside(file, owner, report)
+    linker.gather(owner for _, owner in owners)
+    for file, owner in owners:
+        linker.link_inside(file, owner, report)
+    open_cycles(project, report)
+
+
+class Linker:
+    """Links the declarations of a project, all of them or some.
+
+    First the names of other declarations are resolved, in all that are to be linked, then what
+    is known of the members is gathered, and then the names of what is inside of declarations.
+    """
+
+    def __init__(self, project: Project, scopes: Scopes) -> None:
+        self._scopes = scopes
+        self._types = TypeLinker(scopes, project)
+        self._enums = {
+            node.type: node
+            for _, node in project.declarations()
+            if isinstance(node, EnumType) and node.type is not None
+        }
+        self._params: Mapping[StateMachine, dict[str, Param]] = {}
+        self._parts: Mapping[StateMachine, dict[str, list[Part]]] = {}
+
+    def link_outside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
+        """Resolve the names of types and of other declarations."""
+        for type_ in nodes_of(owner, TypeRef):
+            self._types.link(type_, file, report)
+        _link_top_level(owner, self._scopes[file], report)
+
+    def gather(self, owners: Iterable[TopLevel]) -> None:
+        """Learn from members and components what the machines that they run can name."""
+        runners = [owner for owner in owners if isinstance(owner, (Member, Component))]
+        self._params = _params_of_members(runners)
+        self._parts = _parts_of_members(runners)
+
+    def replace(self, machine: StateMachine, other: StateMachine) -> None:
+        """Let another machine name what one can that members run."""
+        self._params = {**self._params, other: self._params.get(machine, {})}
+        self._parts = {**self._parts, other: self._parts.get(machine, {})}
+
+    def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
+        """Resolve the names of what is inside of a declaration, and of what it leads to."""
+        scope = self._scopes[file]
+        values: Values = {}
+        match owner:
+            case StateMachine():
+                link_machine(owner, scope, report)
+                _link_activities(owner, self._parts.get(owner, {}), scope, report)
+                values = {
+                    **self._params.get(owner, {}),
+                    **_named(owner.items, Param),
+                    **_named(owner.items, Variable),
+                }
+            case Member():
+                _link_member(owner, scope, report)
+                values = _named(all_items(owner, Param), Param)
+            case Fitness():
+                values = {**_named(owner.items, FitnessInput), **_named(owner.items, Param)}
+            case Optimization():
+                _link_optimization(owner, scope, report)
+        if nodes_of(owner, Expression):
+            ValueLinker(scope, self._enums, report).link(owner, values)
+
+
+def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the references in a declaration to others; what is done needs a closer look."""
+    for node, ref in references(owner):
+        kind = _TOP_LEVEL.get(ref.kind)
+        if kind is not None and not isinstance(node, Activity):
+            instead: dict[type[Node], str] = {}
+            if isinstance(node, Part):
+                instead[StateMachine] = f"write `behavior {ref.name}`"
+            if isinstance(node, EventTrigger) and _reports_outcome(ref, scope, report):
+                continue
+            ref.target = scope.resolve(ref.name, ref.span, kind, report, instead=instead)
+
+
+def _reports_outcome(ref: Ref[Event], scope: FileScope, report: Diagnostics) -> bool:
+    """Report what other tools call an end of an activity."""
+    outcome = _OTHER_OUTCOMES.get(ref.name.lower())
+    if outcome is None or ref.name in scope.lost or scope.find(ref.name):
+        return False
+    help_ = f"where an activity ends so, write `{outcome}`"
+    report.report("unresolved-name", ref.span, kind="event", name=ref.name, help=help_)
+    return True
+
+
+def _params_of_members(
+    runners: Iterable[Member | Component],
+) -> Mapping[StateMachine, dict[str, Param]]:
+    """For each machine the params that all members which behave so have in common."""
+    found: dict[StateMachine, dict[str, Param]] = {}
+    for owner in runners:
+        params = _named(all_items(owner, Param), Param)
+        for use in all_items(owner, BehaviorUse):
+            if use.machine.target is not None:
+                common = found.setdefault(use.machine.target, params)
+                found[use.machine.target] = {k: v for k, v in common.items() if k in params}
+    return found
+
+
+def _parts_of_members(
+    runners: Iterable[Member | Component],
+) -> Mapping[StateMachine, dict[str, list[Part]]]:
+    """For each machine the parts by name that all members which run it have in common."""
+    found: dict[StateMachine, dict[str, list[Part]]] = {}
+    for owner in runners:
+        parts = _named(all_items(owner, Part), Part)
+        for machine in machines_of(owner):
+            common = found.setdefault(machine, {name: [] for name in parts})
+            found[machine] = {k: [*v, parts[k]] for k, v in common.items() if k in parts}
+    return found
+
+
+def machines_of(runner: Member | Component) -> list[StateMachine]:
+    """The machines that a member runs: its behaviour, and what is reused in it."""
+    work = [use.machine.target for use in all_items(runner, BehaviorUse)]
+    seen: dict[StateMachine, None] = {}
+    while work:
+        machine = work.pop()
+        if machine is None or machine in seen:
+            continue
+        seen[machine] = None
+        states = nodes_of(machine, State)
+        work += [state.machine.target for state in states if state.machine is not None]
+    return list(seen)
+
+
+def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
+    """The items of a kind; of two with one name the first counts."""
+    named: dict[str, K] = {}
+    for item in items:
+        if isinstance(item, kind):
+            named.setdefault(str(item.name), item)
+    return named
+
+
+def _link_activities(
+    machine: StateMachine,
+    parts: Mapping[str, list[Part]],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Resolve what each state does: a function, `part.operation` or `Component.operation`."""
+    for node in nodes_of(machine, Activity):
+        ref = node.function
+        before, _, name = ref.name.rpartition(".")
+        places = parts.get(before, [])
+        node.owner = places[0] if places else scope.one(before, Component)
+        if node.owner is None:
+            part = closest(before, parts)
+            similar = [f"{part}.{name}"] if part else []
+            ref.target = scope.resolve(ref.name, ref.span, Function, report, built_in=similar)
+            continue
+        components = [part.component.target for part in places]
+        if isinstance(node.owner, Component):
+            components = [node.owner]
+        known = [component for component in components if component is not None]
+        if len(known) < len(components):
+            continue  # the component of a part is unknown
+        operations = _common_operations(known)
+        ref.target = operations.get(name)
+        if ref.target is None and name not in scope.lost:
+            kind = f"operation of {bare(kind_of(node.owner))} `{before}`"
+            report_unresolved(kind, name, ref.span, operations, None, report)
+
+
+def _common_operations(components: list[Component]) -> dict[str, Operation]:
+    """The operations that all of the components have, from one base where they are several."""
+    first, *others = (_named(all_items(each, Operation), Operation) for each in components)
+    return {k: v for k, v in first.items() if all(other.get(k) is v for other in others)}
+
+
+# ---- optimization
+
+
+def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the roles of the swarm, and the params of their members."""
+    swarm = owner.swarm.target
+    if swarm is None:
+        return
+    roles = _named(swarm.items, Role)
+    params_of = cache(_params)
+    for item in owner.items:
+        if not isinstance(item, (CountRange, ParamRange)):
+            continue
+        item.role.target = roles.get(item.role.name)
+        if item.role.target is None:
+            if item.role.name not in scope.lost:
+                kind = f"role in swarm `{swarm.name}`"
+                report_unresolved(kind, item.role.name, item.role.span, roles, None, report)
+            continue
+        member = item.role.target.member.target
+        if isinstance(item, ParamRange) and member is not None:
+            params = params_of(member)
+            item.param.target = params.get(item.param.name)
+            if item.param.target is None and item.param.name not in scope.lost:
+                kind = f"param of member `{member.name}`"
+                report_unresolved(kind, item.param.name, item.param.span, params, None, report)
+
+
+# ---- members
+
+
+def _link_member(member: Member, scope: FileScope, report: Diagnostics) -> None:
+    """Resolve the two ends of each connector."""
+    parts = _named(all_items(member, Part), Part)
+    ports = cache(_ports)
+    for item in member.items:
+        if isinstance(item, Connector):
+            for end in (item.source, item.target):
+                _link_port(end, member, parts, ports, scope, report)
+
+
+def _link_port(
+    end: PortRef,
+    member: Member,
+    parts: Mapping[str, Part],
+    ports: Callable[[Component | Member], Mapping[str, Port]],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    if end.part is None:
+        name, own = end.port.name, ports(member)
+        end.port.target = own.get(name)
+        kind = f"port of member `{member.name}`"
+        if end.port.target is None and name in parts:
+            help_ = f"it is a part: name one of its ports, `{name}.port`"
+            report.report("unresolved-name", end.port.span, kind=kind, name=name, help=help_)
+        elif end.port.target is None and name not in scope.lost:
+            report_unresolved(kind, name, end.port.span, own, None, report)
+        return
+    end.part.target = parts.get(end.part.name)
+    if end.part.target is None:
+        if end.part.name not in scope.lost:
+            report_unresolved("part", end.part.name, end.part.span, parts, None, report)
+        return
+    component = end.part.target.component.target
+    if component is None:
+        return
+    known = ports(component)
+    end.port.target = known.get(end.port.name)
+    if end.port.target is None and end.port.name not in scope.lost:
+        kind = f"port of {bare(kind_of(component))} `{component.name}`"
+        report_unresolved(kind, end.port.name, end.port.span, known, None, report)
+
+
+def _ports(owner: Component | Member) -> dict[str, Port]:
+    return _named(all_items(owner, Port), Port)
+
+
+def _params(member: Member) -> dict[str, Param]:
+    return _named(all_items(member, Param), Param)

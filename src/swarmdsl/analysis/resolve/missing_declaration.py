@@ -1,0 +1,107 @@
+"""The line that is missing where a name means nothing: a declaration of it, or an import.
+
+`scopes` asks for an import first, and for a declaration when no name that is known comes close.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache
+
+from swarmdsl.base import resources
+from swarmdsl.project.libraries import SUFFIX
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
+    AliasType,
+    Component,
+    Constant,
+    EnumType,
+    Environment,
+    Event,
+    Fitness,
+    Function,
+    Member,
+    Node,
+    StateMachine,
+    StructType,
+)
+
+# By the word that a declaration begins with, what it declares.
+_WORDS: dict[str, type[Node]] = {
+    **dict.fromkeys(("sensor", "actuator", "controller", "virtual"), Component),
+    "const": Constant,
+    "enum": EnumType,
+    "environment": Environment,
+    "event": Event,
+    "fitness": Fitness,
+    "function": Function,
+    "member": Member,
+    "statemachine": StateMachine,
+    "struct": StructType,
+    "type": AliasType,
+}
+_DECLARATION = re.compile(
+    rf"^(?:swarm |endless )?({'|'.join(_WORDS)}) +([A-Za-z]\w*)\b", re.MULTILINE
+)
+_PACKAGE = re.compile(r"^package +([\w.]+)", re.MULTILINE)
+
+# As short as they can be: the smallest that is right by itself.
+_LINES: dict[type[Node], str] = {
+    Component: "sensor {0} {{ }}",
+    Environment: "environment {0} {{ size 50 m x 50 m }}",
+    Event: "event {0} : std_msgs/Empty",
+    Function: 'function {0} : abstraction {{ service "{0}" : std_srvs/Trigger }}',
+    Member: "member {0} {{ }}",
+    StateMachine: "statemachine {0} {{ initial Done final Done }}",
+    StructType: "struct {0} {{ }}",
+}
+
+
+def missing_import(name: str, kinds: tuple[type[Node], ...], project: Project) -> str | None:
+    """The line that imports what a library that comes with swarmdsl declares by this name.
+
+    Libraries that declare the same cannot be used together: it is the one that the project
+    uses, or the only one that has the name. None where there is no such one.
+    """
+    packages = [package for kind, package in _in_library().get(name, ()) if kind in kinds]
+    used = {
+        _root(target.package)
+        for file in project.files
+        if not file.library
+        for _, target in file.imports
+    } & {_root(package) for found in _in_library().values() for _, package in found}
+    if used:
+        packages = [package for package in packages if _root(package) in used]
+    return f"import {packages[0]}.{name}" if len(packages) == 1 else None
+
+
+def _root(package: str) -> str:
+    return package.partition(".")[0]
+
+
+def missing_line(name: str, kinds: tuple[type[Node], ...]) -> str | None:
+    """The declaration to add so that a name means something of one of these kinds, in words.
+
+    None where nobody can say: of a fitness or an enum the name alone tells too little.
+    """
+    line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
+    if line is None:
+        return None
+    elsewhere = f", or say of which package of ROS it is: `package/{name}`"
+    return f"declare it: `{line.format(name)}`{elsewhere if StructType in kinds else ''}"
+
+
+@cache
+def _in_library() -> Mapping[str, list[tuple[type[Node], str]]]:
+    """What the packages that come with swarmdsl declare, by name, each with its package.
+
+    Their lines are looked through, which costs a hundredth of what parsing them does.
+    """
+    found: dict[str, list[tuple[type[Node], str]]] = {}
+    for path in sorted(resources.library().rglob(f"*{SUFFIX}")):
+        text = path.read_text(encoding="utf-8")
+        package = "".join(_PACKAGE.findall(text))
+        for word, name in _DECLARATION.findall(text):
+            found.setdefault(name, []).append((_WORDS[word], package))
+    return found

@@ -1,0 +1,171 @@
+"""The line that declares a variable that is missing, of the type that its use asks for.
+
+The type is told only where it is certain: where the name stands for a whole value, or is
+compared with one. Of arithmetic there are many that would do.
+"""
+
+from __future__ import annotations
+
+from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.types.fitting import is_float, is_number
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Activity,
+    Assignment,
+    Branch,
+    Call,
+    Communication,
+    EnumType,
+    Expression,
+    ExpressionTree,
+    Field,
+    Fitness,
+    Function,
+    NameUse,
+    Operation,
+    OperatorUse,
+    Param,
+    Parameter,
+    ServiceType,
+    StateMachine,
+    TimeTrigger,
+    TopLevel,
+    Transition,
+    Value,
+    Variable,
+    nodes_of,
+)
+from swarmdsl.syntax.types import BOOL, DURATION, STRING, Array, Named, Primitive, Type
+
+_COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
+_LOGIC = ("and", "or", "not")
+
+
+def way_to_declare(
+    use: NameUse, within: Expression, owner: TopLevel, scope: FileScope
+) -> str | None:
+    """What to write where, so that a name in an expression means something, in words."""
+    if not isinstance(owner, (StateMachine, Fitness)):
+        return None
+    of = next((v.type.type for v in nodes_of(owner, Variable) if v.initial is within), None)
+    of = of or next((p.type.type for p in nodes_of(owner, Param) if p.default is within), None)
+    if of is not None:
+        # What a variable begins with is known before it runs.
+        type_ = _written(of, scope) if within.tree is use else None
+        line = f"const {use.name} : {type_} = ..."
+        return f"declare it above `{owner.name}`: `{line}`" if type_ else None
+    if isinstance(owner, Fitness):
+        return f"declare it in `{owner.name}`: `in {use.name} : float64`"
+    around = _around(within, use)
+    if around is None:
+        wanted = _wanted(within, owner, scope.interfaces)
+    elif isinstance(around, OperatorUse) and around.operator in _LOGIC:
+        wanted = BOOL
+    elif isinstance(around, OperatorUse) and around.operator in _COMPARISONS:
+        (beside,) = (operand for operand in around.operands if operand is not use)
+        wanted = _type_of(beside)
+    else:
+        wanted = None
+    written = _written(wanted, scope) if wanted is not None else None
+    if wanted is None or written is None:
+        return f"declare it in `{owner.name}`, with the type that it has: `var {use.name} : ...`"
+    return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(wanted)}`"
+
+
+def _initial(type_: Type) -> str:
+    """What a variable begins with, where the type has a value that stands for nothing."""
+    if is_number(type_):
+        return " = 0.0" if is_float(type_) else " = 0"
+    if type_ == BOOL:
+        return " = false"
+    return ' = ""' if type_ == STRING else ""
+
+
+def _written(type_: Type, scope: FileScope) -> str | None:
+    """A type as the file writes it; None if it does not see it."""
+    if isinstance(type_, Array):
+        element = _written(type_.element, scope)
+        return element and f"{element}{str(type_).removeprefix(str(type_.element))}"
+    declared = scope.interfaces.declared.get(type_) if isinstance(type_, Named) else None
+    if isinstance(type_, Primitive) or declared is None or "/" in declared.name:
+        return str(type_)
+    names = (type_.name, *(f"{package}.{type_.name}" for package in sorted(scope.packages)))
+    return next((n for n in names if [node for _, node in scope.find(n)] == [declared]), None)
+
+
+def _around(within: Expression, use: NameUse) -> OperatorUse | Call | None:
+    """The operator or function that a name is an operand of; None if it stands alone."""
+    waiting = [within.tree]
+    while waiting:
+        match waiting.pop():
+            case OperatorUse(operands=inside) | Call(arguments=inside) as node:
+                if any(each is use for each in inside):
+                    return node
+                waiting.extend(inside)
+    return None
+
+
+def _wanted(within: Expression, machine: StateMachine, interfaces: Interfaces) -> Type | None:
+    """The type of the whole value of an expression."""
+    guarded: tuple[Transition | Branch, ...] = (
+        *nodes_of(machine, Transition),
+        *nodes_of(machine, Branch),
+    )
+    if any(node.guard is within for node in guarded):
+        return BOOL
+    if any(trigger.delay is within for trigger in nodes_of(machine, TimeTrigger)):
+        return DURATION
+    for assignment in nodes_of(machine, Assignment):
+        if assignment.target is within:
+            return _type_of(assignment.value.tree)
+        if assignment.value is within:
+            return _type_of(assignment.target.tree)
+    for activity in nodes_of(machine, Activity):
+        for argument in activity.arguments:
+            if argument.value is within:
+                return _fields(activity, interfaces)[0].get(str(argument.name))
+        for result in activity.results:
+            if result.target is within:
+                return _fields(activity, interfaces)[1].get(str(result.field))
+    return None
+
+
+def _type_of(tree: ExpressionTree | None) -> Type | None:
+    """The type of a value or of a name that is declared; a number alone may be of many."""
+    match tree:
+        case Value(unit=unit) if unit:
+            return DURATION
+        case Value(value=bool()):
+            return BOOL
+        case Value(value=str()):
+            return STRING
+        case NameUse(target=target) if target is not None and not isinstance(target, EnumType):
+            return target.type.type
+    return None
+
+
+def _fields(activity: Activity, interfaces: Interfaces) -> tuple[dict[str, Type | None], ...]:
+    """The types of what an activity takes and of what it gives, by name."""
+    taken: list[Field] | list[Parameter] = []
+    given: list[Field] | list[Parameter] = []
+    match activity.function.target:
+        case Operation(parameters=parameters):
+            taken = [each for each in parameters if each.direction != "out"]
+            given = [each for each in parameters if each.direction == "out"]
+        case Function(items=items):
+            match next(
+                (_interface(each, interfaces) for each in items if isinstance(each, Communication)),
+                None,
+            ):
+                case ActionType(goal=goal, result=result):
+                    taken, given = goal, result
+                case ServiceType(request=request, response=response):
+                    taken, given = request, response
+    return tuple({str(f.name): f.type.type for f in fields} for fields in (taken, given))
+
+
+def _interface(call: Communication, interfaces: Interfaces) -> object:
+    kind = ActionType if call.paradigm == "action" else ServiceType
+    type_ = call.type.type
+    return interfaces.get(type_, kind) if isinstance(type_, Named) else None

@@ -1,0 +1,16 @@
+"""Types of expressions: what follows from their parts, and what can be used where."""
+
+from swarmdsl.analysis.types.expressions import Typing, report_unknown_field
+from swarmdsl.analysis.types.fitting import fits, is_float, is_number, range_of
+from swarmdsl.analysis.types.forms import assignable, constant
+
+__all__ = [
+    "Typing",
+    "assignable",
+    "constant",
+    "fits",
+    "is_float",
+    "is_number",
+    "range_of",
+    "report_unknown_field",
+]

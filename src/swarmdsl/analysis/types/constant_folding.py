@@ -1,0 +1,200 @@
+"""The values of expressions that are known when a model is compiled."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from swarmdsl.analysis.types.enum_values import numbers
+from swarmdsl.base.graphs import leaves_first
+from swarmdsl.syntax.ast import (
+    Call,
+    Constant,
+    EnumType,
+    ExpressionTree,
+    FieldUse,
+    NameUse,
+    OperatorUse,
+    Value,
+    walk,
+)
+from swarmdsl.syntax.parser.literals import nanoseconds
+
+Folded = bool | int | float | str
+
+OPERATIONS: Mapping[str, Callable[..., Folded]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+    "+": operator.add,
+    "-": operator.sub,
+    "*": operator.mul,
+    "/": operator.truediv,
+    "%": operator.mod,
+    "min": min,
+    "max": max,
+    "abs": abs,
+    "sqrt": math.sqrt,
+    "len": len,
+}
+"""What operators and built-in functions do with values, but for `and`, `or` and `not`."""
+
+_ALWAYS_DEFINED = frozenset(("and", "or", "not", "==", "!=", "<", "<=", ">", ">="))
+# What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.
+_WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
+
+
+class _UndefinedError(Exception):
+    """An operation on known operands has no result that any target can hold."""
+
+
+class Folding:
+    """Values of expressions, each worked out once: the tree does not change any more."""
+
+    def __init__(self) -> None:
+        self._known: dict[ExpressionTree, Folded | Exception | None] = {}
+        self._constants: dict[Constant, Folded | None] = {}
+        self._numbers: dict[EnumType, Mapping[str, int]] = {}
+
+    def value(self, tree: ExpressionTree) -> Folded | None:
+        """The value of an expression, durations in nanoseconds; None when it is not known.
+
+        `and` and `or` are known where one side decides. An expression that has no value (a
+        division by zero) is None too: `undefined` says why.
+        """
+        try:
+            return self._fold(tree)
+        except (_UndefinedError, TypeError):
+            return None
+
+    def numbers(self, enum: EnumType) -> Mapping[str, int]:
+        """The number of each value of an enum."""
+        found = self._numbers.get(enum)
+        if found is None:
+            found = self._numbers[enum] = numbers(enum)
+        return found
+
+    def constant(self, constant: Constant) -> Folded | None:
+        """The value of a constant, which may follow from those of any number of others."""
+        if constant not in self._constants:
+            for each in leaves_first([constant], self._needed):
+                tree = each.value.tree
+                self._constants[each] = self.value(tree) if tree is not None else None
+        return self._constants[constant]
+
+    def _needed(self, constant: Constant) -> list[Constant]:
+        """The constants that one is made of, of which the values are not known yet."""
+        tree = constant.value.tree
+        return [
+            node.target
+            for node in (walk(tree) if tree is not None else ())
+            if isinstance(node, NameUse)
+            and isinstance(node.target, Constant)
+            and node.target not in self._constants
+        ]
+
+    def undefined(self, tree: Call | OperatorUse, *, duration: bool = False) -> str | None:
+        """Why an operation has no result, whatever its unknown operands are; None if it has one.
+
+        It is the operation itself that is looked at: of operands without a value nothing is
+        said. `duration` says that the result is one.
+        """
+        word = str(tree.function if isinstance(tree, Call) else tree.operator)
+        if word in _ALWAYS_DEFINED:
+            return None
+        operands = tree.arguments if isinstance(tree, Call) else tree.operands
+        values = [self.value(operand) for operand in operands]
+        if word in ("/", "%") and _is_zero(values[-1]):
+            return "the divisor is 0"
+        if None in values:
+            return None
+        try:
+            negation = (word, len(values)) == ("-", 1)
+            result = _negative(values[0]) if negation else _apply(word, values)
+        except _UndefinedError as error:
+            return str(error)
+        except TypeError:
+            return None
+        if duration and isinstance(result, (int, float)) and round(result) not in _LENGTHS:
+            return "it would be longer than 292 years"
+        return None
+
+    def _fold(self, tree: ExpressionTree) -> Folded | None:
+        """Like `value`; raises what came of an operation that has no result."""
+        match tree:
+            case NameUse():
+                return self.constant(tree.target) if isinstance(tree.target, Constant) else None
+            case Value(unit=""):
+                return tree.value
+            case FieldUse(base=base):
+                enum = base.target if isinstance(base, NameUse) else None
+                return self.numbers(enum).get(tree.name) if isinstance(enum, EnumType) else None
+        if tree not in self._known:
+            try:
+                self._known[tree] = self._worked_out(tree)
+            except (_UndefinedError, TypeError) as error:
+                self._known[tree] = error
+        found = self._known[tree]
+        if isinstance(found, Exception):
+            raise found
+        return found
+
+    def _worked_out(self, tree: Value | OperatorUse | Call) -> Folded | None:
+        match tree:
+            case OperatorUse(operator=word, operands=(operand,)):
+                known = self._fold(operand)
+                if word == "not":
+                    return None if known is None else not known
+                return _negative(known)
+            case OperatorUse(operator=word, operands=operands):
+                if word in ("and", "or"):
+                    return self._logic(word == "or", operands)
+                return self._applied(word, operands)
+            case Call(function=function, arguments=arguments):
+                return self._applied(function, arguments) if function in OPERATIONS else None
+            case Value(unit=unit):
+                return nanoseconds(tree.span.text, unit)
+
+    def _applied(self, word: str, operands: tuple[ExpressionTree, ...]) -> Folded | None:
+        values = [self._fold(operand) for operand in operands]
+        return None if None in values else _apply(word, values)
+
+    def _logic(self, decisive: bool, operands: tuple[ExpressionTree, ...]) -> Folded | None:
+        values = [self._fold(operand) for operand in operands]
+        if any(value is decisive for value in values):
+            return decisive
+        return None if None in values else not decisive
+
+
+def _apply(word: str, values: list[Any]) -> Folded:
+    try:
+        result = OPERATIONS[word](*values)
+    except ZeroDivisionError:
+        raise _UndefinedError("the divisor is 0") from None
+    except OverflowError:
+        raise _UndefinedError("it would be too large for a `float64`") from None
+    except ValueError:
+        raise _UndefinedError(f"{values[0]} has no square root") from None
+    return _held(result)
+
+
+def _negative(value: Folded | None) -> Folded | None:
+    return _held(-value) if isinstance(value, (int, float)) else None
+
+
+def _held(result: Folded) -> Folded:
+    """The result itself, if 64 bits hold it."""
+    if isinstance(result, float) and not math.isfinite(result):
+        raise _UndefinedError("it would be too large for a `float64`")
+    if isinstance(result, int) and result not in _WHOLE:
+        raise _UndefinedError("it does not fit in 64 bits")
+    return result
+
+
+def _is_zero(value: Folded | None) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == 0

@@ -1,0 +1,220 @@
+"""Types of expressions.
+
+A type that cannot be known (a field of a message the model does not describe, a name that
+was not resolved) is None and fits everywhere: one mistake is reported once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.scopes import report_unresolved
+from swarmdsl.analysis.types.constant_folding import Folded, Folding
+from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
+from swarmdsl.analysis.types.operators import Application
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.base.suggest import did_you_mean
+from swarmdsl.syntax.ast import (
+    Call,
+    EnumType,
+    ExpressionTree,
+    Field,
+    FieldUse,
+    NameUse,
+    OperatorUse,
+    Parameter,
+    Value,
+    Word,
+)
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Primitive, Type
+
+_FLOAT32 = Primitive("float32")
+_LONGEST = 2**31 * 10**9
+"""More nanoseconds than a duration has in ROS 1 and in ROS 2."""
+_LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
+
+
+@dataclass(frozen=True)
+class Typing:
+    """Infers types; `interfaces` say which fields messages have.
+
+    `event` is the type of the triggering event's message: absent where no event is at
+    hand (`has_event` False), None where it is not known. `folding` knows the values of expressions.
+    """
+
+    interfaces: Interfaces
+    report: Diagnostics = field(default_factory=Diagnostics)
+    has_event: bool = False
+    event: Type | None = None
+    folding: Folding = field(default_factory=Folding)
+
+    def on_event(self, type_: Type | None, *, known: bool = True) -> Typing:
+        """The same where `event` is a message of that type, if it is known which event it is."""
+        return Typing(self.interfaces, self.report, known, type_, self.folding)
+
+    def infer(self, tree: ExpressionTree) -> Type | None:
+        """The type of an expression; what is wrong in it is reported."""
+        match tree:
+            case NameUse():
+                return self._name(tree)
+            case Value(value=value, unit=unit):
+                return _value_type(value, unit)
+            case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+                return self._enum_value(enum, name)
+            case FieldUse(base=base, name=name):
+                return self.field(self.infer(base), name, name.span)
+            case OperatorUse(operands=operands) | Call(arguments=operands):
+                return self._checked_result(tree, [self.infer(operand) for operand in operands])
+        raise AssertionError(tree)
+
+    def _name(self, use: NameUse) -> Type | None:
+        """The type of what a name means."""
+        if use.name == "event":
+            if not self.has_event:
+                self.report.report(
+                    "no-event-data",
+                    use.span,
+                    help="use it in a guard or effect of a transition on one event",
+                )
+            return self.event
+        target = use.target
+        if isinstance(target, EnumType):
+            self.report.report(
+                "bad-operand",
+                use.span,
+                operator=use.span.text,
+                operands="its own: name one of its values",
+                help=f"write `{use.span.text}.{target.values[0].name}`" if target.values else None,
+            )
+            return None
+        return target.type.type if target is not None else None
+
+    def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
+        """The type of an operation on operands of these types."""
+        return Application(tree, types, self._is_enum, self.report).result()
+
+    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> bool:
+        """Report an expression whose value cannot be used as a `wanted`; return if it is right."""
+        if tree is None:
+            return True
+        before = len(self.report)
+        found = self.infer(tree)
+        if fits(found, wanted):
+            value = self.folding.value(tree)
+            if value is not None and len(self.report) == before:
+                self._check_size(tree, value, wanted)
+        else:
+            help_ = _way_to_bool(tree, found) if wanted == BOOL else None
+            if wanted == DURATION and isinstance(tree, Value) and is_number(found):
+                help_ = f"give it a unit: `{tree.span.text} s`"
+            enum = self.interfaces.get(wanted) if isinstance(wanted, Named) else None
+            if isinstance(enum, EnumType) and enum.values and is_number(found):
+                help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
+            self.report.report(
+                "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
+            )
+        return len(self.report) == before
+
+    def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
+        """The type of an operation; one that has no result, whenever it is done, is reported."""
+        before = len(self.report)
+        type_ = self.result(tree, types)
+        if len(self.report) > before:
+            return type_
+        fault = self.folding.undefined(tree, duration=type_ == DURATION)
+        if fault is not None:
+            operator = tree.function if isinstance(tree, Call) else tree.operator
+            self.report.report("no-result", tree.span, operator=operator, fault=fault)
+        return type_
+
+    def _check_size(self, tree: ExpressionTree, value: Folded, wanted: Type | None) -> None:
+        """Report a value that is known, and too large for its type."""
+        found, help_ = f"`{value}`", None
+        match value:
+            case bool():
+                return
+            case int() if (possible := range_of(wanted)) is not None and value not in possible:
+                help_ = f"it is a number from {possible[0]} to {possible[-1]}"
+            case int() | float() if wanted == DURATION:
+                if -_LONGEST <= value < _LONGEST:
+                    return
+                found = f"`{value / 1e9:.12g} s`"
+                help_ = f"ROS counts its seconds in an `int32`: they are {2**31 - 1} at most"
+            case int() | float() if abs(value) > _LARGEST_FLOAT32 and wanted == _FLOAT32:
+                help_ = "larger numbers need a `float64`"
+            case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):
+                found = f"a text of {len(value)} characters"
+            case _:
+                return
+        self.report.report(
+            "type-mismatch", tree.span, expected=f"`{wanted}`", found=found, help=help_
+        )
+
+    def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
+        """The type of a field of a message."""
+        if isinstance(owner, Named):
+            fields = self.interfaces.fields(owner)
+            if fields is None:
+                return None
+            found = next((known for known in fields if known.name == name), None)
+            if found is not None:
+                return found.type.type
+            report_unknown_field(f"`{owner}`", name, at, fields, self.report)
+        elif owner is not None:
+            self.report.report("unknown-field", at, owner=f"a value of type `{owner}`", name=name)
+        return None
+
+    def _is_enum(self, type_: Named) -> bool:
+        return isinstance(self.interfaces.get(type_), EnumType)
+
+    def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
+        known = self.folding.numbers(enum)
+        if str(name) not in known:
+            report_unresolved(
+                f"value of enum `{enum.name}`", name, name.span, known, None, self.report
+            )
+            return None
+        return enum.type
+
+
+def _way_to_bool(tree: ExpressionTree, found: Type | None) -> str | None:
+    """A truth value is no number and no text: what to ask of one, or to write for it."""
+    text = tree.span.text
+    if isinstance(tree, Value):
+        word = "true" if tree.value else "false"
+        return f"write `{word}`" if is_number(found) else None
+    if "\n" in text:
+        return None
+    if is_number(found):
+        return f"compare it: `{text} != 0`"
+    return f'compare it: `{text} != ""`' if is_text(found) else None
+
+
+def report_unknown_field(
+    owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
+) -> None:
+    """Report a field that a message does not have, with those it has."""
+    if not report.wants_hint("unknown-field"):
+        report.report("unknown-field", at, owner=owner, name=name)
+        return
+    names = [str(known.name) for known in fields]
+    has = f"it has {listed(names, 'and')}" if names else "it has no fields"
+    help_ = did_you_mean(name, names) or has
+    report.report("unknown-field", at, owner=owner, name=name, help=help_)
+
+
+def _value_type(value: bool | int | float | str, unit: str) -> Type:
+    if unit:
+        return DURATION
+    match value:
+        case bool():
+            return BOOL
+        case int():
+            return INT
+        case float():
+            return FLOAT
+    return STRING

@@ -1,0 +1,41 @@
+"""What an expression is by its form: known in advance, or a place to store a value."""
+
+from __future__ import annotations
+
+from swarmdsl.syntax.ast import (
+    Call,
+    Constant,
+    EnumType,
+    ExpressionTree,
+    FieldUse,
+    NameUse,
+    OperatorUse,
+    Value,
+    Variable,
+)
+
+
+def constant(tree: ExpressionTree) -> bool:
+    """Whether the value is known without running anything, as far as its names mean something."""
+    match tree:
+        case NameUse(name="event"):
+            return False
+        case Value() | NameUse(target=Constant() | EnumType() | None):
+            return True
+        case FieldUse(base=base):
+            return constant(base)
+        case OperatorUse(operands=operands):
+            return all(constant(operand) for operand in operands)
+        case Call(arguments=arguments):
+            return all(constant(argument) for argument in arguments)
+    return False
+
+
+def assignable(tree: ExpressionTree) -> bool:
+    """Whether it names a variable or a field of one."""
+    match tree:
+        case NameUse(target=target):
+            return isinstance(target, Variable) or (target is None and tree.name != "event")
+        case FieldUse(base=base):
+            return assignable(base)
+    return False

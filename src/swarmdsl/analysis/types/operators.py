@@ -1,0 +1,154 @@
+"""Operators and built-in functions: which types they work on, and what they give."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from swarmdsl.analysis.resolve.scopes import report_unresolved
+from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast import Call, OperatorUse, Value
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Array, Named, Type
+
+_FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
+
+
+@dataclass(frozen=True)
+class Application:
+    """An operator or function on operands of these types, None for one that is not known."""
+
+    tree: Call | OperatorUse
+    types: list[Type | None]
+    is_enum: Callable[[Named], bool]
+    report: Diagnostics
+
+    def result(self) -> Type | None:
+        """The type of what it gives; what it does not work on is reported."""
+        if isinstance(self.tree, Call):
+            return self._call(self.tree)
+        operator = str(self.tree.operator)
+        if len(self.types) == 1:
+            return self._sign(operator, self.types[0])
+        return self._binary(operator, *self.types)
+
+    def _call(self, call: Call) -> Type | None:
+        function, types = str(call.function), self.types
+        count = _FUNCTIONS.get(function)
+        if count is None:
+            report_unresolved(
+                "built-in function", function, call.function.span, _FUNCTIONS, None, self.report
+            )
+            return None
+        enough = len(types) >= count if function in ("min", "max") else len(types) == count
+        if not enough:
+            self._report(
+                f"{len(types)} value{'s' * (len(types) != 1)}: it takes {count}"
+                + (" or more" if function in ("min", "max") else "")
+            )
+            return None
+        if function == "len":
+            self._require(lambda t: is_text(t) or isinstance(t, Array))
+            return INT
+        if function == "sqrt":
+            self._require(is_number)
+            return FLOAT
+        if self._durations():
+            return DURATION
+        return self._widest() if self._require(is_number, self._unit) else None
+
+    def _sign(self, operator: str, operand: Type | None) -> Type | None:
+        if operator == "not":
+            self._require(lambda t: t == BOOL)
+            return BOOL
+        return operand if self._require(lambda t: is_number(t) or t == DURATION) else None
+
+    def _binary(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
+        if operator in ("and", "or"):
+            self._require(lambda t: t == BOOL)
+            return BOOL
+        if operator in ("==", "!="):
+            if not self._comparable(left, right):
+                advice = "compare their fields" if self._messages() else self._unit()
+                self._report_operands(advice)
+            return BOOL
+        numbers = is_number(left) and is_number(right)
+        if operator in ("<", "<=", ">", ">="):
+            if not numbers and not self._durations():
+                self._require(is_number, self._order)
+            return BOOL
+        if left is None or right is None:
+            return None
+        if numbers:
+            return FLOAT if operator == "/" else self._widest()
+        if operator in ("+", "-") and self._durations():
+            return DURATION
+        if operator == "+" and is_text(left) and is_text(right):
+            return STRING
+        if operator in ("*", "/") and left == DURATION and is_number(right):
+            return DURATION
+        if operator == "*" and is_number(left) and right == DURATION:
+            return DURATION
+        if operator == "/" and self._durations():
+            return FLOAT
+        self._require(is_number, self._unit if operator in ("+", "-") else None)
+        return None
+
+    def _comparable(self, left: Type | None, right: Type | None) -> bool:
+        """Whether two values are equal or not in all targets: messages and arrays are not."""
+        if left is None or right is None:
+            return True
+        if isinstance(left, Named) or isinstance(right, Named):
+            return left == right and isinstance(left, Named) and self.is_enum(left)
+        if isinstance(left, Array) or isinstance(right, Array):
+            return False
+        return fits(left, right) or fits(right, left)
+
+    def _messages(self) -> bool:
+        """Whether all are messages or structs of one type."""
+        left = self.types[0]
+        return isinstance(left, Named) and not self.is_enum(left) and self.types == [left, left]
+
+    def _durations(self) -> bool:
+        return DURATION in self.types and all(known in (DURATION, None) for known in self.types)
+
+    def _widest(self) -> Type | None:
+        if None in self.types:
+            return None
+        return FLOAT if any(map(is_float, self.types)) else INT
+
+    def _order(self) -> str | None:
+        """What to write for a comparison of what has no order."""
+        enums = any(isinstance(known, Named) and self.is_enum(known) for known in self.types)
+        return "values of enums have no order: use `==` or `!=`" if enums else self._unit()
+
+    def _unit(self) -> str | None:
+        """What to write for a number that stands beside a duration."""
+        if DURATION not in self.types:
+            return None
+        operands = self.tree.arguments if isinstance(self.tree, Call) else self.tree.operands
+        numbers = [
+            tree.span.text
+            for tree, known in zip(operands, self.types, strict=True)
+            if isinstance(tree, Value) and is_number(known)
+        ]
+        return f"give it a unit: `{numbers[0]} s`" if numbers else None
+
+    def _require(
+        self, test: Callable[[Type], bool], advice: Callable[[], str | None] | None = None
+    ) -> bool:
+        """Report operands that are not of the right type; return whether all are."""
+        fine = all(known is None or test(known) for known in self.types)
+        if not fine:
+            self._report_operands(advice() if advice is not None else None)
+        return fine
+
+    def _report_operands(self, advice: str | None = None) -> None:
+        names = [str(known) for known in self.types if known is not None]
+        self._report(listed(names, "and"), advice)
+
+    def _report(self, operands: str, advice: str | None = None) -> None:
+        word = self.tree.function if isinstance(self.tree, Call) else self.tree.operator
+        self.report.report(
+            "bad-operand", self.tree.span, operator=word, operands=operands, help=advice
+        )

@@ -1,0 +1,202 @@
+"""What the compiler has to say about a model, as values.
+
+A mistake of the user is a `Diagnostic` in a `Diagnostics` collector, never an
+exception: every phase reports and goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from enum import Enum
+from typing import TYPE_CHECKING
+
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.base.source import Span
+
+if TYPE_CHECKING:
+    from swarmdsl.base.diagnostics.catalog import Code
+
+
+class Severity(Enum):
+    """How bad it is; only errors stop a build."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+class Level(Enum):
+    """What becomes of a warning: it is silenced, is reported as one, or is an error."""
+
+    ALLOW = "allow"
+    WARN = "warn"
+    DENY = "deny"
+
+
+ALL_WARNINGS = "warnings"
+"""Stands for every warning whose level is not given by its own name and that is not silent."""
+
+
+MOST_HINTS = 50
+"""How many of one kind of mistake are reported with what may be meant, at most."""
+
+
+_NOTHING: dict[Diagnostic, None] = {}
+_NO_COUNTS: dict[str, int] = {}
+_NO_LEVELS: Mapping[str, Level] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A place and what to say about it."""
+
+    span: Span
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    `code` and `name` identify its kind (`SW0201`, `unresolved-name`), `message` is the
+    headline, `primary` the place (None when it concerns no place in a file, a missing
+    one for instance), `related` other places that explain it, `help` a way out.
+    """
+
+    code: str
+    name: str
+    severity: Severity
+    message: str
+    primary: Label | None = None
+    related: tuple[Label, ...] = ()
+    notes: tuple[str, ...] = ()
+    help: str | None = None
+
+
+def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
+    """The same finding with other places."""
+    primary = found.primary
+    return replace(
+        found,
+        primary=replace(primary, span=place(primary.span)) if primary is not None else None,
+        related=tuple(replace(label, span=place(label.span)) for label in found.related),
+    )
+
+
+class Diagnostics:
+    """Collects what the phases report, without duplicates.
+
+    `levels` says by name, or for ALL_WARNINGS, what becomes of warnings.
+    """
+
+    # In an editor there are many, most of them empty.
+    __slots__ = ("_counts", "_found", "_levels")
+
+    def __init__(self, levels: Mapping[str, Level] | None = None) -> None:
+        self._found: dict[Diagnostic, None] = _NOTHING
+        self._counts: dict[str, int] = _NO_COUNTS
+        self._levels = levels or _NO_LEVELS
+
+    def report(
+        self,
+        name: str,
+        at: Span | None = None,
+        /,
+        *,
+        label: str = "",
+        related: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+        help: str | None = None,  # noqa: A002 - the word a person reads in the output
+        **fields: object,
+    ) -> None:
+        """Add the diagnostic called `name` in the catalogue, its message filled with `fields`.
+
+        Raises KeyError for a name or a field the catalogue does not know: a bug in swarmdsl.
+        """
+        entry = _catalogued(name)
+        found = Diagnostic(
+            code=entry.code,
+            name=name,
+            severity=Severity(entry.severity),
+            message=entry.message.format(**fields),
+            primary=Label(at, label) if at is not None else None,
+            related=related,
+            notes=notes,
+            help=help,
+        )
+        self._add(found)
+
+    def include(self, others: Iterable[Diagnostic]) -> None:
+        """Add what was collected elsewhere."""
+        for found in others:
+            self._add(found)
+
+    def _add(self, found: Diagnostic) -> None:
+        if found.severity is Severity.WARNING:
+            level = self._level(found.name)
+            if level is Level.ALLOW:
+                return
+            if level is Level.DENY:
+                found = replace(found, severity=Severity.ERROR)
+        if self._found is _NOTHING:
+            self._found, self._counts = {}, {}
+        self._found.setdefault(found)
+        self._counts[found.name] = self.count_of(found.name) + 1
+
+    def wants(self, silent: str) -> bool:
+        """Whether somebody asks for a silent warning, by its name: else nobody need look for it."""
+        return self._levels.get(silent, Level.ALLOW) is not Level.ALLOW
+
+    def _level(self, name: str) -> Level:
+        silent = _catalogued(name).silent
+        others = Level.ALLOW if silent else self._levels.get(ALL_WARNINGS, Level.WARN)
+        return self._levels.get(name, others)
+
+    def wants_hint(self, name: str) -> bool:
+        """Whether to look for what may be meant instead of something that does not exist.
+
+        Each look goes through all that exists. Whoever gets more than fifty such reports of
+        one name in the catalogue looks for a single cause, an import that is missing for instance.
+        """
+        return self.count_of(name) < MOST_HINTS
+
+    def count_of(self, name: str) -> int:
+        """How often something of this name in the catalogue was reported."""
+        return self._counts.get(name, 0)
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether anything found stops the build."""
+        return any(found.severity is Severity.ERROR for found in self._found)
+
+    def count(self, severity: Severity) -> int:
+        """How many findings have this severity."""
+        return sum(found.severity is severity for found in self._found)
+
+    def __iter__(self) -> Iterator[Diagnostic]:
+        """The findings by file and place; those without a place come first."""
+        return iter(sorted(self._found, key=_position))
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+
+def _catalogued(name: str) -> Code:
+    # Imported here because a model without mistakes needs no catalogue.
+    from swarmdsl.base.diagnostics.catalog import CODES
+
+    return CODES[name]
+
+
+def _position(found: Diagnostic) -> tuple[str, int, int, str, str]:
+    if found.primary is None:
+        return ("", 0, 0, found.code, found.message)
+    span = found.primary.span
+    return (span.source.name, span.start, span.end, found.code, found.message)
+
+
+def listed(words: list[str], conjunction: str = "or") -> str:
+    """Words as a person lists them: "`a`, `b` or `c`"."""
+    quoted = [f"`{word}`" for word in words]
+    if len(quoted) < 2:
+        return "".join(quoted)
+    return f"{', '.join(quoted[:-1])} {conjunction} {quoted[-1]}"

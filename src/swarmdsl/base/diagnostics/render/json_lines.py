@@ -1,0 +1,44 @@
+"""One JSON object a line and diagnostic, for programs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from typing import Any, TextIO
+
+from swarmdsl.base.diagnostics.collector import Diagnostic, Label
+
+
+def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
+    """Write the diagnostics; lines and columns count from 1, ends are exclusive."""
+    for diagnostic in found:
+        stream.write(json.dumps(_as_json(diagnostic)) + "\n")
+
+
+def _as_json(diagnostic: Diagnostic) -> dict[str, Any]:
+    return {
+        **_place(diagnostic.primary),
+        "severity": diagnostic.severity.value,
+        "code": diagnostic.code,
+        "name": diagnostic.name,
+        "message": diagnostic.message,
+        "label": diagnostic.primary.message if diagnostic.primary else "",
+        "help": diagnostic.help,
+        "related": [{**_place(label), "message": label.message} for label in diagnostic.related],
+        "notes": list(diagnostic.notes),
+    }
+
+
+def _place(label: Label | None) -> dict[str, Any]:
+    if label is None:
+        return dict.fromkeys(("file", "line", "column", "end_line", "end_column"))
+    source, start, end = label.span
+    line, column = source.line_column(start)
+    end_line, end_column = source.line_column(end)
+    return {
+        "file": source.name,
+        "line": line,
+        "column": column,
+        "end_line": end_line,
+        "end_column": end_column,
+    }

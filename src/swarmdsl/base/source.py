@@ -1,0 +1,103 @@
+"""Source files and places in them."""
+
+# The annotations here are values: typing would compile texts one by one.
+from bisect import bisect_right
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+from swarmdsl.base.records import dataclass, field
+
+COMMAND_LINE = "<command line>"
+"""The name of a source that is an argument of the command line, as compilers call it."""
+
+# To look for so many places takes less time than to find out where all lines begin.
+_FEW = 16
+
+
+@dataclass(eq=False)
+class Source:
+    """One file's text, or an argument of the command line.
+
+    `name` is how the file is shown to a person (the path as it was given);
+    `path` is where it lies, None for text that came from elsewhere.
+    """
+
+    name: str
+    text: str
+    path: Path | None = None
+    _asked = 0
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of each line."""
+        starts, end = [], 0
+        for row in self.text.split("\n"):
+            starts.append(end)
+            end += len(row) + 1
+        return starts
+
+    def line_column(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, both counted from 1, columns in characters."""
+        if self._asked < _FEW and "line_starts" not in vars(self):
+            self._asked += 1
+            before = self.text.rfind("\n", 0, offset)
+            return self.text.count("\n", 0, offset) + 1, offset - before
+        line = bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def line_text(self, line: int) -> str:
+        """The text of a line (counted from 1) without its end."""
+        start = self.line_starts[line - 1]
+        end = self.text.find("\n", start)
+        return self.text[start : end if end >= 0 else len(self.text)].rstrip("\r")
+
+
+@dataclass(eq=False)
+class Piece(Source):
+    """A part of a file's text that is read on its own, and the place in the file where it begins.
+
+    Places in it stay what they are when the text before it changes; only `whole` and `base` do.
+    """
+
+    whole: Source = field(kw_only=True)
+    base: int = field(default=0, kw_only=True)
+
+    def line_column(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, in the file."""
+        return self.whole.line_column(self.base + offset)
+
+    def line_text(self, line: int) -> str:
+        """The text of a line of the file."""
+        return self.whole.line_text(line)
+
+
+class Span(NamedTuple):
+    """A piece of a source: offsets in characters, `end` exclusive."""
+
+    source: Source
+    start: int
+    end: int
+
+    @property
+    def text(self) -> str:
+        """The piece itself."""
+        return self.source.text[self.start : self.end]
+
+    @property
+    def absolute(self) -> "Span":
+        """The same place as one in the file."""
+        source, start, end = self
+        if not isinstance(source, Piece):
+            return self
+        return Span(source.whole, source.base + start, source.base + end)
+
+    @property
+    def on_command_line(self) -> bool:
+        """Whether it stands in no file."""
+        return self.source.name == COMMAND_LINE
+
+    @property
+    def line(self) -> int:
+        """Line of the start, counted from 1."""
+        return self.source.line_column(self.start)[0]

@@ -1,0 +1,49 @@
+"""What a person may have meant by a word that does not exist."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import lru_cache
+from itertools import pairwise
+
+from swarmdsl.base.diagnostics.collector import listed
+
+# As many words are compared closely; out of more, those with most pairs of letters in common.
+_COMPARED = 50
+
+
+def closest(word: str, known: Iterable[str], likeness: float = 0.6) -> str | None:
+    """The known word most like another, None when none is that like (1 is the same)."""
+    by_lower = {name.lower(): name for name in known}
+    if not word or not by_lower:
+        return None
+    # Imported here because they are slow and most models have no such word.
+    from difflib import get_close_matches
+    from heapq import nlargest
+
+    word = word.lower()
+    compared: Iterable[str] = by_lower
+    if len(by_lower) > _COMPARED:
+        pairs = _pairs(word)
+        compared = nlargest(_COMPARED, by_lower, key=lambda name: len(pairs & _pairs(name)))
+    close = get_close_matches(word, compared, n=1, cutoff=likeness)
+    return by_lower[close[0]] if close else None
+
+
+@lru_cache(maxsize=1 << 14)
+def _pairs(word: str) -> frozenset[tuple[str, str]]:
+    return frozenset(pairwise(word))
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str | None:
+    """A question that names the closest known word, None when nothing comes close."""
+    name = closest(word, known)
+    return f"did you mean `{name}`?" if name else None
+
+
+def suggest(word: str, known: Iterable[str], what: str) -> str:
+    """`did_you_mean`, or else all there is: "the targets are `a` and `b`"."""
+    names = list(known)
+    if question := did_you_mean(word, names):
+        return question
+    return f"the {what} are {listed(names, 'and')}" if names else f"there are no {what}"

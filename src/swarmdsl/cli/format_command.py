@@ -1,0 +1,65 @@
+"""What `swarmc fmt` does and says."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.diagnostics.render import counted
+from swarmdsl.base.records import dataclass
+from swarmdsl.driver.format_files import STDIN, Layout, layout_of, layouts_of, write
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of it; `done` is False when something is left to do."""
+
+    done: bool
+    summary: str = ""
+
+
+def inspect(paths: Sequence[Path], report: Diagnostics, *, as_diff: bool) -> Outcome:
+    """Print the diffs, or the names, of files that would change."""
+    layouts, wrong = _layouts(paths, report)
+    changed = [layout for layout in layouts if layout.changed]
+    for layout in changed:
+        click.echo(layout.diff() if as_diff else layout.name, nl=not as_diff)
+    summary = _summary("would be formatted", len(changed), len(layouts) - len(changed), wrong)
+    return Outcome(not changed, summary)
+
+
+def rewrite(paths: Sequence[Path], report: Diagnostics) -> Outcome:
+    """Write what changes in its place, or standard input to standard output."""
+    layouts, wrong = _layouts(paths, report)
+    if _is_stdin(paths):
+        for layout in layouts:
+            click.echo(layout.after, nl=False)
+        return Outcome(not wrong)
+    changed = [layout for layout in layouts if layout.changed]
+    if not write(changed, report):
+        return Outcome(False)
+    return Outcome(True, _summary("formatted", len(changed), len(layouts) - len(changed), wrong))
+
+
+def _is_stdin(paths: Sequence[Path]) -> bool:
+    return list(paths) == [Path("-")]
+
+
+def _layouts(paths: Sequence[Path], report: Diagnostics) -> tuple[list[Layout], int]:
+    if not _is_stdin(paths):
+        return layouts_of(paths or (Path(),), report)
+    layout = layout_of(STDIN, sys.stdin.buffer.read(), report)
+    return ([layout], 0) if layout is not None else ([], 1)
+
+
+def _summary(done: str, changed: int, unchanged: int, wrong: int) -> str:
+    parts = [
+        f"{counted(changed, 'file')} {done}" if changed else "",
+        f"{counted(unchanged, 'file')} unchanged" if unchanged else "",
+        f"{counted(wrong, 'file')} with errors" if wrong else "",
+    ]
+    return ", ".join(part for part in parts if part) or "no files"

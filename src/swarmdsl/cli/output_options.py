@@ -1,0 +1,145 @@
+"""The options that say how output is written: which go together, and what is said in the end."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.usage_error import UsageError
+from swarmdsl.cli.exit_code import ERRORS, OK, conclude
+from swarmdsl.cli.parameters import Option
+
+if TYPE_CHECKING:
+    from swarmdsl.driver.pipeline import Result
+    from swarmdsl.output import How
+
+FORCE = Option(
+    "force",
+    ("--force",),
+    "Give up what was edited in generated files, and overwrite others in their place. Files to "
+    "fill in stay as they are.",
+)
+CHECK = Option(
+    "check",
+    ("--check",),
+    "Write nothing; fail when a build would change a file, or one was edited.",
+)
+DRY_RUN = Option("dry_run", ("--dry-run",), "Print what would happen to which file, write nothing.")
+DIFF = Option(
+    "diff",
+    ("--diff",),
+    "Print what would change as a unified diff, write nothing; fail if it would.",
+)
+
+RENAME = Option(
+    "renames",
+    ("--rename",),
+    "An element of the model that had another name: move the files that you filled in for it. "
+    "May be repeated.",
+    kind=str,
+    metavar="OLD=NEW",
+    repeated=True,
+)
+OPTIONS = (FORCE, CHECK, DRY_RUN, DIFF, RENAME)
+
+_NOTHING_TO_FORCE = "a check finds what `--force` would overwrite"
+# Pairs of options that cannot both be meant, and why.
+_APART = {
+    ("check", "dry_run"): "a check writes nothing either, and says what is the matter",
+    ("check", "force"): _NOTHING_TO_FORCE,
+    ("check", "clean"): "the one looks at what is there, the other removes it",
+    ("check", "watch"): "a check is made once",
+    ("check", "renames"): "a check finds what is to be moved, and `--dry-run` shows it",
+    ("clean", "force"): "what was edited is never removed",
+    ("clean", "diff"): "`--clean --dry-run` shows what would be removed",
+    ("clean", "watch"): "what was generated is removed once",
+    ("clean", "renames"): "the one builds, the other does not",
+    ("watch", "force"): "it would overwrite each edit that is made meanwhile: build once with "
+    "`--force`, then watch",
+    ("watch", "renames"): "files are moved once: build with `--rename`, then watch",
+    ("watch", "dump_ir"): "it prints once",
+}
+_NO_OUTPUT = ("check", "clean", "dry_run", "diff", "force", "renames")
+_APART |= {(name, "dump_ir"): "it prints the model and makes no files" for name in _NO_OUTPUT}
+_FLAGS = {"renames": "--rename"}
+
+
+def writing(given: Mapping[str, Any]) -> Writing:
+    """What these options say, which are given by their parameters.
+
+    Raises UsageError for some that do not go together.
+    """
+    for (one, other), reason in _APART.items():
+        if given.get(one) and given.get(other):
+            raise UsageError(f"{_flag(one)} and {_flag(other)} do not go together: {reason}")
+    return Writing(
+        given["force"], given["check"], given["dry_run"], given["diff"], _renames(given["renames"])
+    )
+
+
+def _renames(given: Iterable[str]) -> tuple[tuple[str, str], ...]:
+    """The old and the new name of elements; UsageError for what is not OLD=NEW."""
+    found: list[tuple[str, str]] = []
+    for text in given:
+        old, equals, new = text.partition("=")
+        if not (equals and _is_name(old) and _is_name(new) and old != new):
+            raise UsageError(f"`--rename {text}` has not the form OLD=NEW, of two names")
+        found.append((old, new))
+    for side, word in enumerate(("renamed twice", "the new name of two")):
+        names = [pair[side] for pair in found]
+        for name in names:
+            if names.count(name) > 1:
+                raise UsageError(f"`--rename`: `{name}` is {word}")
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class Writing:
+    """What the command line says of how output is written."""
+
+    force: bool
+    check: bool
+    dry_run: bool
+    diff: bool
+    renames: tuple[tuple[str, str], ...]
+
+    def how(self, *command: object) -> How:
+        """The same for whoever writes; `command` are the words that a person would repeat."""
+        from swarmdsl.output import How
+
+        dry = self.dry_run or self.diff
+        return How(self.force, dry, self.check, self.renames, tuple(map(str, command)))
+
+    def conclude(self, result: Result, format_: str) -> int:
+        """Say what came of it, or what would; return the exit code."""
+        written = result.written
+        if not (self.dry_run or self.diff):
+            code = conclude(result, format_, sys.stdout, about_files=not self.check)
+            if self.check and written is not None and code == OK:
+                sys.stderr.write(f"{written.folder} is up to date\n")
+            return code
+        self.show(result, format_)
+        code = conclude(result, format_, sys.stderr, about_files=False)
+        changes = written is not None and bool(written.changes)
+        return ERRORS if code == OK and self.diff and changes else code
+
+    def show(self, result: Result, format_: str) -> None:
+        """Print what would be done, if it is not done."""
+        from swarmdsl.output.report_planned import render_diff, render_plan
+
+        if result.written is not None and self.diff:
+            render_diff(result.written, sys.stdout)
+        elif result.written is not None:
+            render_plan(result.written, format_, sys.stdout)
+        sys.stdout.flush()
+
+
+def _is_name(text: str) -> bool:
+    return re.fullmatch("[A-Za-z][A-Za-z0-9_]*", text) is not None
+
+
+def _flag(parameter: str) -> str:
+    return f"`{_FLAGS.get(parameter, '--' + parameter.replace('_', '-'))}`"

@@ -1,0 +1,123 @@
+"""Target `adf`: the functions of a robot as an Abstraction Description File.
+
+In the form of D5.4 (appendix), or in the one before it, that of the JSON schema
+`ROS_abstraction-description`, which came with the CPSwarm modelling tool.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.api import Generator, OutputFile, option
+from swarmdsl.codegen.exchange.description import (
+    D5_4,
+    SCHEMA,
+    api,
+    by_schema,
+    document,
+    topic,
+    value,
+    value_class,
+    without_empty,
+)
+from swarmdsl.ir import Component, Function, Param, System
+
+_CATEGORIES = {"abstraction": "abstraction-lib", "swarm": "swarm-lib"}
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options of the target."""
+
+    functions: str = option(
+        "all", "all functions, or those that no library has (missing)", choices=("all", "missing")
+    )
+    form: str = option(
+        "d5.4",
+        "that of D5.4, or that of the modelling tool's schema, which has sensors and actuators too",
+        choices=("d5.4", "schema"),
+    )
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """One file with the functions of the system."""
+    functions = [
+        function
+        for function in system.functions
+        if options.functions == "all" or not function.in_library
+    ]
+    content: dict[str, Any]
+    if options.form == "d5.4":
+        content = {"functions": [_function(function, system, report) for function in functions]}
+    else:
+        content = {
+            "sensors/actuators": list(_components(system, report)),
+            "functions": [by_schema(function, system, "adf", report) for function in functions],
+        }
+    if content := without_empty(**content):
+        text = document({"runtime-env": "ROS", **content})
+        yield OutputFile(f"{system.name}.adf.json", text, origin=system.origin)
+
+
+def _function(function: Function, system: System, report: Diagnostics) -> dict[str, Any]:
+    return without_empty(
+        name=function.name,
+        description=function.doc,
+        category=_CATEGORIES[function.category],
+        param_list=[_param(param, function, report) for param in function.params],
+        api=api(function, system, D5_4, report),
+    )
+
+
+def _param(param: Param, function: Function, report: Diagnostics) -> dict[str, Any]:
+    class_ = value_class(param.type)
+    described: dict[str, Any] = {"class": class_, "name": param.name}
+    # The node of a function in a library knows its defaults: a file that can be read is worth more.
+    if param.default is not None and (class_ == "number" or not function.in_library):
+        described |= value(param.default, report)
+        if class_ != "number":
+            report.report("value-not-a-number", param.origin, item=f"param `{param.name}`")
+    if param.doc:
+        described["description"] = param.doc
+    return described
+
+
+def _components(system: System, report: Diagnostics) -> Iterator[dict[str, Any]]:
+    """Those that the schema has a category for; it has no controllers."""
+    for component in system.components:
+        if component.kind == "controller":
+            what = f"controller `{component.name}`"
+            report.report("no-place", component.origin, target="adf", what=what)
+        else:
+            yield _component(component, system, report)
+
+
+def _component(component: Component, system: System, report: Diagnostics) -> dict[str, Any]:
+    for param in component.params:
+        what = f"param `{param.name}` of a component"
+        report.report("no-place", param.origin, target="adf", what=what)
+    inputs, outputs = (
+        [
+            topic(port.topic, port.type, system, SCHEMA, report)
+            for port in component.ports
+            if port.direction != other
+        ]
+        for other in ("out", "in")
+    )
+    return {
+        "name": component.name,
+        "description": component.doc,
+        "category": component.kind.capitalize(),
+        "api": without_empty(inputs=inputs, outputs=outputs),
+    }
+
+
+generator = Generator(
+    target="adf",
+    summary="the functions of the robots as an Abstraction Description File",
+    emit=emit,
+    options_type=Options,
+)

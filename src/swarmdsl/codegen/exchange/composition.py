@@ -1,0 +1,121 @@
+"""Target `composition`: which members a swarm has, and a launch file for one of each role.
+
+The schema is `SwarmComposition` of the CPSwarm modelling tool. Its member has one number, and
+a launch file, which is started as often as that number says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.xml_writer import legal
+from swarmdsl.codegen.api import Generator, OutputFile, option
+from swarmdsl.codegen.exchange.search_space import behaviours
+from swarmdsl.codegen.exchange.xml import add_comment, document
+from swarmdsl.codegen.shared.constants import Value
+from swarmdsl.codegen.shared.nodes import Given, behavior_nodes
+from swarmdsl.ir import Member, Role, Swarm, System, Type
+from swarmdsl.syntax.types import INTEGERS, Primitive
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options of the target."""
+
+    package: str = option(
+        "", "ROS package with the behaviours; the one that target smach writes when empty"
+    )
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """For each swarm a folder with its composition and its launch files."""
+    package = behaviours(system, options.package)
+    members = {member.name: member for member in system.members}
+    for swarm in system.swarms:
+        folder = snake_case(swarm.name)
+        text = document(_composition(swarm, report))
+        yield OutputFile(f"{folder}/composition.xml", text, origin=swarm.origin)
+        for role in swarm.roles:
+            text = document(_launch(role, members[role.member], system, package, report))
+            yield OutputFile(f"{folder}/launch/{role.name}.launch", text, origin=role.origin)
+
+
+def _composition(swarm: Swarm, report: Diagnostics) -> etree._Element:
+    root = etree.Element("swarm", name=swarm.name)
+    add_comment(root, swarm.doc)
+    for role in swarm.roles:
+        number = max(role.multiplicity.lower, 1)
+        if role.multiplicity.upper != role.multiplicity.lower:
+            report.report(
+                "no-place",
+                role.origin,
+                target="composition",
+                what=f"multiplicity `{role.multiplicity}`",
+                notes=(f"a member has one number there: {number} is written",),
+            )
+        attributes = {
+            "name": role.name,
+            "launchFile": f"{role.name}.launch",
+            "number": str(number),
+        }
+        etree.SubElement(root, "SwarmMember", attributes).text = legal(role.doc) or None
+    return root
+
+
+def _launch(
+    role: Role, member: Member, system: System, package: str, report: Diagnostics
+) -> etree._Element:
+    """A node for the behaviour of one member and for each of its parts that has one."""
+    root = etree.Element("launch")
+    add_comment(root, role.doc)
+    etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
+    group = etree.SubElement(root, "group", ns=f"{role.name}_$(arg id)")
+    for node in behavior_nodes(member, system):
+        type_ = snake_case(node.machine.name)
+        attributes = {"pkg": package, "type": type_, "name": node.name, "output": "screen"}
+        element = etree.SubElement(group, "node", attributes)
+        _add_params(element, node.params, report)
+        for name, topic in node.remaps:
+            etree.SubElement(element, "remap", {"from": name, "to": topic})
+    return root
+
+
+def _add_params(node: etree._Element, params: tuple[Given, ...], report: Diagnostics) -> None:
+    """The params that have a value when the model is compiled."""
+    for given in params:
+        if isinstance(given.value, str) and "$(" in given.value:
+            report.report(
+                "no-place",
+                given.expression.origin if given.expression is not None else None,
+                target="composition",
+                what=f"the value of `{given.param.name}`",
+                notes=("`$(` stands for something else in a launch file",),
+            )
+        elif given.value is not None:
+            type_, text = _kind(given.param.type), _text(given.value)
+            etree.SubElement(node, "param", name=given.param.name, type=type_, value=text)
+
+
+def _kind(type_: Type) -> str:
+    """A type as roslaunch has it: durations are numbers of seconds."""
+    name = type_.name if isinstance(type_, Primitive) else ""
+    if name in INTEGERS:
+        return "int"
+    return {"bool": "bool", "string": "str", "wstring": "str"}.get(name, "double")
+
+
+def _text(value: Value) -> str:
+    return str(value).lower() if isinstance(value, bool) else legal(str(value))
+
+
+generator = Generator(
+    target="composition",
+    summary="which members a swarm has, as XML, and launch files for them",
+    emit=emit,
+    options_type=Options,
+)

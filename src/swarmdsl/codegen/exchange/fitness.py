@@ -1,0 +1,99 @@
+"""Target `fitness`: each fitness as a Python script that computes it from the rosbag of a run.
+
+The simulation managers of CPSwarm call it with the bag and limits of the run, and read
+`fitness=<number>` from its output.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen.api import Generator, NoOptions, OutputFile
+from swarmdsl.codegen.shared.constants import constant, params_by_name
+from swarmdsl.codegen.templates import Templates
+from swarmdsl.ir import Array, Field, Fitness, Primitive, System
+from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
+
+_DIALECT = Dialect(
+    literal=python_literal,
+    variable="values[{!r}]".format,
+    param="values[{!r}]".format,
+    event="",
+    operators={},
+    functions={"sqrt": "math.sqrt"},
+)
+_TIMES = ("time", "duration")
+
+
+def emit(system: System, options: NoOptions, report: Diagnostics) -> Iterator[OutputFile]:
+    """One script for each fitness."""
+    for fitness in system.fitness:
+        if _can_be_computed(fitness, report):
+            # Named as the managers have it; beside others it could hide a module of Python.
+            path = f"{snake_case(fitness.name)}/fitness.py"
+            yield OutputFile(path, _script(fitness), executable=True, origin=fitness.origin)
+
+
+def _can_be_computed(fitness: Fitness, report: Diagnostics) -> bool:
+    """Whether all values can be known; what cannot is reported."""
+    known = params_by_name(fitness.params)
+    unknown = [
+        param
+        for param in fitness.params
+        if param.default is None or constant(param.default, known) is None
+    ]
+    structured = [each for each in fitness.inputs if not _is_plain(each)]
+    for param in unknown:
+        what = f"param `{param.name}`, which has no value"
+        hint = "give it one: the script is not written without"
+        report.report("no-place", param.origin, target="fitness", what=what, help=hint)
+    for each in structured:
+        what = f"input `{each.name}` of type `{each.type}`"
+        note = "what a script reads is a number, a text, a time or many numbers"
+        hint = "measure fields of it: the script is not written with it"
+        report.report(
+            "no-place", each.origin, target="fitness", what=what, notes=(note,), help=hint
+        )
+    return not unknown and not structured
+
+
+def _is_plain(each: Field) -> bool:
+    """Whether a message of std_msgs has such `data`."""
+    match each.type:
+        case Primitive():
+            return True
+        case Array(element=Primitive(name=name)):
+            return name not in ("string", "wstring", *_TIMES)
+    return False
+
+
+def _script(fitness: Fitness) -> str:
+    known = params_by_name(fitness.params)
+    value = translate(fitness.value, _DIALECT)
+    small = fitness.goal == "minimize"
+    return Templates(Path(__file__).parent).fill(
+        "fitness.py.j2",
+        name=fitness.name,
+        comment=fitness.doc.splitlines(),
+        sense=": what is to be small has its sign changed" if small else "",
+        inputs={
+            each.name: isinstance(each.type, Primitive) and each.type.name in _TIMES
+            for each in fitness.inputs
+        },
+        params={
+            param.name: constant(param.default, known)
+            for param in fitness.params
+            if param.default is not None
+        },
+        value=f"-({value})" if small else value,
+    )
+
+
+generator = Generator(
+    target="fitness",
+    summary="each fitness as a Python script that computes it from the rosbag of a run",
+    emit=emit,
+)

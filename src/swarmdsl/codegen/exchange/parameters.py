@@ -1,0 +1,60 @@
+"""Target `parameters`: what an optimiser may vary, for the CPSwarm simulation orchestrator.
+
+It reads a file `parameters.json` with these keys (schema `OptimisedParameter` of the modelling
+tool), in which a scale is a text.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.api import Generator, OutputFile, option
+from swarmdsl.codegen.exchange.description import document
+from swarmdsl.codegen.exchange.search_space import varied
+from swarmdsl.ir import System
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options of the target."""
+
+    package: str = option(
+        "", "ROS package whose parameter file has the params; that of the behaviours when empty"
+    )
+
+
+def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
+    """One file for each optimization, in a folder with the name of its swarm."""
+    for optimization in system.optimizations:
+        for name, value in optimization.settings:
+            report.report(
+                "no-place",
+                value.origin,
+                target="parameters",
+                what=f"`{name}`",
+                notes=("the file says what is varied, not how long",),
+            )
+        parameters = [
+            {
+                "name": each.name,
+                "meta": each.meta,
+                "min": each.minimum,
+                "max": each.maximum,
+                "scale": str(each.scale).removesuffix(".0"),
+            }
+            for each in varied(optimization, system, options.package, "parameters", report)
+        ]
+        if parameters:
+            path = f"{snake_case(optimization.swarm)}/parameters.json"
+            yield OutputFile(path, document({"parameters": parameters}), origin=optimization.origin)
+
+
+generator = Generator(
+    target="parameters",
+    summary="what an optimiser may vary, for the CPSwarm simulation orchestrator",
+    emit=emit,
+    options_type=Options,
+)

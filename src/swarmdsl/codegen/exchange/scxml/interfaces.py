@@ -1,0 +1,64 @@
+"""The interfaces that a machine uses: what its events, calls and data carry."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from lxml import etree
+
+from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
+from swarmdsl.codegen.exchange.scxml.xml import add_doc, add_payload
+from swarmdsl.ir import Action, Array, Field, Interface, Message, Service, System, Type
+from swarmdsl.ir.expression_printer import translate
+
+
+def describe_interfaces(root: etree._Element, types: Iterable[Type], system: System) -> None:
+    """Describe those that the model describes, and those that their fields are made of."""
+    known: dict[Type, Interface] = {each.type: each for each in system.interfaces}
+    used: set[Type] = set()
+    waiting = list(types)
+    while waiting:
+        type_ = waiting.pop()
+        while isinstance(type_, Array):
+            type_ = type_.element
+        if type_ in known and type_ not in used:
+            used.add(type_)
+            for _, fields in _parts(known[type_]):
+                waiting += [field.type for field in fields]
+    for interface in system.interfaces:
+        if interface.type in used:
+            _describe(root, interface)
+
+
+def _parts(interface: Interface) -> Iterator[tuple[str, tuple[Field, ...]]]:
+    match interface:
+        case Message(fields=fields):
+            yield "message", fields
+        case Service(request=request, response=response):
+            yield from (("request", request), ("response", response))
+        case Action(goal=goal, result=result, feedback=feedback):
+            yield from (("goal", goal), ("result", result), ("feedback", feedback))
+
+
+def _describe(root: etree._Element, interface: Interface) -> None:
+    element = add_payload(
+        *(root, type(interface).__name__.lower()),
+        type=str(interface.type),
+        external="true" if interface.external else "false",
+    )
+    add_doc(element, interface.doc)
+    if isinstance(interface, Message):
+        for constant in interface.constants:
+            given = add_payload(
+                *(element, "constant"),
+                name=constant.name,
+                type=str(constant.type),
+                value=translate(constant.value, dialect({})),
+            )
+            add_doc(given, constant.doc)
+    for name, fields in _parts(interface):
+        if not fields:
+            continue
+        inside = element if name == "message" else add_payload(element, "part", name=name)
+        for field in fields:
+            add_doc(add_payload(inside, "field", name=field.name, type=str(field.type)), field.doc)

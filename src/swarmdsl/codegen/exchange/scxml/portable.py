@@ -1,0 +1,226 @@
+"""The portable profile: a state machine as W3C SCXML that any engine can run.
+
+The effects of entering a state come before its delays start and its activity does: both may
+use what the effects store. Each group is an element of its own, because an effect that fails
+keeps those after it in the same element from being done.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from lxml import etree
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
+from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.codegen.exchange.scxml.payload import describe_machine, describe_state
+from swarmdsl.codegen.exchange.scxml.xml import PAYLOAD, SCXML, add, root
+from swarmdsl.codegen.exchange.xml import Places, add_comment
+from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.ir import (
+    Assignment,
+    Effect,
+    Expression,
+    Literal,
+    OutcomeTrigger,
+    Send,
+    State,
+    StateKind,
+    StateMachine,
+    System,
+    doc_of,
+)
+from swarmdsl.ir.expression_printer import Dialect, translate
+
+# The type of a <send> that leaves the machine: it is the business of the host.
+SEND_TYPE = "urn:swarmdsl:swarm"
+
+_TAGS = {
+    StateKind.PARALLEL: "parallel",
+    StateKind.FINAL: "final",
+    StateKind.HISTORY: "history",
+}
+
+
+def portable(machine: StateMachine, system: System, places: Places | None = None) -> etree._Element:
+    """The document of a machine; `places` gets those that its elements come from."""
+    places = {} if places is None else places
+    data = data_ids(machine)
+    ids = state_ids(machine, set(data.values()))
+    document = root(
+        {None: SCXML, "sw": PAYLOAD},
+        name=machine.name,
+        version="1.0",
+        datamodel="ecmascript" if needs_data(machine) else "null",
+        initial=ids[machine.initial],
+    )
+    describe_machine(document, machine, system, data)
+    _add_data(document, machine, system, data, places)
+    writer = _StateWriter(machine, ids, dialect(data), Events(machine, ids), places)
+    for state in machine.states:
+        writer.add_state(document, state)
+    return document
+
+
+def _add_data(
+    document: etree._Element,
+    machine: StateMachine,
+    system: System,
+    data: Mapping[str, str],
+    places: Places,
+) -> None:
+    if not data:
+        return
+    model = add(document, "datamodel")
+    values = dialect(data)
+    for param in machine.params:
+        given = translate(param.default, values) if param.default is not None else None
+        places[add(model, "data", id=data[param.name], expr=given)] = param.origin
+    for variable in machine.variables:
+        if variable.initial is not None:
+            first = translate(variable.initial, values)
+        else:
+            first = first_value(variable.type, system)
+        places[add(model, "data", id=data[variable.name], expr=first)] = variable.origin
+
+
+@dataclass(frozen=True)
+class _StateWriter:
+    machine: StateMachine
+    ids: Mapping[str, str]
+    dialect: Dialect
+    events: Events
+    places: Places
+
+    def add_state(self, parent: etree._Element, state: State, around: State | None = None) -> None:
+        """Add a state and what is in it."""
+        depth = ("deep" if state.deep else "shallow") if state.kind is StateKind.HISTORY else None
+        element = add(
+            parent,
+            _TAGS.get(state.kind, "state"),
+            id=self.ids[state.id],
+            initial=self.ids[state.initial] if state.initial is not None else None,
+            type=depth,
+        )
+        self.places[element] = state.origin
+        describe_state(element, state, self.machine, self.dialect)
+        if (
+            state.kind is StateKind.FINAL
+            and around is not None
+            and around.id in self.events.told_apart
+        ):
+            add(add(element, "onentry"), "raise", event=self.events.final(state.id))
+        if state.entry:
+            add_comment(element, doc_of(state.docs, "entry"))
+            self._add_effects(add(element, "onentry"), state.entry)
+        self._add_timers(element, state)
+        if state.exit:
+            add_comment(element, doc_of(state.docs, "exit"))
+            self._add_effects(add(element, "onexit"), state.exit)
+        self._add_transitions(element, state)
+        if around is not None and around.kind is StateKind.PARALLEL:
+            self._add_inward(element, state, around)
+        for child in state.states:
+            self.add_state(element, child, state)
+
+    def _add_timers(self, element: etree._Element, state: State) -> None:
+        waiting = delays(state)
+        if not waiting:
+            return
+        entry = add(element, "onentry")
+        leave = add(element, "onexit")
+        for delay in waiting:
+            event = self.events.timer(state, delay)
+            # A time that is over before it begins is over at once, as in the other targets.
+            length = translate(delay, self.dialect)
+            given = {"delayexpr": f'Math.max(0, Math.ceil({length})) + "ms"'}
+            if isinstance(delay, Literal):
+                # Some engines take whole numbers only; none may fire too early.
+                given = {"delay": f"{math.ceil(delay.milliseconds)}ms"}
+            add(entry, "send", event=event, id=event, **given)
+            add(leave, "cancel", sendid=event)
+
+    def _add_transitions(self, element: etree._Element, state: State) -> None:
+        end = OutcomeTrigger(state.id, "succeeded")
+        results = state.activity is not None and state.activity.results
+        taken = [each for each in state.transitions if end in each.triggers]
+        # Guards and effects on exit must see the result; other triggers of a transition bring none.
+        first = any(each.guard is not None or len(each.triggers) > 1 for each in taken)
+        first = first or self._is_left_with_effects(state)
+        done = self.events.stored(state)
+        if results and (first or not taken):
+            storing = add(element, "transition", event=self.events.outcome(state, "succeeded"))
+            add(storing, "raise", event=done)
+            self._add_results(storing, state)
+        for transition in state.transitions:
+            events = [
+                done if results and first and trigger == end else event
+                for trigger in transition.triggers
+                for event in self.events.of_trigger(trigger, state)
+            ]
+            # No element: there, an engine would try to do what it does not know.
+            add_comment(element, transition.doc)
+            if region_entered(transition, state) is not None:
+                # What it does stands in the region. Here it keeps those after it from being taken.
+                kept = self._add_transition(element, events, transition.guard)
+                self.places[kept] = transition.origin
+                continue
+            added = self._add_transition(
+                element, events, transition.guard, transition.internal, transition.target
+            )
+            self.places[added] = transition.origin
+            if results and not first and end in transition.triggers:
+                self._add_results(added, state)
+            self._add_effects(added, transition.effects)
+
+    def _is_left_with_effects(self, state: State) -> bool:
+        around = (each for each in self.machine.walk() if f"{state.id}.".startswith(f"{each.id}."))
+        return any(each.exit for each in around)
+
+    def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
+        for event, guard, transition, _ in inward(region, around, self.events):
+            events = [event] if event else []
+            added = self._add_transition(element, events, guard, True, transition.target)
+            self.places[added] = transition.origin
+            self._add_effects(added, transition.effects)
+
+    def _add_transition(
+        self,
+        element: etree._Element,
+        events: list[str],
+        guard: Expression | None,
+        internal: bool = False,
+        target: str | None = None,
+    ) -> etree._Element:
+        return add(
+            element,
+            "transition",
+            event=" ".join(dict.fromkeys(events)) or None,
+            cond=translate(guard, self.dialect) if guard is not None else None,
+            type="internal" if internal else None,
+            target=self.ids[target] if target is not None else None,
+        )
+
+    def _add_results(self, element: etree._Element, state: State) -> None:
+        assert state.activity is not None
+        for mapping in state.activity.results:
+            location = self._location(mapping.variable, mapping.path)
+            # Not copied: a result is in nobody else's hands.
+            add(element, "assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
+
+    def _add_effects(self, element: etree._Element, effects: Iterable[Effect]) -> None:
+        for effect in effects:
+            match effect:
+                case Assignment(variable=variable, path=path, value=value):
+                    location = self._location(variable, path)
+                    add(element, "assign", location=location, expr=stored(value, self.dialect))
+                case Send(event=event, arguments=arguments):
+                    sending = add(element, "send", event=event, type=SEND_TYPE)
+                    for name, value in arguments:
+                        add(sending, "param", name=name, expr=stored(value, self.dialect))
+
+    def _location(self, variable: str, path: tuple[str, ...]) -> str:
+        return ".".join((self.dialect.variable(variable), *path))

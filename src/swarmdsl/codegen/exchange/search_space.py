@@ -1,0 +1,107 @@
+"""What an optimiser varies, as FREVO has it: whole numbers, each with a scale for its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.constants import constant
+from swarmdsl.ir import Expression, Optimization, ParamRange, Primitive, System
+from swarmdsl.syntax.types import INTEGERS
+
+# An `int` of Java.
+LARGEST = 2**31 - 1
+
+
+@dataclass(frozen=True)
+class Varied:
+    """A parameter: `minimum` to `maximum`, times `scale`.
+
+    `meta` says where its value is put: the command line, or the parameter file of a package.
+    """
+
+    name: str
+    meta: str
+    minimum: int
+    maximum: int
+    scale: float
+
+
+def varied(
+    optimization: Optimization, system: System, package: str, target: str, report: Diagnostics
+) -> Iterator[Varied]:
+    """All that can be said in this way; the rest is reported."""
+    package = behaviours(system, package)
+    owners: dict[str, str] = {}
+    for range_ in optimization.params:
+        owner = owners.setdefault(range_.param, range_.role)
+        if owner != range_.role:
+            note = f"it is the same param as that of role `{owner}` in the parameter file"
+            _report(range_.param, range_.origin, target, report, note)
+            continue
+        scale = _scale(range_, optimization, system)
+        if scale is None:
+            note = "between its bounds are values without number, and the optimiser counts"
+            hint = "say which there are: `step 0.1`"
+            _report(range_.param, range_.origin, target, report, note, hint)
+            continue
+        lowest, highest = (_exact(end) / scale for end in (range_.lower, range_.upper))
+        if lowest.denominator != 1 or max(-lowest, highest) > LARGEST:
+            note = "a value is a whole number times the step, and the number has 32 bits"
+            hint = "let the range begin at a multiple of the step"
+            _report(range_.param, range_.origin, target, report, note, hint)
+            continue
+        meta = f"file:{package}"
+        yield Varied(range_.param, meta, int(lowest), int(highest // 1), float(scale))
+    for count in optimization.counts:
+        if count.role in owners:
+            note = "a param that is varied has that name too"
+            _report(count.role, count.origin, target, report, note)
+            continue
+        fewest, most = int(number(count.lower)), int(number(count.upper))
+        yield Varied(count.role, "command_line", fewest, most, 1.0)
+
+
+def behaviours(system: System, package: str) -> str:
+    """The ROS package with the behaviours: the one that is named, else that of target smach."""
+    return package or f"{snake_case(system.name)}_behavior"
+
+
+def number(expression: Expression) -> float:
+    """The value of a number or, in seconds, of a duration, which a check has seen."""
+    value = constant(expression, {})
+    assert isinstance(value, (int, float))
+    return value
+
+
+def _exact(expression: Expression) -> Fraction:
+    """The value as it is written: 0.1 is a tenth."""
+    return Fraction(str(number(expression)))
+
+
+def _scale(range_: ParamRange, optimization: Optimization, system: System) -> Fraction | None:
+    """The step; that of whole numbers is 1 where none is given, others have none."""
+    if range_.step is not None:
+        return _exact(range_.step)
+    swarm = next(each for each in system.swarms if each.name == optimization.swarm)
+    role = next(each for each in swarm.roles if each.name == range_.role)
+    member = next(each for each in system.members if each.name == role.member)
+    param = next(each for each in member.params if each.name == range_.param)
+    whole = isinstance(param.type, Primitive) and param.type.name in INTEGERS
+    return Fraction(1) if whole else None
+
+
+def _report(
+    name: str,
+    at: Span | None,
+    target: str,
+    report: Diagnostics,
+    note: str,
+    hint: str | None = None,
+) -> None:
+    what = f"the range of `{name}`"
+    report.report("no-place", at, target=target, what=what, notes=(note,), help=hint)

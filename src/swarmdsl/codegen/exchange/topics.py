@@ -1,0 +1,74 @@
+"""The ROS topics that a member uses: by its behaviour, its ports and the functions it calls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.shared.wiring import wiring
+from swarmdsl.ir import (
+    Component,
+    Effect,
+    EventTrigger,
+    Member,
+    Port,
+    Send,
+    StateMachine,
+    System,
+    Type,
+)
+
+
+@dataclass(frozen=True)
+class Use:
+    """Messages that are heard on a topic or sent on it; `origin` is what names the topic."""
+
+    topic: str
+    type: Type
+    heard: bool
+    origin: Span | None = field(default=None, compare=False)
+
+
+def uses(member: Member, system: System) -> Iterator[Use]:
+    """Each use once, in the order of the model."""
+    components = {component.name: component for component in system.components}
+    machines = {machine.name: machine for machine in system.machines}
+    owners: list[Member | Component] = [member]
+    owners += [components[part.component] for part in member.parts]
+    found: dict[Use, None] = {}
+    for owner in owners:
+        if owner.behavior is not None:
+            found.update(dict.fromkeys(_of_machine(machines[owner.behavior], system)))
+    wired = wiring(member, system)
+    for (part, _), port in wired.ports.items():
+        found.update(dict.fromkeys(_of_port(port, wired.topic(part, port))))
+    yield from found
+
+
+def _of_machine(machine: StateMachine, system: System) -> Iterator[Use]:
+    for state in machine.walk():
+        if state.activity is not None:
+            for port in system.function(state.activity.function).ports:
+                yield Use(port.topic, port.type, port.direction == "in", port.origin)
+        yield from _of_effects((*state.entry, *state.exit), system)
+        for transition in state.transitions:
+            for trigger in transition.triggers:
+                if isinstance(trigger, EventTrigger):
+                    event = system.event(trigger.event)
+                    yield Use(event.incoming_topic, event.type, True, event.origin)
+            yield from _of_effects(transition.effects, system)
+
+
+def _of_effects(effects: tuple[Effect, ...], system: System) -> Iterator[Use]:
+    for effect in effects:
+        if isinstance(effect, Send):
+            event = system.event(effect.event)
+            yield Use(event.topic, event.type, False, event.origin)
+
+
+def _of_port(port: Port, topic: str) -> Iterator[Use]:
+    if port.direction != "out":
+        yield Use(topic, port.type, True, port.origin)
+    if port.direction != "in":
+        yield Use(topic, port.type, False, port.origin)

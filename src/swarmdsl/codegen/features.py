@@ -1,0 +1,170 @@
+"""Which constructs of state machines a system uses, and where.
+
+A target that cannot express one of them is stopped before its generator runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.api import Feature
+from swarmdsl.ir import (
+    Activity,
+    Assignment,
+    Binary,
+    Call,
+    Effect,
+    EventData,
+    Expression,
+    FieldAccess,
+    Send,
+    State,
+    StateKind,
+    StateMachine,
+    System,
+    TimeTrigger,
+    Transition,
+    Unary,
+)
+
+Use = tuple[Feature, Span | None]
+
+_KINDS = {
+    StateKind.COMPOSITE: Feature.COMPOSITE,
+    StateKind.PARALLEL: Feature.PARALLEL,
+    StateKind.CHOICE: Feature.CHOICE,
+    StateKind.HISTORY: Feature.HISTORY,
+}
+
+
+def used_features(system: System) -> Iterator[Use]:
+    """Every use of a feature, in document order."""
+    for machine in system.machines:
+        yield from _in_machine(machine)
+
+
+def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) -> Iterator[Use]:
+    """The uses of what a target does not support, one a cause."""
+    for machine in machines:
+        causes = _causes_of_entering(machine)
+        for feature, place in _in_machine(machine):
+            if feature in supports:
+                continue
+            if feature is Feature.INTO_STATE and place in causes and not causes[place] <= supports:
+                continue
+            yield feature, place
+
+
+def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]]:
+    """What makes a transition lead into a state and is a use of a feature itself."""
+    histories = {state.id for state in machine.walk() if state.kind is StateKind.HISTORY}
+    found: dict[Span | None, set[Feature]] = {}
+    for state in machine.walk():
+        for transition in state.transitions:
+            causes = found.setdefault(transition.origin, set())
+            if transition.internal:
+                causes.add(Feature.INTERNAL)
+            if state.id in histories or transition.target in histories:
+                causes.add(Feature.HISTORY)
+    # Transitions without a place cannot be told apart.
+    found.pop(None, None)
+    return found
+
+
+def _in_machine(machine: StateMachine) -> Iterator[Use]:
+    for param in machine.params:
+        yield Feature.PARAM, param.origin
+    for variable in machine.variables:
+        yield Feature.VARIABLE, variable.origin
+    # A state's id leads to the id of the state around it: None at the top.
+    parents: dict[str, str | None] = {state.id: None for state in machine.states}
+    for state in machine.walk():
+        parents.update((child.id, state.id) for child in state.states)
+    if parents[machine.initial] is not None:
+        yield Feature.INTO_STATE, machine.origin
+    for state in machine.walk():
+        yield from _in_state(state, parents)
+
+
+def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
+    if state.kind in _KINDS:
+        yield _KINDS[state.kind], state.origin
+    if state.initial is not None and parents[state.initial] != state.id:
+        yield Feature.INTO_STATE, state.origin
+    if state.activity is not None:
+        yield from _in_activity(state.activity)
+    for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
+        for effect in effects:
+            yield feature, effect.origin
+            yield from _in_effect(effect)
+    for transition in state.transitions:
+        yield from _in_transition(transition)
+        if not transition.triggers and state.kind not in (StateKind.CHOICE, StateKind.HISTORY):
+            yield Feature.EVENTLESS, transition.origin
+        if transition.target is not None:
+            here, there = _around(state.id, parents), _around(transition.target, parents)
+            if here[0] not in there:
+                yield Feature.CROSS_LEVEL, transition.origin
+            if there[0] not in here:
+                yield Feature.INTO_STATE, transition.origin
+
+
+def _around(state: str, parents: dict[str, str | None]) -> list[str | None]:
+    """The states that one is in, the nearest first; last the machine, as None."""
+    found: list[str | None] = [parents[state]]
+    while found[-1] is not None:
+        found.append(parents[found[-1]])
+    return found
+
+
+def _in_activity(activity: Activity) -> Iterator[Use]:
+    if activity.goal_callback is not None or activity.result_callback is not None:
+        yield Feature.CALLBACK, activity.origin
+    for _, value in activity.arguments:
+        yield from _in_expression(value)
+    for result in activity.results:
+        yield Feature.RESULT, result.origin
+
+
+def _in_transition(transition: Transition) -> Iterator[Use]:
+    if transition.internal:
+        yield Feature.INTERNAL, transition.origin
+    if transition.target is None:
+        yield Feature.TARGETLESS, transition.origin
+    for trigger in transition.triggers:
+        if isinstance(trigger, TimeTrigger):
+            yield Feature.TIMEOUT, trigger.origin
+            yield from _in_expression(trigger.delay)
+    if transition.guard is not None:
+        yield Feature.GUARD, transition.guard.origin
+        yield from _in_expression(transition.guard)
+    for effect in transition.effects:
+        yield from _in_effect(effect)
+
+
+def _in_effect(effect: Effect) -> Iterator[Use]:
+    match effect:
+        case Assignment(value=value):
+            yield Feature.ASSIGNMENT, effect.origin
+            yield from _in_expression(value)
+        case Send(arguments=arguments):
+            yield Feature.SEND, effect.origin
+            for _, value in arguments:
+                yield from _in_expression(value)
+
+
+def _in_expression(expression: Expression) -> Iterator[Use]:
+    match expression:
+        case EventData():
+            yield Feature.EVENT_DATA, expression.origin
+        case FieldAccess(base=base):
+            yield from _in_expression(base)
+        case Unary(operand=operand):
+            yield from _in_expression(operand)
+        case Binary(left=left, right=right):
+            yield from _in_expression(left)
+            yield from _in_expression(right)
+        case Call(arguments=arguments):
+            for argument in arguments:
+                yield from _in_expression(argument)

@@ -1,0 +1,143 @@
+"""Python source text: calls laid out as a formatter would, literals, model text in comments."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import NamedTuple
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.source_map import Placed
+
+WIDTH = 100
+_STEP = "    "
+
+
+@dataclass(frozen=True)
+class Source:
+    """An expression that is Python text already."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call; arguments are `Source`, `Call`, or plain values written as literals."""
+
+    function: str
+    arguments: tuple[object, ...] = ()
+    keywords: tuple[tuple[str, object], ...] = ()
+
+
+def layout(
+    value: object, indent: int = 0, before: str = "", after: str = "", width: int = WIDTH
+) -> str:
+    """The value as an expression, broken over lines where it does not fit in one.
+
+    `indent` is the depth of the line it stands in, `before` and `after` what else is in it.
+    """
+    return _laid_out(_written(value), indent, before, after, width)
+
+
+def one_line(value: object) -> str:
+    """The value as an expression on one line."""
+    return _flat(_written(value))
+
+
+class _Written(NamedTuple):
+    """An expression on one line, and the parts that can have lines of their own."""
+
+    flat: str
+    opening: str
+    items: Sequence[tuple[str, _Written | str]]
+    """Each with what stands before it."""
+    closing: str
+    together: str | None = None
+    """All items on one line, where they may share one: those of a call."""
+
+
+def _written(value: object) -> _Written | str:
+    """An expression; one without parts is only its text."""
+    if isinstance(value, (str, int, float)):
+        return repr(value)
+    if isinstance(value, Source):
+        return value.text
+    items: list[tuple[str, _Written | str]]
+    if isinstance(value, Call):
+        items = [("", _written(argument)) for argument in value.arguments]
+        items += [(f"{name}=", _written(item)) for name, item in value.keywords]
+        together = _side_by_side(items)
+        opening = f"{value.function}("
+        return _Written(f"{opening}{together})", opening, items, ")", together)
+    if isinstance(value, tuple):
+        items = [("", _written(item)) for item in value]
+        comma = "," if len(items) == 1 else ""
+        return _Written(f"({_side_by_side(items)}{comma})", "(", items, ")")
+    if isinstance(value, list):
+        items = [("", _written(item)) for item in value]
+        return _Written(f"[{_side_by_side(items)}]", "[", items, "]")
+    if isinstance(value, Mapping):
+        items = [(f"{key!r}: ", _written(item)) for key, item in value.items()]
+        return _Written(f"{{{_side_by_side(items)}}}", "{", items, "}")
+    return repr(value)
+
+
+def _flat(written: _Written | str) -> str:
+    return written if isinstance(written, str) else written.flat
+
+
+def _side_by_side(items: Sequence[tuple[str, _Written | str]]) -> str:
+    return ", ".join([prefix + _flat(item) for prefix, item in items])
+
+
+def _laid_out(written: _Written | str, indent: int, before: str, after: str, width: int) -> str:
+    if isinstance(written, str):
+        return f"{before}{written}{after}"
+    if not written.items or len(before) + len(written.flat) + len(after) <= width:
+        return f"{before}{written.flat}{after}"
+    inner = _STEP * (indent + 1)
+    together = written.together
+    if together is not None and len(inner) + len(together) <= width:
+        lines = [inner + together]
+    else:
+        lines = [
+            _laid_out(item, indent + 1, inner + prefix, ",", width)
+            for prefix, item in written.items
+        ]
+    closing = f"{_STEP * indent}{written.closing}{after}"
+    return "\n".join([f"{before}{written.opening}", *lines, closing])
+
+
+def comment_lines(text: str) -> list[str]:
+    """Text of the model as lines for comments."""
+    return [line.rstrip() for line in text.strip().splitlines()]
+
+
+def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
+    """Where something stands in the model and what is said of it there, a comment a line."""
+    where = (Placed(place(origin), origin, holds=True),) if origin is not None else ()
+    return (*where, *comment_lines(doc))
+
+
+def docstring(text: str) -> str:
+    """Text of the model as it can stand between triple quotes."""
+    safe = text.strip().replace("\\", "\\\\").replace('"', '\\"')
+    return "\n".join(line.rstrip() for line in safe.splitlines())
+
+
+def place(origin: Span | None) -> str:
+    """`file:line` of a place in the model, the file by its last name."""
+    if origin is None:
+        return ""
+    return f"{file_name(origin)}:{origin.line}"
+
+
+def file_name(origin: Span) -> str:
+    """The last name of the file a place is in, on one line."""
+    return _last_name(origin.source.name)
+
+
+@cache
+def _last_name(path: str) -> str:
+    return " ".join(path.replace("\\", "/").rsplit("/", 1)[-1].split())

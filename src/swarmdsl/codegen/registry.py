@@ -1,0 +1,140 @@
+"""Where generators come from: the built-in ones by a table, those of others by entry points."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from importlib import import_module
+from typing import TYPE_CHECKING, get_type_hints
+
+from swarmdsl.base.errors import failure
+from swarmdsl.base.records import dataclass, fields_of, is_dataclass
+from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen.api import API_VERSION, Generator
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
+BUILT_IN = {
+    "scxml": "swarmdsl.codegen.exchange.scxml:generator",
+    "adf": "swarmdsl.codegen.exchange.adf:generator",
+    "smach": "swarmdsl.codegen.bundled.smach:generator",
+    "ros2": "swarmdsl.codegen.bundled.ros2:generator",
+    "skeleton": "swarmdsl.codegen.bundled.skeleton:generator",
+    "yasmin": "swarmdsl.codegen.bundled.yasmin:generator",
+    "amf": "swarmdsl.codegen.exchange.amf:generator",
+    "swarmros": "swarmdsl.codegen.exchange.swarmros:generator",
+    "parameters": "swarmdsl.codegen.exchange.parameters:generator",
+    "fitness": "swarmdsl.codegen.exchange.fitness:generator",
+    "composition": "swarmdsl.codegen.exchange.composition:generator",
+    "frevo": "swarmdsl.codegen.exchange.frevo:generator",
+}
+# What other tools take besides; built only where somebody asks for it.
+ON_REQUEST = frozenset(
+    {"skeleton", "yasmin", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
+)
+GROUP = "swarmdsl.generators"
+
+OPTION_TYPES = (str, bool, int)
+
+# Names that are tried for targets of ROS 1.
+ROS_1 = frozenset({"ros", "ros1", "ros-1", "ros_1"})
+
+# A target's name is also the name of its output folder.
+_NAME = r"[a-z][a-z0-9_-]*"
+
+
+@dataclass(frozen=True)
+class Broken:
+    """A generator that is installed but cannot be used, and why."""
+
+    reason: str
+
+
+def target_names() -> list[str]:
+    """The names of all targets there are, the built-in ones first."""
+    return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
+
+
+def has(name: str) -> bool:
+    """Whether there is a target of that name."""
+    return name in BUILT_IN or name in _third_party()
+
+
+def similar_target(name: str) -> str:
+    """Which targets may be meant by a name that none has."""
+    if name.lower() in ROS_1:
+        return "ROS 1 is target `smach`, and ROS 2 is `ros2`"
+    return suggest(name, target_names(), "targets")
+
+
+def default_names() -> list[str]:
+    """The targets that are built where nobody says which."""
+    return [name for name in target_names() if name not in ON_REQUEST]
+
+
+def hidden_names() -> list[str]:
+    """Names that a package of others offers although they belong to a built-in target."""
+    return sorted(_third_party().keys() & BUILT_IN.keys())
+
+
+def load(name: str) -> Generator | Broken | None:
+    """The generator of a target, None when there is no such target."""
+    if name in BUILT_IN:
+        module, _, attribute = BUILT_IN[name].partition(":")
+        return _loaded(name, lambda: getattr(import_module(module), attribute))
+    found = _third_party().get(name, [])
+    if not found:
+        return None
+    if not re.fullmatch(_NAME, name):
+        return Broken("its name is not made of lower-case letters, digits, `-` and `_`")
+    if len(found) > 1:
+        return Broken(f"it is offered more than once, as {' and '.join(p.value for p in found)}")
+    return _loaded(name, found[0].load)
+
+
+def _third_party() -> dict[str, list[EntryPoint]]:
+    # Imported here because it is slow and the built-in targets do without.
+    from importlib.metadata import entry_points
+
+    by_name: dict[str, list[EntryPoint]] = {}
+    for point in entry_points(group=GROUP):
+        # A package that is installed and on the path besides is listed twice.
+        same_name = by_name.setdefault(point.name, [])
+        if point.value not in [known.value for known in same_name]:
+            same_name.append(point)
+    return by_name
+
+
+def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
+    try:
+        found = load()
+        fault = _fault(name, found)
+    # Whatever goes wrong in the code of others, `sys.exit` included, is theirs alone.
+    except (Exception, SystemExit) as error:
+        return Broken(failure(f"loading the generator of target {name}", error))
+    if fault is not None:
+        return Broken(fault)
+    assert isinstance(found, Generator)
+    return found
+
+
+def _fault(name: str, found: object) -> str | None:
+    if not isinstance(found, Generator):
+        return f"it is an object of class `{type(found).__name__}`, not a `Generator`"
+    if found.api_version != API_VERSION:
+        return f"it is made for version {found.api_version} of the generator API, not {API_VERSION}"
+    if found.target != name:
+        return f"it calls itself `{found.target}`"
+    if not (isinstance(found.options_type, type) and is_dataclass(found.options_type)):
+        return "its `options_type` is not a dataclass"
+    types = get_type_hints(found.options_type)
+    for option, about in fields_of(found.options_type).items():
+        if types[option] not in OPTION_TYPES:
+            return f"its option `{option}` is neither `str`, `bool` nor `int`"
+        if "default" not in about:
+            return f"its option `{option}` has no default"
+        other = about.get("metadata", {}).get("only", "").partition("=")[0]
+        if other and other not in types:
+            return f"its option `{option}` counts only with an option `{other}`, which is not there"
+    return None

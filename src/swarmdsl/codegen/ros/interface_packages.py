@@ -1,0 +1,112 @@
+"""The packages that interfaces are in, as a generator writes them: what each needs, its files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.graphs import cycles
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.ros.interface_files import (
+    Generation,
+    definition,
+    depends,
+    file_name,
+    named,
+    parts,
+)
+from swarmdsl.ir import Interface, Named, System
+from swarmdsl.project.rosidl import standard
+
+
+@dataclass(frozen=True)
+class InterfacePackage:
+    """A package of interfaces; `depends` are those whose messages are in its fields."""
+
+    name: str
+    interfaces: tuple[Interface, ...]
+    depends: tuple[str, ...]
+
+
+def packages_of(interfaces: Iterable[Interface], ros: Generation) -> tuple[InterfacePackage, ...]:
+    """The packages that the interfaces are in, in the order in which they first appear."""
+    by_name: dict[str, list[Interface]] = {}
+    for interface in interfaces:
+        by_name.setdefault(interface.type.package, []).append(interface)
+    return tuple(
+        InterfacePackage(name, tuple(each), tuple(sorted(depends(each, ros) - {name})))
+        for name, each in by_name.items()
+    )
+
+
+def written(system: System, others: str) -> list[Interface]:
+    """The interfaces that a target writes: the model's own, and those of the packages `others`.
+
+    These are names with commas between them: packages that no workspace has, but that the model
+    or its libraries describe.
+    """
+    packages = others.split(",")
+    return [
+        each for each in system.interfaces if not each.external or each.type.package in packages
+    ]
+
+
+def check_described(system: System, others: str, target: str, report: Diagnostics) -> None:
+    """Report what is used of packages that are to be written and nobody describes."""
+    packages = others.split(",")
+    used = [(event.type, event.origin) for event in system.events]
+    used += ((each.communication.type, each.origin) for each in system.functions)
+    fields = (f for each in written(system, others) for part in parts(each) for f in part)
+    used += ((type_, field.origin) for field in fields for type_ in named(field.type))
+    first: dict[Named, Span | None] = {}
+    for type_, origin in used:
+        if isinstance(type_, Named) and type_.package in packages:
+            first.setdefault(type_, origin)
+    for type_, origin in first.items():
+        if system.interface(type_) is None:
+            construct = (
+                f"`{type_}`, which the model does not describe, in a package that is written"
+            )
+            report.report("unsupported-construct", origin, target=target, construct=construct)
+
+
+def packages_of_others(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:
+    """The packages of interfaces that neither come with ROS nor are `made`: others have them."""
+    known = {*standard.packages(), *(package.name for package in made)}
+    return sorted({type_.package for type_ in used} - known)
+
+
+def are_described(system: System, package: str) -> bool:
+    """Whether all is known that is used of a package of others, so that it can be written."""
+    found = Diagnostics()
+    check_described(system, package, "", found)
+    return not found.has_errors
+
+
+def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:
+    """Report packages that need each other: each is built after those it depends on."""
+    known = {package.name: package for package in packages}
+    for name, way in cycles(
+        known, lambda name: [(other, other) for other in known[name].depends if other in known]
+    ):
+        report.report(
+            "unsupported-construct",
+            known[name].interfaces[0].origin,
+            target=target,
+            construct=f"packages whose interfaces need each other ({' -> '.join([name, *way])})",
+        )
+
+
+def definitions(
+    package: InterfacePackage, ros: Generation, target: str, report: Diagnostics
+) -> Iterator[OutputFile]:
+    """The .msg, .srv and .action files of a package."""
+
+    def complain(construct: str, at: Span | None) -> None:
+        report.report("unsupported-construct", at, target=target, construct=construct)
+
+    for interface in package.interfaces:
+        text = definition(interface, ros, complain)
+        yield OutputFile(f"{package.name}/{file_name(interface)}", text, origin=interface.origin)

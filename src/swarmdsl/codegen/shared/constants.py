@@ -1,0 +1,98 @@
+"""The values of expressions that are known when the model is compiled."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from swarmdsl.analysis.types.constant_folding import OPERATIONS
+from swarmdsl.base.source import Span
+from swarmdsl.ir import Binary, Call, Expression, Literal, Param, ParamRef, Unary
+from swarmdsl.syntax.types import DURATION
+
+Value = bool | int | float | str
+
+
+class UnknownValueError(Exception):
+    """The value depends on what is not known yet."""
+
+
+class UndefinedValueError(Exception):
+    """An operation has no result, or none that is a finite number."""
+
+    def __init__(self, operator: str, operands: list[str], origin: Span | None) -> None:
+        super().__init__(operator, operands, origin)
+        self.operator = operator
+        self.operands = operands
+        self.origin = origin
+
+
+def constant(expression: Expression, params: Mapping[str, Param]) -> Value | None:
+    """The value of an expression, as `evaluate` gives it; None where there is none."""
+    try:
+        return evaluate(expression, params)
+    except (UnknownValueError, UndefinedValueError):
+        return None
+
+
+def evaluate(expression: Expression, params: Mapping[str, Param]) -> Value:
+    """The value of an expression of literals and of params with a default.
+
+    Durations are in seconds, as rospy takes them. Raises UnknownValueError or UndefinedValueError.
+    """
+    value: Value = _value(expression, params)
+    return value / 1_000_000_000 if expression.type == DURATION else value  # type: ignore[operator]
+
+
+def params_by_name(params: tuple[Param, ...]) -> dict[str, Param]:
+    """The params that an expression can mean."""
+    return {param.name: param for param in params}
+
+
+def _value(expression: Expression, params: Mapping[str, Param]) -> Any:
+    """The value; durations in nanoseconds."""
+    match expression:
+        case Literal(value=value):
+            return value
+        case ParamRef(name=name):
+            default = params[name].default if name in params else None
+            if default is None:
+                raise UnknownValueError
+            return _value(default, params)
+        case Unary(operator="not", operand=operand):
+            return not _value(operand, params)
+        case Unary(operand=operand):
+            return -_value(operand, params)
+        case Binary(operator="or", left=left, right=right):
+            return _value(left, params) or _value(right, params)
+        case Binary(operator="and", left=left, right=right):
+            return _value(left, params) and _value(right, params)
+        case Binary(operator=symbol, left=left, right=right):
+            return _apply(symbol, (left, right), params, expression.origin)
+        case Call(function=function, arguments=arguments):
+            return _apply(function, arguments, params, expression.origin)
+    raise UnknownValueError
+
+
+def _apply(
+    operation: str,
+    operands: tuple[Expression, ...],
+    params: Mapping[str, Param],
+    origin: Span | None,
+) -> Any:
+    values = [_value(operand, params) for operand in operands]
+    try:
+        result = OPERATIONS[operation](*values)
+        if not isinstance(result, float) or math.isfinite(result):
+            return result
+    except (ArithmeticError, ValueError):
+        pass
+    raise UndefinedValueError(operation, [_text(operand) for operand in operands], origin)
+
+
+def _text(operand: Expression) -> str:
+    """An operand as a person knows it."""
+    if isinstance(operand, Literal) and operand.type != DURATION:
+        return str(operand.value)
+    return operand.origin.text if operand.origin is not None else repr(operand)

@@ -1,0 +1,39 @@
+"""What a state or a transition does, as text of the model: effects and activities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.ir import Activity, Assignment, Effect, Expression, Send
+
+
+def effect_text(effect: Effect) -> str:
+    """`x = 1` or `send Found(id = 7)`."""
+    match effect:
+        case Assignment(variable=variable, path=path, value=value):
+            return f"{'.'.join((variable, *path))} = {expression(value)}"
+        case Send(event=event, arguments=values):
+            return f"send {event}({arguments(values)})" if values else f"send {event}"
+
+
+def activity_text(activity: Activity, function: str) -> str:
+    """`go(height = 2) gives (id => found)` with the function by the given name."""
+    text = function
+    if activity.goal_callback is not None:
+        text += f"(by {activity.goal_callback})"
+    elif activity.arguments:
+        text += f"({arguments(activity.arguments)})"
+    if activity.result_callback is not None:
+        text += f" gives by {activity.result_callback}"
+    elif activity.results:
+        results = (
+            f"{each.field} => {'.'.join((each.variable, *each.path))}" for each in activity.results
+        )
+        text += f" gives ({', '.join(results)})"
+    return text
+
+
+def arguments(values: Iterable[tuple[str, Expression]]) -> str:
+    """`height = 2, name = "a"`."""
+    return ", ".join(f"{name} = {expression(value)}" for name, value in values)

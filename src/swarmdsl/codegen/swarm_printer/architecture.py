@@ -1,0 +1,166 @@
+"""Components and members as text, without what they inherit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import TypeVar
+
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.codegen.swarm_printer.interfaces import on_topic, print_params
+from swarmdsl.codegen.swarm_printer.layout import UnprintableError, block, documented, indented
+from swarmdsl.codegen.swarm_printer.names import Names, operation_name, own_operations
+from swarmdsl.ir import (
+    Component,
+    Connector,
+    Docs,
+    Expression,
+    Member,
+    Param,
+    Part,
+    Port,
+    Service,
+    System,
+    doc_of,
+)
+
+T = TypeVar("T")
+
+
+def print_component(component: Component, system: System, names: Names) -> list[str]:
+    """A component with its operations."""
+    base = next((each for each in system.components if each.name == component.base), None)
+    return documented(
+        component.doc,
+        block(
+            f"{component.kind} {component.name}{_extends(component)}",
+            [
+                *_behavior(component, base),
+                *_ports(own(component.ports, base.ports if base else (), component), names),
+                *print_params(own_params(component, base), names),
+            ],
+            [
+                line
+                for function in own_operations(component, system)
+                for line in _operation(function, system, names)
+            ],
+        ),
+    )
+
+
+def print_member(member: Member, system: System, names: Names) -> list[str]:
+    """A member with its parts and connectors."""
+    base = next((each for each in system.members if each.name == member.base), None)
+    return documented(
+        member.doc,
+        block(
+            f"member {member.name}{_extends(member)}",
+            [
+                *_behavior(member, base),
+                *_communication(member, base),
+                *_ports(own(member.ports, base.ports if base else (), member), names),
+                *print_params(own_params(member, base), names),
+            ],
+            [
+                line
+                for part in own(member.parts, base.parts if base else (), member)
+                for line in _part(part)
+            ],
+            _connectors(own(member.connectors, base.connectors if base else (), member)),
+        ),
+    )
+
+
+def own(items: Sequence[T], inherited: Sequence[T], owner: Component | Member) -> Sequence[T]:
+    """The items after those that are inherited."""
+    if items[: len(inherited)] != inherited:
+        raise UnprintableError(f"`{owner.name}` lacks something of `{owner.base}`")
+    return items[len(inherited) :]
+
+
+def own_params(owner: Component | Member, base: Component | Member | None) -> list[Param]:
+    """The params that are new, or replace an inherited one."""
+    inherited = base.params if base is not None else ()
+    names = [param.name for param in inherited]
+    if [param.name for param in owner.params[: len(names)]] != names:
+        raise UnprintableError(f"`{owner.name}` lacks a param of `{owner.base}`")
+    return [param for param in owner.params if param not in inherited]
+
+
+def _extends(owner: Component | Member) -> str:
+    return f" extends {owner.base}" if owner.base is not None else ""
+
+
+def _behavior(owner: Component | Member, base: Component | Member | None) -> list[str]:
+    doc = doc_of(owner.docs, "behavior")
+    inherited = (base.behavior, doc_of(base.docs, "behavior")) if base is not None else (None, "")
+    if (owner.behavior, doc) == inherited:
+        return []
+    if owner.behavior is None:
+        raise UnprintableError(f"`{owner.name}` lacks the behavior of `{owner.base}`")
+    return documented(doc, [f"behavior {owner.behavior}"])
+
+
+def _communication(member: Member, base: Member | None) -> list[str]:
+    settings = member.communication
+    if base is not None and settings == base.communication:
+        return []
+    if settings is None:
+        if base is not None:
+            raise UnprintableError(f"`{member.name}` lacks the communication of `{base.name}`")
+        return []
+    lines = block(f"communication {settings.technology}", _values(settings.values, settings.docs))
+    return documented(settings.doc, lines)
+
+
+def _values(values: Iterable[tuple[str, Expression]], docs: Docs) -> list[str]:
+    return [
+        line
+        for name, value in values
+        for line in documented(doc_of(docs, name), [f"{name} = {expression(value)}"])
+    ]
+
+
+def _ports(ports: Iterable[Port], names: Names) -> list[str]:
+    return [line for port in ports for line in documented(port.doc, [_port(port, names)])]
+
+
+def _port(port: Port, names: Names) -> str:
+    on = on_topic(port.topic, port.name)
+    return f"{port.direction} {port.name} : {names.type(port.type)}{on}"
+
+
+def _operation(function: str, system: System, names: Names) -> list[str]:
+    offered = system.function(function)
+    service = system.interface(offered.communication.type)
+    assert isinstance(service, Service)
+    head = f"operation {operation_name(offered)}"
+    parameters = [
+        (parameter.doc, f"{direction} {parameter.name} : {names.type(parameter.type)}")
+        for direction, fields in (("in", service.request), ("out", service.response))
+        for parameter in fields
+    ]
+    if not any(doc for doc, _ in parameters):
+        lines = [f"{head}({', '.join(text for _, text in parameters)})"]
+    else:
+        last = len(parameters) - 1
+        inside = [
+            line
+            for i, (doc, text) in enumerate(parameters)
+            for line in documented(doc, [text if i == last else f"{text},"])
+        ]
+        lines = [f"{head}(", *indented(inside), ")"]
+    return documented(offered.doc, lines)
+
+
+def _part(part: Part) -> list[str]:
+    head = f"{part.name} : {part.component}"
+    values = _values(part.values, part.docs)
+    return documented(part.doc, block(head, values) if values else [head])
+
+
+def _connectors(connectors: Iterable[Connector]) -> list[str]:
+    return [
+        line
+        for each in connectors
+        for line in documented(each.doc, [f"connect {each.source} -> {each.target}"])
+    ]

@@ -1,0 +1,93 @@
+"""Swarms, environments, fitness and optimizations as text."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.codegen.swarm_printer.interfaces import print_params
+from swarmdsl.codegen.swarm_printer.layout import block, documented, quoted
+from swarmdsl.codegen.swarm_printer.names import Names
+from swarmdsl.ir import (
+    CountRange,
+    Environment,
+    Fitness,
+    Multiplicity,
+    Optimization,
+    ParamRange,
+    Swarm,
+    doc_of,
+)
+
+_ONE = Multiplicity(1, 1)
+
+
+def print_swarm(swarm: Swarm) -> list[str]:
+    """A swarm with its roles."""
+    roles = [
+        line
+        for role in swarm.roles
+        for line in documented(
+            role.doc,
+            [
+                f"{role.name} : {role.member}"
+                + ("" if role.multiplicity == _ONE else f"[{role.multiplicity}]")
+            ],
+        )
+    ]
+    uses = {"environment": swarm.environment, "fitness": swarm.fitness}
+    used = [
+        line
+        for what, name in uses.items()
+        if name is not None
+        for line in documented(doc_of(swarm.docs, what), [f"{what} {name}"])
+    ]
+    return documented(swarm.doc, block(f"swarm {swarm.name}", [*roles, *used]))
+
+
+def print_environment(environment: Environment) -> list[str]:
+    """An environment, lengths in metres."""
+    lines = []
+    if environment.world is not None:
+        world = [f"world {quoted(environment.world)}"]
+        lines += documented(doc_of(environment.docs, "world"), world)
+    if environment.size is not None:
+        size = ["size " + " x ".join(map(_metres, environment.size))]
+        lines += documented(doc_of(environment.docs, "size"), size)
+    return documented(environment.doc, block(f"environment {environment.name}", lines))
+
+
+def print_fitness(fitness: Fitness, names: Names) -> list[str]:
+    """A fitness with its inputs and params."""
+    inputs = [
+        line
+        for each in fitness.inputs
+        for line in documented(each.doc, [f"in {each.name} : {names.type(each.type)}"])
+    ]
+    goal = [f"{fitness.goal} {expression(fitness.value)}"]
+    objective = documented(doc_of(fitness.docs, "value"), goal)
+    lines = [*inputs, *print_params(fitness.params, names), *objective]
+    return documented(fitness.doc, block(f"fitness {fitness.name}", lines))
+
+
+def print_optimization(optimization: Optimization) -> list[str]:
+    """What an optimiser may vary."""
+    lines = []
+    for name, value in optimization.settings:
+        lines += documented(doc_of(optimization.docs, name), [f"{name} {expression(value)}"])
+    for count in optimization.counts:
+        lines += documented(count.doc, [f"count of {count.role} {_range(count)}"])
+    for param in optimization.params:
+        step = f" step {expression(param.step)}" if param.step is not None else ""
+        lines += documented(param.doc, [f"{param.role}.{param.param} {_range(param)}{step}"])
+    return documented(optimization.doc, block(f"optimize {optimization.swarm}", lines))
+
+
+def _range(values: CountRange | ParamRange) -> str:
+    return f"in {expression(values.lower)} .. {expression(values.upper)}"
+
+
+def _metres(length: float) -> str:
+    """A length as a decimal number: without exponent, and without `.0`."""
+    text = f"{Decimal(repr(length)):f}"
+    return f"{text.removesuffix('.0')} m"

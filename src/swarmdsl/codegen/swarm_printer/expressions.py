@@ -1,0 +1,55 @@
+"""Expressions as the language writes them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import isfinite
+
+from swarmdsl.codegen.swarm_printer.layout import UnprintableError, quoted
+from swarmdsl.ir import Expression, Literal
+from swarmdsl.ir.expression_printer import Dialect, translate
+from swarmdsl.syntax.parser.literals import UNITS
+from swarmdsl.syntax.types import DURATION
+
+
+def expression(value: Expression, named: Callable[[str], str] = str) -> str:
+    """An expression with the parentheses that it needs; `named` writes variables and params."""
+    return translate(value, Dialect(_literal, named, named, "event", {}, {}))
+
+
+def delay(value: Expression) -> str:
+    """The same after `after`, where a `/` would begin the effects of the transition."""
+    text = expression(value)
+    return f"({text})" if "/" in text or "%" in text else text
+
+
+def default(value: Expression | None) -> str:
+    """` = value`, or nothing."""
+    return "" if value is None else f" = {expression(value)}"
+
+
+def _literal(literal: Literal) -> str:
+    match literal.value:
+        case bool():
+            return "true" if literal.value else "false"
+        case int() if literal.type == DURATION:
+            return _duration(literal.value)
+        case float() if not isfinite(literal.value):
+            raise UnprintableError(f"{literal.value} is no number that can be written")
+        case str():
+            return quoted(literal.value)
+        case value:
+            return repr(value)
+
+
+def _duration(nanoseconds: int) -> str:
+    """A length of time in the longest unit of which it is a whole number, else in `us`."""
+    if nanoseconds < 0:
+        return f"-{_duration(-nanoseconds)}"
+    if nanoseconds == 0:
+        return "0 s"
+    for unit, length in sorted(UNITS.items(), key=lambda item: -item[1]):
+        if nanoseconds % length == 0:
+            return f"{nanoseconds // length} {unit}"
+    whole, rest = divmod(nanoseconds, UNITS["us"])
+    return f"{whole}.{rest:03}".rstrip("0") + " us"

@@ -1,0 +1,193 @@
+"""State machines as text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.codegen.swarm_printer.actions import activity_text, arguments, effect_text
+from swarmdsl.codegen.swarm_printer.expressions import default, delay, expression
+from swarmdsl.codegen.swarm_printer.interfaces import print_params
+from swarmdsl.codegen.swarm_printer.layout import UnprintableError, block, documented
+from swarmdsl.codegen.swarm_printer.names import Names
+from swarmdsl.codegen.swarm_printer.paths import Level, Place, level, top
+from swarmdsl.codegen.swarm_printer.reuse import Reuse
+from swarmdsl.ir import (
+    DoneTrigger,
+    Effect,
+    EventTrigger,
+    OutcomeTrigger,
+    State,
+    StateKind,
+    StateMachine,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    Variable,
+    doc_of,
+)
+
+
+def print_machine(machine: StateMachine, reuse: Reuse, names: Names) -> list[str]:
+    """A machine; states that reuse another one say so."""
+    place = top(machine)
+    endless = "endless " if machine.endless else ""
+    printer = _Printer(reuse, names)
+    return documented(
+        machine.doc,
+        block(
+            f"{endless}statemachine {machine.name}",
+            [
+                *print_params(machine.params, names),
+                *(line for each in reuse.variables for line in _variable(each, names)),
+            ],
+            _initial(machine, place.path(machine.initial, place.outer)),
+            printer.states(machine.states, place),
+        ),
+    )
+
+
+def _initial(owner: StateMachine | State, name: str) -> list[str]:
+    return documented(doc_of(owner.docs, "initial"), [f"initial {name}"])
+
+
+def _variable(variable: Variable, names: Names) -> list[str]:
+    line = f"var {variable.name} : {names.type(variable.type)}{default(variable.initial)}"
+    return documented(variable.doc, [line])
+
+
+@dataclass(frozen=True)
+class _Printer:
+    """Prints the states of one machine."""
+
+    reuse: Reuse
+    names: Names
+
+    def states(self, states: Iterable[State], place: Place) -> list[str]:
+        return [
+            line for state in states for line in documented(state.doc, self._state(state, place))
+        ]
+
+    def _state(self, state: State, place: Place) -> list[str]:
+        match state.kind:
+            case StateKind.FINAL:
+                return [f"final {state.name}"]
+            case StateKind.HISTORY:
+                deep = "deep " if state.deep else ""
+                (resume,) = state.transitions
+                assert resume.target is not None
+                target = place.path(resume.target, place.outer[:1])
+                return [f"{deep}history {state.name} -> {target}"]
+            case StateKind.CHOICE:
+                branches = [
+                    line
+                    for each in state.transitions
+                    for line in documented(each.doc, [_branch(each, place)])
+                ]
+                return block(f"choice {state.name}", branches)
+            case StateKind.REGION:
+                return block(f"region {state.name}", *self._content(state, place))
+            case StateKind.PARALLEL:
+                regions = self.states(state.states, place.inside(state))
+                return block(
+                    f"parallel state {state.name}",
+                    self._own(state),
+                    regions,
+                    self._transitions(state, place),
+                )
+        transitions = self._transitions(state, place)
+        if state.submachine is not None:
+            head = f"state {state.name} = {state.submachine}"
+            use = self.reuse.uses[state.id]
+            if use.bindings:
+                head += f"({arguments(use.bindings)})"
+            lines = [*self._own(replace(state, entry=use.entry)), *transitions]
+            return block(head, lines) if lines else [head]
+        if state.kind is StateKind.COMPOSITE:
+            content = self._content(state, place)
+            return block(f"state {state.name}", self._own(state), *content, transitions)
+        return block(f"state {state.name}", [*self._own(state), *transitions])
+
+    def _content(self, state: State, place: Place) -> tuple[list[str], list[str]]:
+        """The initial state and the states of a composite state or region."""
+        assert state.initial is not None
+        initial = place.path(state.initial, (level(state),))
+        return _initial(state, initial), self.states(state.states, place.inside(state))
+
+    def _own(self, state: State) -> list[str]:
+        """What a state does: its activity, and its effects on entry and exit."""
+        lines = []
+        if state.activity is not None:
+            function = self.names.function(state.activity.function)
+            text = f"do {activity_text(state.activity, function)}"
+            lines += documented(state.activity.doc, [text])
+        for word, effects in (("entry", state.entry), ("exit", state.exit)):
+            if effects:
+                lines += documented(doc_of(state.docs, word), [f"{word} / {_effects(effects)}"])
+        return lines
+
+    def _transitions(self, state: State, place: Place) -> list[str]:
+        levels = place.from_state(state)
+        return [
+            line
+            for each in state.transitions
+            for line in documented(each.doc, [_transition(each, state, place, levels)])
+        ]
+
+
+def _transition(
+    transition: Transition, state: State, place: Place, levels: tuple[Level, ...]
+) -> str:
+    guard, effects, target = transition.guard, transition.effects, transition.target
+    parts = ["internal"] if transition.internal else []
+    if transition.triggers:
+        parts.append(_triggers(transition.triggers, state))
+    elif guard is None or target is None:
+        # A state that does nothing and has nothing in it is complete at once.
+        if state.kind is not StateKind.SIMPLE or state.activity is not None:
+            raise UnprintableError(f"a transition of `{state.id}` waits for nothing")
+        parts.append("on done")
+    if guard is not None:
+        parts.append(f"[{expression(guard)}]")
+    if effects:
+        parts.append(f"/ {_effects(effects)}")
+    elif target is None:
+        raise UnprintableError(f"a transition of `{state.id}` has no effect")
+    if target is not None:
+        parts.append(f"-> {place.path(target, levels)}")
+    return " ".join(parts)
+
+
+def _branch(branch: Transition, place: Place) -> str:
+    assert branch.target is not None
+    parts = ["else" if branch.guard is None else f"[{expression(branch.guard)}]"]
+    if branch.effects:
+        parts.append(f"/ {_effects(branch.effects)}")
+    return " ".join([*parts, f"-> {place.path(branch.target, place.from_choice())}"])
+
+
+def _triggers(triggers: tuple[Trigger, ...], state: State) -> str:
+    timed = [trigger for trigger in triggers if isinstance(trigger, TimeTrigger)]
+    if not timed:
+        return "on " + ", ".join(_trigger(trigger, state) for trigger in triggers)
+    if len(timed) < len(triggers):
+        raise UnprintableError(f"a transition of `{state.id}` waits for a time and for more")
+    return ", ".join(f"after {delay(trigger.delay)}" for trigger in timed)
+
+
+def _trigger(trigger: Trigger, owner: State) -> str:
+    match trigger:
+        case EventTrigger(event=event):
+            return event
+        case OutcomeTrigger(state=owner.id, outcome=outcome):
+            return outcome
+        case DoneTrigger(state=state, final=final):
+            region = next((each for each in owner.states if each.id == state), None)
+            if state == owner.id or (region is not None and region.kind is StateKind.REGION):
+                done = "done" if region is None else f"{region.name}.done"
+                return done if final is None else f"{done}.{final.removeprefix(f'{state}.')}"
+    raise UnprintableError(f"a transition of `{owner.id}` waits for another state")
+
+
+def _effects(effects: tuple[Effect, ...]) -> str:
+    return ", ".join(map(effect_text, effects))

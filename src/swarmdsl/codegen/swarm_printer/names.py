@@ -1,0 +1,64 @@
+"""How things of a system are called in its text."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.ir import Array, Component, Function, Named, Part, Primitive, System, Type
+from swarmdsl.syntax.types import PRIMITIVES
+
+
+@dataclass(frozen=True)
+class Names:
+    """`own` are the interfaces that the model declares itself.
+
+    `operations` are the functions that components and parts offer, as `Component.operation`.
+    """
+
+    own: frozenset[Named]
+    operations: Mapping[str, str]
+
+    def type(self, type_: Type) -> str:
+        """A type as written in the model."""
+        match type_:
+            case Array(element=element, size=size, bounded=bounded):
+                return f"{self.type(element)}[{'<=' if bounded else ''}{size or ''}]"
+            case Named(name=name) if type_ in self.own and name not in PRIMITIVES:
+                return name
+            case Primitive() | Named():
+                return str(type_)
+
+    def function(self, name: str) -> str:
+        """A function that a state does, as written there."""
+        return self.operations.get(name, name)
+
+
+def make_names(system: System) -> Names:
+    """Gather what has another name in the text than in the system."""
+    # The last one counts, and a component may be asked in every machine.
+    owners: list[Part | Component] = [*all_parts(system), *system.components]
+    return Names(
+        frozenset(known.type for known in system.interfaces if not known.external),
+        {
+            name: f"{owner.name}.{operation_name(system.function(name))}"
+            for owner in owners
+            for name in owner.operations
+        },
+    )
+
+
+def all_parts(system: System) -> list[Part]:
+    """The parts of all members."""
+    return [part for member in system.members for part in member.parts]
+
+
+def own_operations(component: Component, system: System) -> tuple[str, ...]:
+    """The functions that a component offers itself, without those of its base."""
+    base = next((each for each in system.components if each.name == component.base), None)
+    return component.operations[len(base.operations) if base is not None else 0 :]
+
+
+def operation_name(function: Function) -> str:
+    """What a function is called in the component that offers it."""
+    return function.communication.name.rpartition("/")[2]

@@ -1,0 +1,234 @@
+"""Which states are those of another machine, and with which values of its params.
+
+Lowering puts a reused machine in place: this finds out again what was written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import dataclass, fields_of, is_dataclass, replace
+from swarmdsl.ir import (
+    Assignment,
+    Binary,
+    Call,
+    DoneTrigger,
+    Effect,
+    Expression,
+    FieldAccess,
+    Literal,
+    OutcomeTrigger,
+    Param,
+    ParamRef,
+    Primitive,
+    ResultMapping,
+    State,
+    StateMachine,
+    Transition,
+    Type,
+    Unary,
+    Variable,
+    VariableRef,
+)
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, INTEGERS, STRING
+
+_IDS = {
+    (State, "id"),
+    (State, "initial"),
+    (Transition, "target"),
+    (OutcomeTrigger, "state"),
+    (DoneTrigger, "state"),
+    (DoneTrigger, "final"),
+}
+_VARIABLES = {(VariableRef, "name"), (Assignment, "variable"), (ResultMapping, "variable")}
+_OPERATIONS = (Unary, Binary, Call, FieldAccess)
+
+
+@dataclass(frozen=True)
+class Use:
+    """How a state reuses a machine: the params it binds, and its own effects on entry."""
+
+    bindings: tuple[tuple[str, Expression], ...]
+    entry: tuple[Effect, ...]
+
+
+@dataclass(frozen=True)
+class Reuse:
+    """How a machine is written: its own variables, and the states that reuse others, by id."""
+
+    variables: tuple[Variable, ...]
+    uses: Mapping[str, Use]
+
+
+def find_reuse(machine: StateMachine, machines: Mapping[str, StateMachine]) -> Reuse | None:
+    """What of a machine is its own; None when it is not made as lowering makes it."""
+    states = list(_reusing(machine.states))
+    if any(state.submachine not in machines for state in states):
+        return None
+    variables = own_variables(machine, machines)
+    start = len(variables)
+    uses: dict[str, Use] = {}
+    for state in states:
+        template = machines[state.submachine or ""]
+        end = start + len(template.variables)
+        found = _use(state, template, machine.variables[start:end], machines)
+        if found is None or _entered_from_outside(state, machine):
+            return None
+        uses[state.id] = found
+        start = end
+    taken = {param.name for param in machine.params}
+    names = list(_names(machine, "", machines, taken)) if states else []
+    if states and names != [variable.name for variable in machine.variables]:
+        return None
+    return Reuse(variables, uses)
+
+
+def own_variables(
+    machine: StateMachine, machines: Mapping[str, StateMachine]
+) -> tuple[Variable, ...]:
+    """The variables of a machine before those of the machines it reuses."""
+    reused = (machines[state.submachine or ""] for state in _reusing(machine.states))
+    end = len(machine.variables) - sum(len(each.variables) for each in reused)
+    return machine.variables[: max(end, 0)]
+
+
+def _reusing(states: tuple[State, ...]) -> Iterator[State]:
+    """The states that reuse a machine, without those inside such a machine."""
+    for state in states:
+        if state.submachine is not None:
+            yield state
+        else:
+            yield from _reusing(state.states)
+
+
+def _entered_from_outside(state: State, machine: StateMachine) -> bool:
+    """Whether a transition leads into a state from elsewhere."""
+    inside = {each.id for each in state.walk()} - {state.id}
+    return any(
+        transition.target in inside
+        for each in machine.walk()
+        if each.id not in inside
+        for transition in each.transitions
+    )
+
+
+def _names(
+    machine: StateMachine, prefix: str, machines: Mapping[str, StateMachine], taken: set[str]
+) -> Iterator[str]:
+    """The names that lowering gives the variables of a machine at a state of id `prefix`."""
+    for variable in own_variables(machine, machines):
+        name = f"{snake_case(prefix)}_{variable.name}" if prefix else variable.name
+        while name in taken:
+            name += "_"
+        taken.add(name)
+        yield name
+    for state in _reusing(machine.states):
+        path = f"{prefix}.{state.id}" if prefix else state.id
+        yield from _names(machines[state.submachine or ""], path, machines, taken)
+
+
+def _use(
+    state: State,
+    template: StateMachine,
+    variables: tuple[Variable, ...],
+    machines: Mapping[str, StateMachine],
+) -> Use | None:
+    """What makes the states of a machine those inside `state`, None when nothing does."""
+    if [_nameless(each) for each in template.variables] != [_nameless(each) for each in variables]:
+        return None
+    names = {
+        theirs.name: ours.name for theirs, ours in zip(template.variables, variables, strict=True)
+    }
+    match_ = _Match(state.id, names, {})
+    alike = match_.same(template.states, state.states)
+    if not alike or state.initial != f"{state.id}.{template.initial}" or state.activity is not None:
+        return None
+    first_values = tuple(
+        Assignment(names[each.name], (), each.initial)
+        for each in own_variables(template, machines)
+        if each.initial is not None
+    )
+    count = len(first_values)
+    bindings = _bindings(template, match_.bound)
+    if bindings is None or state.entry[:count] != first_values:
+        return None
+    return Use(bindings, state.entry[count:])
+
+
+def _nameless(variable: Variable) -> Variable:
+    return replace(variable, name="")
+
+
+def _bindings(
+    template: StateMachine, bound: Mapping[str, Expression]
+) -> tuple[tuple[str, Expression], ...] | None:
+    """The values of a machine's params, without those that are the default anyway."""
+    bindings = []
+    for param in template.params:
+        value = bound.get(param.name)
+        if value is None and param.default is None:
+            value = _any_value(param)
+            if value is None:
+                return None
+        if value is not None and value != param.default:
+            bindings.append((param.name, value))
+    return tuple(bindings)
+
+
+def _any_value(param: Param) -> Literal | None:
+    """A value for a param that is never read; None where its type has no literals."""
+    values: dict[Type, Literal] = {
+        BOOL: Literal(False, BOOL),
+        STRING: Literal("", STRING),
+        DURATION: Literal(0, DURATION),
+        **{Primitive(name): Literal(0, INT) for name in INTEGERS},
+        **{Primitive(name): Literal(0.0, FLOAT) for name in FLOATS},
+    }
+    return values.get(param.type)
+
+
+@dataclass(frozen=True)
+class _Match:
+    """Compares states of a machine with those put in place below state `prefix`.
+
+    `variables` says what variables are called there, `bound` gathers what stands for params.
+    """
+
+    prefix: str
+    variables: Mapping[str, str]
+    bound: dict[str, Expression]
+
+    def same(self, template: Any, actual: Any) -> bool:
+        match template:
+            case ParamRef(name=name):
+                return bool(self.bound.setdefault(name, actual) == actual)
+            case Unary(operator="-", operand=operand) if isinstance(actual, Literal):
+                if isinstance(actual.value, str):
+                    return False
+                return self.same(operand, replace(actual, value=-actual.value))
+            case tuple():
+                return (
+                    isinstance(actual, tuple)
+                    and len(template) == len(actual)
+                    and all(map(self.same, template, actual))
+                )
+        if is_dataclass(type(template)):
+            return type(template) is type(actual) and all(
+                self._same_field(template, actual, name)
+                for name, about in fields_of(type(template)).items()
+                if about.get("compare", True)
+            )
+        return bool(template == actual)
+
+    def _same_field(self, template: Any, actual: Any, name: str) -> bool:
+        theirs, ours = getattr(template, name), getattr(actual, name)
+        kind = (type(template), name)
+        if theirs is not None and kind in _IDS:
+            return bool(ours == f"{self.prefix}.{theirs}")
+        if kind in _VARIABLES:
+            return bool(ours == self.variables.get(theirs))
+        if name == "type" and isinstance(template, _OPERATIONS):
+            return True  # it follows from the operands
+        return self.same(theirs, ours)

@@ -1,0 +1,54 @@
+"""The project file: what a run takes from `swarm.toml` unless the command line says it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.driver.config.settings import FILE_NAME, Settings
+from swarmdsl.project.read_source import read_source
+
+
+def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
+    """The settings for these files and folders: defaults where there is no project file.
+
+    Incomplete when errors were reported.
+    """
+    path = find_file(paths[0] if paths else Path())
+    return read_project(path, report) if path is not None else Settings()
+
+
+def read_project(path: Path, report: Diagnostics, source: Source | None = None) -> Settings:
+    """What a project file says, or a `source` in its place.
+
+    Incomplete when errors were reported.
+    """
+    # What reads TOML takes a while to import.
+    from swarmdsl.driver.config.schema import read_settings
+    from swarmdsl.driver.config.toml import parse_toml
+
+    source = source or read_source(path, None, report)
+    document = parse_toml(source, report) if source is not None else None
+    return read_settings(document, path.parent, report) if document is not None else Settings()
+
+
+def find_file(start: Path) -> Path | None:
+    """The project file in the folder of `start` or in the closest one above it."""
+    for found in places(start):
+        if os.path.isfile(found):  # noqa: PTH113
+            return Path(found if start.is_absolute() else os.path.relpath(found))
+    return None
+
+
+def places(start: Path) -> Iterator[str]:
+    """Where the project file of `start` is looked for; the first there is counts."""
+    # As text: what was given may be no path that can be looked up.
+    absolute = os.path.abspath(start)  # noqa: PTH100
+    for folder in (Path(absolute), *Path(absolute).parents):
+        yield os.path.join(folder, FILE_NAME)  # noqa: PTH118
+
+
+__all__ = ["FILE_NAME", "Settings", "find_file", "find_settings", "places", "read_project"]

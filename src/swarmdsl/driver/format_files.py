@@ -1,0 +1,89 @@
+"""Files on disk and their canonical layout: what would change, and writing it."""
+
+from __future__ import annotations
+
+import os
+import re
+import stat
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.unified_diff import unified_diff
+from swarmdsl.project.loader import expanded
+from swarmdsl.project.read_source import decoded, read_bytes
+from swarmdsl.syntax.formatter import formatted
+
+STDIN = "<stdin>"
+_LINE_END = re.compile(rb"\r\n|\n|\r")
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The content of a file, as it is and as it should be."""
+
+    name: str
+    before: bytes
+    after: bytes
+
+    @property
+    def changed(self) -> bool:
+        """Whether it is not as it should be."""
+        return self.before != self.after
+
+    def diff(self) -> str:
+        """What would change, as a unified diff."""
+        return unified_diff(self.before, self.after, self.name, self.name)
+
+
+def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
+    """The layout of a file with this content; None when it has errors, which are reported.
+
+    Its line ends stay what the first of them is; a byte order mark goes.
+    """
+    source = decoded(Path(name), content, None, report)
+    text = formatted(source, report) if source is not None else None
+    if text is None:
+        return None
+    after = text.encode()
+    first = _LINE_END.search(content)
+    if first is not None and first[0] == b"\r\n":
+        after = after.replace(b"\n", b"\r\n")
+    return Layout(name, content, after)
+
+
+def layouts_of(paths: Iterable[Path], report: Diagnostics) -> tuple[list[Layout], int]:
+    """The layouts of files and of those in folders, and how many have errors."""
+    layouts, wrong = [], 0
+    known = set()
+    for path in expanded(paths, report):
+        identity = os.path.realpath(path)
+        if identity in known:
+            continue
+        known.add(identity)
+        content = read_bytes(path, None, report)
+        layout = layout_of(str(path), content, report) if content is not None else None
+        if layout is None:
+            wrong += 1
+        else:
+            layouts.append(layout)
+    return layouts, wrong
+
+
+def write(layouts: Sequence[Layout], report: Diagnostics) -> bool:
+    """Replace the files by what they should be, all or none; False when that is impossible."""
+    try:
+        with Staging() as staging:
+            for layout in layouts:
+                # A link stays one: what it leads to is replaced.
+                place = Path(os.path.realpath(layout.name))
+                staging.add(place, layout.after, mode=stat.S_IMODE(place.stat().st_mode))
+            for _ in staging.move_in_place():
+                pass
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        report.report("cannot-write", path=error.filename or "", reason=reason)
+        return False
+    return True

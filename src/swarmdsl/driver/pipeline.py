@@ -1,0 +1,87 @@
+"""The pipeline: from .swarm files to packages on disk, one line a phase."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swarmdsl.analysis.checks import validate
+from swarmdsl.analysis.resolve.linker import link
+from swarmdsl.base.diagnostics.collector import Diagnostics, placed
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.driver.config.settings import Settings
+from swarmdsl.project.loader import Project, load
+
+# A check needs no more; the other phases are imported where they begin.
+if TYPE_CHECKING:
+    from swarmdsl.codegen.emit import Request
+    from swarmdsl.ir import System
+    from swarmdsl.output import How, Written
+
+_DEFAULTS = Settings()
+
+
+@dataclass(frozen=True)
+class Result:
+    """What came of a run; `valid` is the project where its model has no errors.
+
+    `name` is that of the system, if one is given.
+    """
+
+    report: Diagnostics
+    files: int
+    valid: Project | None = None
+    name: str | None = None
+    written: Written | None = None
+
+    @cached_property
+    def system(self) -> System | None:
+        """The model as a generator sees it, made when it is asked for; None if it has errors."""
+        from swarmdsl.lowering import lower
+
+        return lower(self.valid, self.name) if self.valid is not None else None
+
+
+def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
+    """Find everything that is wrong with the model in these files and what they import."""
+    report = Diagnostics(settings.levels)
+    project = load(paths, report, settings.libraries)
+    if not paths:
+        report.report("nothing-to-compile", path="[]")
+    link(project, report)
+    validate(project, report)
+    if report.has_errors:
+        return Result(report, len(project.files))
+    return Result(report, len(project.files), project, settings.name)
+
+
+def build(
+    paths: Sequence[Path],
+    requests: Sequence[Request],
+    out: Path,
+    settings: Settings = _DEFAULTS,
+    how: How | None = None,
+) -> Result:
+    """Check the model and write what the requested targets make of it below `out`."""
+    return generate(check(paths, settings), requests, out, how)
+
+
+def generate(
+    checked: Result, requests: Sequence[Request], out: Path, how: How | None = None
+) -> Result:
+    """Write what the requested targets make of a checked model below `out`, if it is valid."""
+    from swarmdsl.codegen.emit import emit
+    from swarmdsl.output import How, write
+
+    if checked.system is None:
+        return checked
+    report, found = checked.report, Diagnostics()
+    files = emit(checked.system, requests, found)
+    # In a workspace, places are in pieces of files.
+    report.include(placed(one, lambda span: span.absolute) for one in found)
+    if report.has_errors:
+        return checked
+    how = replace(how or How(), model=checked.system.name)
+    return replace(checked, written=write(files, out, report, how))

@@ -1,0 +1,99 @@
+"""New names for what a model declares, wherever it is named.
+
+A new name is tried before it is given: one that makes a mistake of anything is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from pathlib import Path
+
+from swarmdsl.analysis.resolve.scopes import KINDS, kind_of
+from swarmdsl.base.diagnostics.collector import Severity
+from swarmdsl.base.source import Span
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import Field, Node, Parameter
+from swarmdsl.syntax.errors.hints import keywords
+
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+# Whatever is called so at another place is found by its type only.
+_NOT_FOLLOWED = (Field, Parameter)
+
+
+class RefusedError(Exception):
+    """A name that cannot be given, or that something has to keep; says why."""
+
+
+def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
+    """The name at an offset; raises RefusedError where none is, or one that has to stay."""
+    found = occurrence_at(workspace, file, offset)
+    if found is None or type(found.node) not in KINDS:
+        raise RefusedError("there is no name of something that the model declares")
+    if isinstance(found.node, _NOT_FOLLOWED):
+        raise RefusedError(f"{kind_of(found.node)} cannot be renamed")
+    home = _home(workspace, found.node)
+    if home is None or home.library:
+        raise RefusedError(f"`{found.span.text}` is declared in a library")
+    return found
+
+
+def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Span]:
+    """Where the name at an offset stands, to be replaced by `name`; raises RefusedError."""
+    found = renamable(workspace, file, offset)
+    if not _NAME.fullmatch(name):
+        raise RefusedError(f"`{name}` is no name: it has letters, digits and `_`")
+    if name in keywords():
+        raise RefusedError(f"`{name}` is a word of the language")
+    spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
+    if any(span.text != found.span.text for span in spans):
+        raise RefusedError(f"`{found.span.text}` has another name where it is used")
+    objection = _objection(workspace, found, spans, name) if name != found.span.text else None
+    if objection is not None:
+        raise RefusedError(objection)
+    return spans
+
+
+def _home(workspace: Workspace, node: Node) -> File | None:
+    path = node.span.absolute.source.path
+    return workspace.file(path) if path is not None else None
+
+
+def _objection(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> str | None:
+    """The mistake that a name would make; None where it means the same everywhere."""
+    other = f"`{name}` would be taken for something else, or something for it"
+    before = _errors(workspace)
+    with workspace.supposing(replaced(spans, name)):
+        new = _errors(workspace) - before
+        if new:
+            known = {each.code: each.message for each in reversed(list(workspace.report))}
+            return f"with `{name}` there would be a mistake, {known[next(iter(new))]}"
+        path = found.span.source.path
+        file = workspace.file(path) if path is not None else None
+        earlier = sum(span.source.path == path and span.start < found.span.start for span in spans)
+        start = found.span.start + earlier * (len(name) - len(found.span.text))
+        again = occurrence_at(workspace, file, start) if file is not None else None
+        if again is None:
+            return other
+        same = len({each.span for each in occurrences_of(again.node, workspace)}) == len(spans)
+        return None if same else other
+
+
+def _errors(workspace: Workspace) -> Counter[str]:
+    report = workspace.report
+    return Counter(each.code for each in report if each.severity is Severity.ERROR)
+
+
+def replaced(spans: list[Span], name: str) -> dict[Path, str]:
+    """The texts of files with a name at some places of them."""
+    texts = {span.source.path: span.source.text for span in spans if span.source.path is not None}
+    return {path: _replaced(text, spans, path, name) for path, text in texts.items()}
+
+
+def _replaced(text: str, spans: list[Span], path: Path, name: str) -> str:
+    for span in sorted(spans, key=lambda span: span.start, reverse=True):
+        if span.source.path == path:
+            text = text[: span.start] + name + text[span.end :]
+    return text

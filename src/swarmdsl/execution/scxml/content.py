@@ -1,0 +1,254 @@
+"""Executable content of SCXML as effects, and the data that events carry."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from decimal import Decimal
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.execution.engine import Effect, Event, ExecutionError, Guard, Instance
+from swarmdsl.execution.engine.world import FAILURES
+from swarmdsl.execution.scxml.document import Document, Node
+from swarmdsl.execution.scxml.ecmascript import Unreadable, Value, location, read
+from swarmdsl.execution.scxml.values import text, truth
+
+_DELAY = re.compile(r"\s*\+?([0-9]+(?:\.[0-9]+)?|\.[0-9]+)(ms|s|m|min|h|d)\s*")
+_UNITS = {"ms": 10**6, "s": 10**9, "m": 60 * 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
+_UNITS["d"] = 24 * _UNITS["h"]
+# What <send> may say for the machine itself, and for its internal queue.
+_HERE = ("", "#_scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor", "scxml")
+
+Data = Callable[[Instance, Event], Any]
+
+
+def delay_of(written: str) -> int | None:
+    """A delay as in CSS (`1.5s`, `200ms`) in nanoseconds; None for anything else."""
+    found = _DELAY.fullmatch(written)
+    return round(Decimal(found[1]) * _UNITS[found[2]]) if found is not None else None
+
+
+class Content:
+    """Makes effects of the elements of a document, and reports what cannot be read."""
+
+    def __init__(self, document: Document, report: Diagnostics) -> None:
+        self.document = document
+        self.report = report
+
+    def block(self, node: Node) -> Effect | None:
+        """What the elements inside of one do, in order, until one fails."""
+        if not node.children:
+            return None
+        return _all_of([self._effect(child) for child in node.children])
+
+    def guard(self, node: Node) -> Guard | None:
+        """The condition of an element."""
+        value = self.expression(node, "cond")
+        if value is None:
+            return None
+        return lambda instance, event: truth(value(instance, event, {}))
+
+    def expression(self, node: Node, attribute: str) -> Value | None:
+        """The value of an attribute that is an expression; None where there is none."""
+        written = node.get(attribute)
+        if written is None:
+            return None
+        try:
+            return read(written)
+        except Unreadable as error:
+            self.report.report(
+                "bad-expression", self.document.at(node, attribute), reason=str(error)
+            )
+            return None
+
+    def data(self, node: Node) -> Data | None:
+        """What the `<param>`s, the `<content>` or the names of an element give an event.
+
+        Where a param has no value, a `<send>` is not sent (6.2), but a `<donedata>` only goes
+        without that param (5.7).
+        """
+        fields: list[tuple[str, Value]] = []
+        for name in (node.get("namelist") or "").split():
+            fields.append((name, self._read(name, node, "namelist")))
+        for child in node.children:
+            if child.name == "content":
+                value = self.value(child)
+                return lambda instance, event: value(instance, event, {})
+            attribute = "location" if child.get("location") is not None else "expr"
+            found = self.expression(child, attribute)
+            fields.append((child.get("name") or "", found or nothing))
+        if not fields:
+            return None
+        if node.name == "donedata":
+            return _with_value(fields)
+        return lambda instance, event: {key: v(instance, event, {}) for key, v in fields}
+
+    def value(self, node: Node) -> Value:
+        """What `expr` says, or else the text of the element: an expression, or just a text."""
+        if node.get("expr") is not None:
+            return self.expression(node, "expr") or nothing
+        written = node.text.strip()
+        if not written:
+            return nothing
+        try:
+            return read(written)
+        except Unreadable:
+            return lambda instance, event, names: " ".join(written.split())
+
+    def _read(self, written: str, node: Node, attribute: str) -> Value:
+        try:
+            return read(written)
+        except Unreadable as error:
+            place = self.document.at(node, attribute, written)
+            self.report.report("bad-expression", place, reason=str(error))
+            return nothing
+
+    def _effect(self, node: Node) -> Effect | None:
+        match node.name:
+            case "raise":
+                event = Event(node.get("event") or "")
+                return lambda instance, _: instance.raise_event(event)
+            case "assign":
+                return self._assign(node)
+            case "if":
+                return self._if(node)
+            case "log":
+                return self._log(node)
+            case "send":
+                return self._send(node)
+            case "cancel":
+                sendid = self._text(node, "sendid")
+                return lambda instance, event: instance.cancel(sendid(instance, event))
+        return None
+
+    def _assign(self, node: Node) -> Effect | None:
+        value = self.value(node)
+        try:
+            store = location(node.get("location") or "")
+        except Unreadable as error:
+            place = self.document.at(node, "location")
+            self.report.report("bad-expression", place, reason=str(error))
+            return None
+        return lambda instance, event: store(instance, event, value(instance, event, {}))
+
+    def _if(self, node: Node) -> Effect:
+        branches: list[tuple[Guard | None, list[Effect | None]]] = [(self.guard(node), [])]
+        for child in node.children:
+            if child.name == "elseif":
+                branches.append((self.guard(child), []))
+            elif child.name == "else":
+                branches.append((None, []))
+            else:
+                branches[-1][1].append(self._effect(child))
+        made = [(guard, _all_of(effects)) for guard, effects in branches]
+
+        def choose(instance: Instance, event: Event) -> None:
+            for guard, effect in made:
+                if guard is None or instance.holds(guard, event):
+                    if effect is not None:
+                        effect(instance, event)
+                    return
+
+        return choose
+
+    def _log(self, node: Node) -> Effect:
+        label = node.get("label")
+        value = self.expression(node, "expr")
+
+        def log(instance: Instance, event: Event) -> None:
+            words = [label] if label is not None else []
+            if value is not None:
+                words.append(text(value(instance, event, {})))
+            if instance.observer is not None:
+                instance.observer.logged(instance, ": ".join(words))
+
+        return log
+
+    def _send(self, node: Node) -> Effect:
+        name = self._text(node, "event")
+        target = self._text(node, "target")
+        kind = self._text(node, "type")
+        sendid = self._text(node, "id")
+        data = self.data(node)
+        delay = self._delay(node)
+
+        def send(instance: Instance, event: Event) -> None:
+            named = name(instance, event)
+            if not named:
+                raise ExecutionError("an event without a name cannot be sent")
+            sent = Event(named, data(instance, event) if data is not None else None)
+            length = delay(instance, event) if delay is not None else 0
+            place = target(instance, event)
+            if place in _HERE and kind(instance, event) in _HERE:
+                instance.send_after(sent, length, sendid(instance, event))
+            elif length > 0:
+                raise ExecutionError(f"`{sent.name}` has a target of its own: it cannot be delayed")
+            elif place == "#_internal":
+                instance.raise_event(sent)
+            else:
+                instance.emit(sent)
+
+        return send
+
+    def _delay(self, node: Node) -> Callable[[Instance, Event], int] | None:
+        written = node.get("delay")
+        if written is not None:
+            length = delay_of(written)
+            if length is None:
+                place = self.document.at(node, "delay")
+                values = "a number with `s` or `ms` behind it"
+                self.report.report("bad-value", place, name="delay", values=values)
+                return None
+            return lambda instance, event: length
+        value = self.expression(node, "delayexpr")
+        if value is None:
+            return None
+
+        def computed(instance: Instance, event: Event) -> int:
+            found = value(instance, event, {})
+            length = delay_of(text(found))
+            if length is None:
+                raise ExecutionError(f"`{text(found)}` is no delay")
+            return length
+
+        return computed
+
+    def _text(self, node: Node, attribute: str) -> Callable[[Instance, Event], str]:
+        """A text that is given by an attribute, or computed by the one with `expr` behind."""
+        written = node.get(attribute) or ""
+        value = self.expression(node, f"{attribute}expr")
+        if value is None:
+            return lambda instance, event: written
+        return lambda instance, event: text(value(instance, event, {}))
+
+
+def _with_value(fields: list[tuple[str, Value]]) -> Data:
+    """Those of the fields that have a value."""
+
+    def data(instance: Instance, event: Event) -> Any:
+        found = {}
+        for name, value in fields:
+            try:
+                found[name] = value(instance, event, {})
+            except FAILURES as error:
+                instance.fail(error)
+        return found
+
+    return data
+
+
+def nothing(instance: Instance, event: Event, names: object) -> None:
+    """The value where none is given."""
+
+
+def _all_of(effects: Iterable[Effect | None]) -> Effect | None:
+    made = [effect for effect in effects if effect is not None]
+    if len(made) < 2:
+        return made[0] if made else None
+
+    def all_of_them(instance: Instance, event: Event) -> None:
+        for each in made:
+            each(instance, event)
+
+    return all_of_them

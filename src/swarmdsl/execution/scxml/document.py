@@ -1,0 +1,211 @@
+"""SCXML files to elements that know their places; nothing outside of the text is ever read."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Collection, Iterator
+from xml.parsers import expat
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+
+SCXML = "http://www.w3.org/2005/07/scxml"
+
+_ATTRIBUTE = re.compile(r"""\s+([^\s=/>]+)\s*=\s*("[^"]*"|'[^']*')""")
+_NAME = re.compile(r"[^\s/>]+")
+_NOT_ASCII = re.compile(r"[^\x00-\x7f]")
+_DOCTYPE = "<!DOCTYPE"
+_DEEPEST = 250
+
+
+class Node:
+    """An element: its name and attributes without the namespace of SCXML, and what is in it.
+
+    `children` are those of SCXML and `ours` those of swarmdsl, once the vocabulary has been
+    checked. Attributes in other namespaces are left out. `comment` is what stands before it.
+    """
+
+    __slots__ = (
+        *("attributes", "children", "comment", "get", "line", "name", "namespace", "ours"),
+        *("parent", "start", "text"),
+    )
+
+    def __init__(
+        self, qualified: str, attributes: dict[str, str], parent: Node | None, start: int, line: int
+    ) -> None:
+        self.namespace, _, self.name = qualified.rpartition("}")
+        self.attributes = attributes
+        self.get = attributes.get
+        self.parent = parent
+        self.start = start
+        self.line = line
+        self.text = ""
+        self.comment = ""
+        self.children: list[Node] = []
+        self.ours: tuple[Node, ...] = ()
+
+    def walk(self) -> Iterator[Node]:
+        """Yield the node and all inside it, in document order."""
+        waiting = [self]
+        while waiting:
+            node = waiting.pop()
+            yield node
+            waiting += reversed(node.children)
+
+
+class Document:
+    """A file and its outermost element."""
+
+    def __init__(self, source: Source, root: Node) -> None:
+        self.source = source
+        self.root = root
+        # Where characters end that have more than one byte.
+        self.wide = [] if source.text.isascii() else list(_wide(source.text))
+
+    def at(self, node: Node, attribute: str = "", word: str = "") -> Span:
+        """The name of an element, or the value of its attribute, or a word of that."""
+        text = self.source.text
+        start = node.start - bisect_right(self.wide, node.start) + 1
+        named = _NAME.match(text, start)
+        assert named is not None
+        end = named.end()
+        given = _ATTRIBUTE.match(text, end) if attribute else None
+        while given is not None:
+            if given[1].rpartition(":")[2] == attribute:
+                start, end = given.start(2) + 1, given.end(2) - 1
+                found = re.compile(rf"(?<!\S){re.escape(word)}(?!\S)").search(text, start, end)
+                return Span(self.source, *(found.span() if word and found else (start, end)))
+            given = _ATTRIBUTE.match(text, given.end())
+        return Span(self.source, named.start(), end)
+
+
+def parse(
+    source: Source, report: Diagnostics, namespaces: Collection[str] = (SCXML,)
+) -> Document | None:
+    """Parse a file; None when it is no SCXML, which has been reported then.
+
+    The outermost element is in one of the namespaces; "" stands for none.
+
+    A document type could define entities, which grow beyond all bounds or stand for other
+    files: there must be none.
+    """
+    builder = _Builder()
+    parser = builder.parser
+    try:
+        parser.Parse(source.text.encode("utf-8"), True)
+    except _DocumentType:
+        # Comments before it may speak of document types, but nothing comes between.
+        end = _characters(source.text, builder.reached) + len(_DOCTYPE)
+        start = source.text.rfind(_DOCTYPE, 0, end)
+        place = Span(source, start, start + len(_DOCTYPE))
+        report.report("xml-document-type", place, help="remove it: SCXML needs none")
+        return None
+    except _TooDeep:
+        start = _characters(source.text, builder.reached)
+        reason = f"more than {_DEEPEST} elements stand in each other"
+        report.report("not-xml", Span(source, start, start + 1), reason=reason)
+        return None
+    except expat.ExpatError as error:
+        start = min(_characters(source.text, parser.ErrorByteIndex), len(source.text))
+        place = Span(source, start, min(start + 1, len(source.text)))
+        is_json = source.text.lstrip()[:1] in ("{", "[")
+        help_ = "it looks like JSON: `swarmc import adf` or `amf` reads that" if is_json else None
+        report.report("not-xml", place, reason=expat.ErrorString(error.code), help=help_)
+        return None
+    assert builder.root is not None
+    document = Document(source, builder.root)
+    if builder.root.name != "scxml" or builder.root.namespace not in namespaces:
+        report.report(
+            "not-scxml",
+            document.at(builder.root),
+            name=builder.root.name,
+            help=f'it begins with `<scxml xmlns="{SCXML}" version="1.0">`',
+        )
+        return None
+    return document
+
+
+class _DocumentType(Exception):  # noqa: N818 - it only ends the parser
+    """There is a document type."""
+
+
+class _TooDeep(Exception):  # noqa: N818 - it only ends the parser
+    """Elements stand in each other without end."""
+
+
+class _Builder:
+    """Builds the nodes of one file."""
+
+    def __init__(self) -> None:
+        self.root: Node | None = None
+        self.inside: list[Node] = []
+        self.reached = 0
+        self.comment = ""
+        self.parser = parser = expat.ParserCreate("utf-8", "}")
+        parser.buffer_text = True
+        parser.StartElementHandler = self.start
+        parser.EndElementHandler = self.end
+        parser.CharacterDataHandler = self.add_text
+        parser.StartDoctypeDeclHandler = self.refuse
+        parser.CommentHandler = self.add_comment
+
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        inside = self.inside
+        parent = inside[-1] if inside else None
+        for each in attributes:
+            if "}" in each:
+                attributes = _without_namespace(attributes)
+                break
+        parser = self.parser
+        node = Node(name, attributes, parent, parser.CurrentByteIndex, parser.CurrentLineNumber)
+        if self.comment:
+            node.comment, self.comment = self.comment, ""
+        if parent is None:
+            self.root = node
+        else:
+            parent.children.append(node)
+        inside.append(node)
+        if len(inside) > _DEEPEST:
+            self.reached = parser.CurrentByteIndex
+            raise _TooDeep
+
+    def end(self, name: str) -> None:
+        self.inside.pop()
+        self.comment = ""
+
+    def add_comment(self, text: str) -> None:
+        plain = text[1:-1] if text[:1] == text[-1:] == " " else text.strip()
+        self.comment = f"{self.comment}\n{plain}" if self.comment else plain
+
+    def add_text(self, text: str) -> None:
+        if not text.isspace():
+            self.inside[-1].text += text
+
+    def refuse(self, *declared: object) -> None:
+        self.reached = self.parser.CurrentByteIndex
+        raise _DocumentType
+
+
+def _without_namespace(attributes: dict[str, str]) -> dict[str, str]:
+    """Those of SCXML, by their names."""
+    return {
+        name.rpartition("}")[2]: value
+        for name, value in attributes.items()
+        if "}" not in name or name.startswith(f"{SCXML}}}")
+    }
+
+
+def _wide(text: str) -> Iterator[int]:
+    """The offset behind each character of more than one byte, once for each byte more."""
+    offset = 0
+    for found in _NOT_ASCII.finditer(text):
+        more = len(found[0].encode("utf-8")) - 1
+        end = found.end() + offset + more
+        offset += more
+        yield from [end] * more
+
+
+def _characters(text: str, offset: int) -> int:
+    """An offset in the bytes of a text as one in its characters."""
+    return offset if text.isascii() else len(text.encode("utf-8")[:offset].decode("utf-8"))

@@ -1,0 +1,287 @@
+"""States and transitions of SCXML as a table of the engine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.suggest import suggest
+from swarmdsl.execution.engine import (
+    Activity,
+    Effect,
+    Event,
+    Instance,
+    Kind,
+    Machine,
+    State,
+    TableError,
+    Transition,
+)
+from swarmdsl.execution.scxml.content import Content, nothing
+from swarmdsl.execution.scxml.document import Document, Node
+from swarmdsl.execution.scxml.ecmascript import Value
+
+_KINDS = {"parallel": Kind.PARALLEL, "final": Kind.FINAL}
+_VERTICES = ("state", "parallel", "final", "history")
+_OUTCOMES = ("succeeded", "aborted", "preempted")
+
+
+def machine(document: Document, report: Diagnostics) -> Machine | None:
+    """The machine of a document; None when something is wrong with it."""
+    root = document.root
+    reader = _Reader(document, report)
+    if not reader.ids:
+        fault = "the document has no state"
+        report.report("illegal-structure", document.at(root), fault=fault)
+        return None
+    variables = reader.variables()
+    states = [reader.state(each) for each in root.children if each.name in _VERTICES]
+    initial = reader.initial(root)
+    if report.has_errors:
+        return None
+    try:
+        return Machine(
+            root.get("name") or "scxml",
+            states,
+            initial,
+            data=lambda: dict.fromkeys(variables),
+            setup=tuple(_first_value(name, v) for name, v in variables.items() if v is not nothing),
+        )
+    except TableError as error:
+        place = reader.ids.get(error.id, root)
+        report.report("illegal-structure", document.at(place, "id"), fault=str(error))
+        return None
+
+
+class _Reader:
+    """Reads the states of one document."""
+
+    def __init__(self, document: Document, report: Diagnostics) -> None:
+        self.document = document
+        self.nodes = list(document.root.walk())
+        self.report = report
+        self.content = Content(document, report)
+        self.ids: dict[str, Node] = {}
+        self.names: dict[Node, str] = {}
+        unnamed: list[Node] = []
+        for node in self.nodes:
+            if node.name not in _VERTICES:
+                continue
+            id_ = node.get("id")
+            if id_ is None:
+                unnamed.append(node)
+                continue
+            self.names[node] = id_
+            if id_ in self.ids:
+                report.report(
+                    "duplicate-id",
+                    document.at(node, "id"),
+                    name=id_,
+                    related=(Label(document.at(self.ids[id_], "id"), "the first one"),),
+                )
+            else:
+                self.ids[id_] = node
+        for number, node in enumerate(unnamed, 1):
+            # No id has a space in it.
+            self.names[node] = f"state {number}"
+            self.ids[self.names[node]] = node
+        self.servers = {
+            each.get("name"): each.get("server", "")
+            for each in document.root.ours
+            if each.name == "function"
+        }
+
+    def variables(self) -> dict[str, Value]:
+        """The ids of all data, and how each gets its first value."""
+        found: dict[str, Node] = {}
+        values: dict[str, Value] = {}
+        if self.document.root.get("binding") == "late":
+            place = self.document.at(self.document.root, "binding")
+            self.report.report("bad-value", place, name="binding", values="`early`")
+        for node in self.nodes:
+            if node.name != "data":
+                continue
+            name = node.get("id") or ""
+            if name in found:
+                self.report.report(
+                    "duplicate-id",
+                    self.document.at(node, "id"),
+                    name=name,
+                    related=(Label(self.document.at(found[name], "id"), "the first one"),),
+                )
+            elif node.get("src") is not None:
+                place = self.document.at(node, "src")
+                reason = "other files are not read"
+                self.report.report("not-understood", place, name="src", reason=reason)
+            found.setdefault(name, node)
+            values[name] = self.content.value(node)
+        return values
+
+    def state(self, node: Node) -> State:
+        """A state and what is in it."""
+        id_, name = self.names[node], node.name
+        if name == "history":
+            depth = node.get("type") or "shallow"
+            if depth not in ("shallow", "deep"):
+                place = self.document.at(node, "type")
+                self.report.report("bad-value", place, name="type", values="`shallow` or `deep`")
+            default = self._only_transition(node)
+            kind = Kind.DEEP_HISTORY if depth == "deep" else Kind.HISTORY
+            return State(id_, kind, transitions=(default,) if default is not None else ())
+        states: list[State] = []
+        transitions: list[Transition] = []
+        entry: list[Effect] = []
+        leave: list[Effect] = []
+        donedata = None
+        leads_inside = "initial" in node.attributes
+        for child in node.children:
+            tag = child.name
+            if tag in _VERTICES:
+                states.append(self.state(child))
+                leads_inside = True
+            elif tag == "transition":
+                transitions.append(self.transition(child))
+            elif tag in ("onentry", "onexit"):
+                effect = self.content.block(child)
+                if effect is not None:
+                    (entry if tag == "onentry" else leave).append(effect)
+            elif tag == "donedata":
+                donedata = self.content.data(child)
+            elif tag == "initial":
+                leads_inside = True
+        return State(
+            id_,
+            _KINDS.get(name, Kind.STATE),
+            tuple(states),
+            self.initial(node) if leads_inside else (),
+            tuple(transitions),
+            tuple(entry),
+            tuple(leave),
+            self._activity(id_, node.ours) if node.ours else None,
+            donedata,
+            node.line,
+        )
+
+    def initial(self, node: Node) -> Transition | tuple[str, ...]:
+        """What is entered with a state: what it says, or nothing for its first child."""
+        inner = next((each for each in node.children if each.name == "initial"), None)
+        if inner is None:
+            targets = self._targets(node, "initial")
+            self._check_inside(node, node, "initial", targets)
+            return targets
+        if node.get("initial") is not None:
+            place = self.document.at(node, "initial")
+            fault = "what is entered first is said twice"
+            self.report.report("illegal-structure", place, fault=fault)
+        found = self._only_transition(inner)
+        if found is None:
+            return ()
+        self._check_inside(node, inner.children[0], "target", found.targets)
+        return found
+
+    def transition(self, node: Node) -> Transition:
+        """A transition of a state."""
+        event, condition = node.get("event"), node.get("cond")
+        if event is None and condition is None and node.get("target") is None:
+            fault = "a transition without event, condition and target is always taken again"
+            self.report.report("illegal-structure", self.document.at(node), fault=fault)
+        kind = node.get("type") or "external"
+        if kind not in ("external", "internal"):
+            place = self.document.at(node, "type")
+            self.report.report("bad-value", place, name="type", values="`external` or `internal`")
+        return Transition(
+            tuple([_pattern(word) for word in event.split()]) if event is not None else (),
+            self._targets(node, "target"),
+            self.content.guard(node) if condition is not None else None,
+            self.content.block(node) if node.children else None,
+            kind == "internal",
+            node.line,
+        )
+
+    def _only_transition(self, node: Node) -> Transition | None:
+        """The transition of a history or an initial element: it has a target, and no more."""
+        found = [child for child in node.children if child.name == "transition"]
+        if len(found) != 1:
+            place = self.document.at(found[1] if found else node)
+            fault = f"`<{node.name}>` has one transition"
+            self.report.report("illegal-structure", place, fault=fault)
+            return None
+        for attribute in ("event", "cond"):
+            if found[0].get(attribute) is not None:
+                place = self.document.at(found[0], attribute)
+                fault = f"the transition of `<{node.name}>` is always taken"
+                self.report.report("illegal-structure", place, fault=fault)
+        targets = self._targets(found[0], "target")
+        if found[0].get("target") is None:
+            place = self.document.at(found[0])
+            self.report.report("missing-attribute", place, element="transition", name="target")
+        if node.name == "history":
+            assert node.parent is not None
+            self._check_inside(node.parent, found[0], "target", targets)
+        return Transition(targets=targets, effect=self.content.block(found[0]))
+
+    def _targets(self, node: Node, attribute: str) -> tuple[str, ...]:
+        written = node.get(attribute)
+        if written is None:
+            return ()
+        targets = tuple(written.split())
+        for target in targets:
+            if target not in self.ids:
+                place = self.document.at(node, attribute, target)
+                hints = self.report.wants_hint("unknown-state")
+                help_ = suggest(target, self.ids, "states") if hints else None
+                self.report.report("unknown-state", place, name=target, help=help_)
+        return targets
+
+    def _check_inside(
+        self, around: Node, node: Node, attribute: str, targets: tuple[str, ...]
+    ) -> None:
+        for target in targets:
+            if target not in self.ids:
+                continue
+            above = self.ids[target].parent
+            while above is not None and above is not around:
+                above = above.parent
+            if above is None:
+                place = self.document.at(node, attribute, target)
+                name = self.names.get(around, around.name)
+                self.report.report(
+                    "illegal-structure", place, fault=f"`{target}` is not in `{name}`"
+                )
+
+    def _activity(self, id_: str, about: Sequence[Node]) -> Activity | None:
+        """What swarmdsl wrote about the activity of a state, if it has one."""
+        found = next((each for each in about if each.name == "activity"), None)
+        if found is None:
+            return None
+        fields = [
+            (each.get("field", ""), self.content.expression(each, "expr"))
+            for each in found.walk()
+            if each.name == "argument"
+        ]
+
+        def goal(instance: Instance) -> dict[str, Any]:
+            nothing = Event("")
+            return {key: v(instance, nothing, {}) for key, v in fields if v is not None}
+
+        function = found.get("function", "")
+        return Activity(
+            function,
+            self.servers.get(function, function),
+            {outcome: f"do.{id_}.{outcome}" for outcome in _OUTCOMES},
+            goal,
+        )
+
+
+def _pattern(word: str) -> str:
+    """An event descriptor, which fits all names it is the beginning of, as the engine has it."""
+    word = word.removesuffix("*").removesuffix(".")
+    return f"{word}.*" if word else "*"
+
+
+def _first_value(name: str, value: Value) -> Effect:
+    def store(instance: Instance, event: Event) -> None:
+        instance.data[name] = value(instance, event, {})
+
+    return store

@@ -1,0 +1,145 @@
+"""The elements of SCXML: their attributes, and where they stand."""
+
+from __future__ import annotations
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.suggest import did_you_mean
+from swarmdsl.execution.scxml.document import SCXML, Document, Node
+
+OURS = "urn:swarmdsl:scxml"
+"""Of what swarmdsl writes beside SCXML, for people and for reading models back."""
+
+_CONTENT = {"raise", "if", "log", "assign", "send", "cancel", "foreach", "script"}
+_STATES = {"state", "parallel", "final", "history"}
+_INSIDE = {"onentry", "onexit", "transition", "datamodel", "invoke"}
+
+# The attributes of each element, and the elements in it.
+_ELEMENTS: dict[str, tuple[set[str], set[str]]] = {
+    "scxml": (
+        {"initial", "name", "version", "datamodel", "binding", "exmode"},
+        {"state", "parallel", "final", "datamodel", "script", "initial"},
+    ),
+    "state": ({"id", "initial"}, {*_INSIDE, *_STATES, "initial"}),
+    "parallel": ({"id"}, {*_INSIDE, *_STATES} - {"final"}),
+    "final": ({"id"}, {"onentry", "onexit", "donedata"}),
+    "history": ({"id", "type"}, {"transition"}),
+    "initial": (set(), {"transition"}),
+    "transition": ({"event", "cond", "target", "type"}, _CONTENT),
+    "onentry": (set(), _CONTENT),
+    "onexit": (set(), _CONTENT),
+    "datamodel": (set(), {"data"}),
+    "data": ({"id", "expr", "src"}, set()),
+    "donedata": (set(), {"param", "content"}),
+    "param": ({"name", "expr", "location"}, set()),
+    "content": ({"expr"}, set()),
+    "raise": ({"event"}, set()),
+    "if": ({"cond"}, {*_CONTENT, "elseif", "else"}),
+    "elseif": ({"cond"}, set()),
+    "else": (set(), set()),
+    "log": ({"label", "expr"}, set()),
+    "assign": ({"location", "expr", "attr"}, set()),
+    "send": (
+        {"event", "eventexpr", "target", "targetexpr", "type", "typeexpr"}
+        | {"id", "idlocation", "delay", "delayexpr", "namelist"},
+        {"param", "content"},
+    ),
+    "cancel": ({"sendid", "sendidexpr"}, set()),
+}
+# One of the attributes between `|` each.
+_NEEDED = {
+    "raise": ("event",),
+    "if": ("cond",),
+    "elseif": ("cond",),
+    "assign": ("location",),
+    "data": ("id",),
+    "param": ("name",),
+    "history": ("id",),
+    "send": ("event|eventexpr",),
+    "cancel": ("sendid|sendidexpr",),
+}
+_WITH_TEXT = ("data", "assign", "content")
+_NOT_RUN = {
+    "invoke": "activities outside of the machine are not started from SCXML",
+    "script": "scripts are not run",
+    "foreach": "lists are not gone through",
+}
+
+
+def check(document: Document, report: Diagnostics) -> None:
+    """Report what is no SCXML, and what is but is not understood; leave it out."""
+    foreign: set[str] = set()
+    waiting = [document.root]
+    while waiting:
+        node = waiting.pop()
+        attributes, inside = _ELEMENTS[node.name]
+        if not attributes.issuperset(node.attributes):
+            _report_attributes(document, node, attributes, report)
+        for needed in _NEEDED.get(node.name, ()):
+            either = needed.split("|")
+            if not any(name in node.attributes for name in either):
+                place = document.at(node)
+                report.report("missing-attribute", place, element=node.name, name=either[0])
+        if not node.get("event", "-").strip():
+            place = document.at(node, "event")
+            report.report("bad-value", place, name="event", values="the name of an event")
+        if node.text and node.name not in _WITH_TEXT:
+            fault = f"there is no text in `<{node.name}>`"
+            report.report("illegal-structure", document.at(node), fault=fault)
+        if not node.children:
+            continue
+        kept = []
+        for child in node.children:
+            if child.namespace != SCXML or child.name not in inside or child.name in _NOT_RUN:
+                _leave_out(document, child, node, inside, foreign, report)
+            else:
+                kept.append(child)
+        node.children = kept
+        waiting += reversed(kept)
+
+
+def _leave_out(
+    document: Document,
+    child: Node,
+    node: Node,
+    inside: set[str],
+    foreign: set[str],
+    report: Diagnostics,
+) -> None:
+    """Say why an element is not looked at; one is told of each foreign namespace."""
+    name = child.name
+    if child.namespace == OURS:
+        node.ours += (child,)
+    elif child.namespace != SCXML:
+        if child.namespace not in foreign:
+            foreign.add(child.namespace)
+            report.report("foreign-element", document.at(child), name=name)
+    elif name not in inside:
+        _report_unknown(document, child, node.name, inside, report)
+    else:
+        report.report("not-understood", document.at(child), name=name, reason=_NOT_RUN[name])
+
+
+def _report_attributes(
+    document: Document, node: Node, known: set[str], report: Diagnostics
+) -> None:
+    for name in sorted(set(node.attributes) - known):
+        report.report(
+            "unknown-attribute",
+            document.at(node, name),
+            element=node.name,
+            name=name,
+            help=did_you_mean(name, sorted(known))
+            or (f"it has {listed(sorted(known), 'and')}" if known else "it has none"),
+        )
+
+
+def _report_unknown(
+    document: Document, node: Node, parent: str, inside: set[str], report: Diagnostics
+) -> None:
+    around = sorted(name for name, (_, allowed) in _ELEMENTS.items() if node.name in allowed)
+    question = did_you_mean(node.name, sorted(inside))
+    if around:
+        question = f"it stands in {listed([f'<{name}>' for name in around])}"
+    report.report(
+        "unknown-element", document.at(node), name=node.name, parent=parent, help=question
+    )

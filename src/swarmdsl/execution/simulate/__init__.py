@@ -1,0 +1,1 @@
+"""Models run without a robot, on the engine of `swarmdsl.execution.engine`."""

@@ -1,0 +1,329 @@
+"""What `swarmc simulate` does: from files to a run, and what is told of it."""
+
+from __future__ import annotations
+
+import gc
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
+from functools import partial
+from pathlib import Path
+from queue import SimpleQueue
+from threading import Thread
+from typing import TextIO
+
+import click
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.records import dataclass
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.driver.config.toml import parse_toml
+from swarmdsl.execution.engine import LoopError
+from swarmdsl.execution.scxml import read as read_scxml
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.deadlock_hint import advice
+from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.inputs import STDIN, Input, Reader, lines_of
+from swarmdsl.execution.simulate.replay import replay
+from swarmdsl.execution.simulate.run import DEFAULT_UNTIL, Ending, Pace, run, run_live
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.scenario_file import read_scenario
+from swarmdsl.execution.simulate.subject import Document, Subject, choose
+from swarmdsl.execution.simulate.summary import Summary
+from swarmdsl.execution.simulate.timeline import Timeline
+from swarmdsl.execution.simulate.trace import Line, as_json, as_text
+from swarmdsl.execution.simulate.world import World
+from swarmdsl.ir import System
+from swarmdsl.project.read_source import read_source
+
+Tell = Callable[[Diagnostics], None]
+_STDIN = "-"
+_ENDINGS: dict[Ending, str] = {
+    "ended": "until all machines had ended",
+    "quiet": "until nothing was left to happen",
+    "stopped": "until the time was over",
+}
+_NO_LATENCY = ("members that answer each other at once do so for ever: a network has a latency",)
+_STANDARD_INPUT = 0
+_MOST_SHOWN = 5
+"""How many states of a circle are named."""
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the command line asks for."""
+
+    paths: tuple[Path, ...]
+    machine: str | None = None
+    swarm: str | None = None
+    events: str | None = None
+    scenario: Path | None = None
+    trace: str | None = None
+    trace_file: Path | None = None
+    timeline: Path | None = None
+    seed: int | None = None
+    until: int | None = None
+    real_time: bool = False
+    replay: tuple[Path, ...] = ()
+
+
+def simulate(request: Request, tell: Tell) -> bool | None:
+    """Run what is asked for; whether it was free of errors, None if it was interrupted.
+
+    What is wrong is told as soon as it is known.
+    """
+    report = Diagnostics()
+    prepared = _prepare(request, report)
+    tell(report)
+    if prepared is None:
+        return False
+    return prepared.replay(tell) if request.replay else prepared.play(tell)
+
+
+def _prepare(request: Request, report: Diagnostics) -> _Play | None:
+    """All that must be right before anything happens."""
+    subject = _subject(request, report)
+    if subject is None:
+        return None
+    scenario = _scenario(request.scenario, subject, report)
+    if scenario is None:
+        return None
+    robots = subject.crew(scenario.counts)
+    cast = actors(subject, robots, scenario, report)
+    if report.has_errors:
+        return None
+    inputs: list[Input] = []
+    if request.events is not None and request.events != _STDIN:
+        source = read_source(Path(request.events), None, report, "a file of events")
+        inputs = Reader(subject, cast, report).file(source) if source is not None else []
+    return None if report.has_errors else _Play(request, subject, scenario, cast, inputs)
+
+
+def _scenario(path: Path | None, subject: Subject, report: Diagnostics) -> Scenario | None:
+    """The scenario of a file, or the one in which nothing special happens."""
+    if path is None:
+        return Scenario()
+    source = read_source(path, None, report, "a scenario")
+    document = parse_toml(source, report) if source is not None else None
+    if document is None:
+        return None
+    scenario = read_scenario(document, subject, report)
+    return scenario if not report.has_errors else None
+
+
+def _subject(request: Request, report: Diagnostics) -> Subject | None:
+    """What is simulated, from the models and documents that are named."""
+    documents = [path for path in request.paths if path.suffix == ".scxml"]
+    models = [path for path in request.paths if path not in documents]
+    read = [document for path in documents if (document := _document(path, report)) is not None]
+    system: System | None = None
+    if models or not documents:
+        settings = find_settings(models, report)
+        if report.has_errors:
+            return None
+        checked = pipeline.check(models or settings.sources, settings)
+        report.include(checked.report)
+        system = checked.system
+    if report.has_errors:
+        return None
+    return choose(system, read, request.machine, request.swarm, report)
+
+
+def _document(path: Path, report: Diagnostics) -> Document | None:
+    source = read_source(path, None, report)
+    machine = read_scxml(source, report) if source is not None else None
+    return Document(source, machine) if source is not None and machine is not None else None
+
+
+class _Play:
+    """A run with all that is told of it."""
+
+    def __init__(
+        self,
+        request: Request,
+        subject: Subject,
+        scenario: Scenario,
+        cast: Sequence[Actor],
+        inputs: Sequence[Input],
+    ) -> None:
+        self._request = request
+        self._subject = subject
+        self._cast = cast
+        self._inputs = inputs
+        self._wrong = False
+        self._written: list[Path] = []
+        self._until = request.until if request.until is not None else scenario.until
+        seed = request.seed if request.seed is not None else scenario.seed
+        self._listeners: list[Callable[[Line], None]] = []
+        self._world = World(subject.system, cast, scenario, seed, self._listeners)
+
+    def replay(self, tell: Tell) -> bool:
+        """Hold each trace against the model; whether all of them are as the model says."""
+        report = Diagnostics()
+        several = len(self._request.replay) > 1
+        for path in self._request.replay:
+            source = read_source(path, None, report, "a trace")
+            if source is None:
+                continue
+            found = replay(source, self._subject, self._cast, report)
+            which = f"{printable(str(path))}: " if several else ""
+            lines = f"{found.lines} line{'s' if found.lines != 1 else ''}"
+            members = f"{found.members} member{'s' if found.members != 1 else ''}"
+            click.echo(f"{which}{lines} of {members} as the model says", err=True)
+        tell(report)
+        return not report.has_errors
+
+    def play(self, tell: Tell) -> bool | None:
+        # A compiler needs no garbage to be looked for, but this may run for long.
+        gc.enable()
+        report = Diagnostics()
+        interrupted = False
+        ending = "until it did not come to rest"
+        summary = Summary(self._subject, self._cast)
+        self._listeners.append(summary.note)
+        with ExitStack() as stack:
+            stream = self._stream(stack, report)
+            picture = self._picture(stack, report)
+            if report.has_errors:
+                tell(report)
+                return False
+            if stream is not None:
+                self._listeners.append(self._writer(stream))
+            if stream is None or not stream.isatty():
+                self._show_board(stack)
+            try:
+                ending = _ENDINGS[self._run(tell)]
+            except LoopError as error:
+                self._report_loop(error, report)
+            except KeyboardInterrupt:
+                interrupted, ending = True, "until it was interrupted"
+            sys.stdout.flush()
+            if picture is not None:
+                picture()
+        for (machine, reason), count in self._world.failures.items():
+            times = "once" if count == 1 else f"{count} times"
+            report.report("failed-expression", machine=machine, reason=reason, notes=(times,))
+        tell(report)
+        for line in summary.text(self._world, ending):
+            click.echo(line, err=True)
+        request = self._request
+        unplayed = request.events is None and request.scenario is None
+        if unplayed and ending == _ENDINGS["quiet"] and (awaited := summary.awaited):
+            start = request.paths[0] if request.paths else Path()
+            click.echo(f"\n{advice(awaited, self._subject, start)}", err=True)
+        if self._written:
+            names = [printable(str(path)) for path in self._written]
+            click.echo(f"\nwritten: {', '.join(names)}", err=True)
+        return None if interrupted else not (report.has_errors or self._wrong)
+
+    def _run(self, tell: Tell) -> Ending:
+        pace = Pace() if self._request.real_time else None
+        if self._request.events != _STDIN:
+            return run(self._world, self._inputs, self._until, pace)
+        if pace is None:
+            return run(self._world, self._typed(tell), self._until)
+        arrivals: SimpleQueue[Input | None] = SimpleQueue()
+        Thread(target=self._queue, args=(tell, arrivals), daemon=True).start()
+        return run_live(self._world, arrivals, self._until, pace)
+
+    def _show_board(self, stack: ExitStack) -> None:
+        """Show who is where, on a terminal on which nothing else is written or typed."""
+        if not sys.stderr.isatty() or self._request.events == _STDIN:
+            return
+        from rich.console import Console
+
+        from swarmdsl.execution.simulate.live_table import Board
+
+        last = sum(each.after for each in self._inputs)
+        until = self._until if self._until is not None else last + DEFAULT_UNTIL
+        board = Board(self._cast, self._world.clock, until, Console(stderr=True))
+        self._listeners.append(board.note)
+        stack.enter_context(board.shown())
+
+    def _typed(self, tell: Tell) -> Iterator[Input | None]:
+        """The events on standard input; what is wrong with a line is told at once."""
+        reader = Reader(self._subject, self._cast, Diagnostics())
+        try:
+            for each in reader.stream(lines_of(_STANDARD_INPUT)):
+                self._tell_and_forget(reader, tell)
+                yield each
+        except OSError as error:
+            reader.report.report("unreadable-file", path=STDIN, reason=str(error.strerror).lower())
+            self._tell_and_forget(reader, tell)
+
+    def _tell_and_forget(self, reader: Reader, tell: Tell) -> None:
+        if len(reader.report):
+            tell(reader.report)
+            self._wrong |= reader.report.has_errors
+            reader.report = Diagnostics()
+
+    def _queue(self, tell: Tell, arrivals: SimpleQueue[Input | None]) -> None:
+        for each in self._typed(tell):
+            if each is not None:
+                arrivals.put(each)
+        arrivals.put(None)
+
+    def _stream(self, stack: ExitStack, report: Diagnostics) -> TextIO | None:
+        """Where the trace goes."""
+        path = self._request.trace_file
+        if self._request.trace == "none":
+            return None
+        if path is None:
+            # A person watches the board instead, and types where there is something to type.
+            watched = sys.stdout.isatty() and self._request.events != _STDIN
+            return None if watched and self._request.trace is None else sys.stdout
+        return self._write_to(path, stack, report)
+
+    def _picture(self, stack: ExitStack, report: Diagnostics) -> Callable[[], object] | None:
+        """Draws the timeline, if one is wanted."""
+        if self._request.timeline is None:
+            return None
+        stream = self._write_to(self._request.timeline, stack, report)
+        if stream is None:
+            return None
+        timeline = Timeline(self._subject.name, self._cast)
+        self._listeners.append(timeline.note)
+        self._world.crossed = timeline.crossed
+        return lambda: stream.write(timeline.svg(self._world.clock.now))
+
+    def _write_to(self, path: Path, stack: ExitStack, report: Diagnostics) -> TextIO | None:
+        try:
+            stream = stack.enter_context(path.open("w", encoding="utf-8", newline="\n"))
+        except OSError as error:
+            reason = str(error.strerror)
+            report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+            return None
+        self._written.append(path)
+        return stream
+
+    def _writer(self, stream: TextIO) -> Callable[[Line], None]:
+        kind = self._request.trace or ("json" if self._request.trace_file is not None else "text")
+        width = max(len(actor.name or "") for actor in self._cast)
+        form = as_json if kind == "json" else partial(as_text, width=width)
+        at_once = self._request.real_time or self._request.events == _STDIN
+
+        def write(line: Line) -> None:
+            stream.write(f"{form(line)}\n")
+            if at_once:
+                stream.flush()
+
+        return write
+
+    def _report_loop(self, error: LoopError, report: Diagnostics) -> None:
+        """Report that a machine goes round, at the states that it goes through."""
+        actor, now = self._world.trace.actor, self._world.clock.now
+        machine = actor.machine
+        origins = [machine.states[machine.numbers[state]].origin for state in error.states]
+        places = [p for p in map(self._subject.place, origins) if p is not None]
+        report.report(
+            "never-settles",
+            places[0] if places else None,
+            label="it goes round through here",
+            related=tuple(Label(place, "and here") for place in places[1:_MOST_SHOWN]),
+            notes=_NO_LATENCY if self._subject.swarm is not None else (),
+            who=f"`{actor.name or machine.name}`",
+            time=shown(now),
+            help=f"let {listed(error.states[:_MOST_SHOWN], 'or')} wait for an event or for a time",
+        )

@@ -1,0 +1,168 @@
+"""Which states are entered in runs, and which transitions are taken.
+
+What is counted is the text of the models: a machine that is reused in states of others is one
+machine, wherever it runs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.execution.engine import Kind, Machine, Transition
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.ir import State as ModelState
+from swarmdsl.ir import Transition as ModelTransition
+
+_HISTORIES = (Kind.HISTORY, Kind.DEEP_HISTORY)
+_Key = tuple[str, int]
+"""The name of a source, and where in it something begins; of a document its file and a number."""
+
+
+@dataclass
+class MachineCoverage:
+    """The states and transitions of a machine, in words, and which were reached."""
+
+    name: str
+    states: dict[_Key, str] = field(default_factory=dict)
+    transitions: dict[_Key, str] = field(default_factory=dict)
+    origins: dict[_Key, object] = field(default_factory=dict)
+    entered: set[_Key] = field(default_factory=set)
+    taken: set[_Key] = field(default_factory=set)
+
+    @property
+    def missed(self) -> Iterator[str]:
+        """What was not reached."""
+        for _, words in self.unreached:
+            yield words
+
+    @property
+    def unreached(self) -> Iterator[tuple[object, str]]:
+        """The same, with the origins."""
+        for key, words in self.states.items():
+            if key not in self.entered:
+                yield self.origins[key], f"never entered: {words}"
+        for key, words in self.transitions.items():
+            if key not in self.taken:
+                yield self.origins[key], f"never taken: {words}"
+
+
+@dataclass
+class _Known:
+    """What the states and transitions of a table are in the text."""
+
+    states: dict[str, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
+    transitions: dict[int, tuple[MachineCoverage, _Key]] = field(default_factory=dict)
+
+
+class Coverage:
+    """Listens to runs."""
+
+    def __init__(self) -> None:
+        self._machines: dict[tuple[str, str], MachineCoverage] = {}
+        self._known: dict[Machine, _Known] = {}
+        self._files: dict[Machine, str] = {}
+
+    def expect(self, subject: Subject) -> None:
+        """Count all machines that some robot of the model runs, whether they run now or not."""
+        if subject.document is not None:
+            self._files[subject.document.machine] = subject.document.source.name
+            self.count(subject.document.machine)
+        system = subject.system
+        if system is None:
+            return
+        behaviours = {member.behavior for member in system.members}
+        behaviours |= {component.behavior for component in system.components}
+        if subject.machine is not None:
+            behaviours.add(subject.machine.name)
+        for machine in system.machines:
+            if machine.name in behaviours:
+                self.count(subject.table(machine))
+
+    def count(self, machine: Machine) -> None:
+        """Count a machine, whether it does something or not."""
+        self._of(machine)
+
+    def see(self, line: Line) -> None:
+        """Take in a line."""
+        known = self._of(line.actor.machine)
+        for state in line.entered:
+            if state in known.states:
+                machine, key = known.states[state]
+                machine.entered.add(key)
+        for transition in line.taken:
+            if _identity(transition) in known.transitions:
+                machine, key = known.transitions[_identity(transition)]
+                machine.taken.add(key)
+
+    @property
+    def machines(self) -> list[MachineCoverage]:
+        """The machines, in the order in which they were met."""
+        return list(self._machines.values())
+
+    @property
+    def percentage(self) -> float:
+        """How many of a hundred states and transitions of all machines; 100 of none."""
+        there = sum(len(each.states) + len(each.transitions) for each in self.machines)
+        reached = sum(len(each.entered) + len(each.taken) for each in self.machines)
+        return 100 * reached / there if there else 100.0
+
+    def _of(self, machine: Machine) -> _Known:
+        known = self._known.get(machine)
+        if known is None:
+            known = self._known[machine] = _Known()
+            self._add(machine, known)
+        return known
+
+    def _add(self, machine: Machine, known: _Known) -> None:
+        owners = {0: (machine.name, "")}
+        for number, state in enumerate(machine.states[1:], 1):
+            owner, prefix = owners[machine.parents[number]]
+            origin = state.origin
+            owners[number] = owner, prefix
+            if isinstance(origin, ModelState) and origin.submachine is not None:
+                owners[number] = origin.submachine, f"{state.id}."
+            if state.kind in _HISTORIES:
+                continue
+            key = self._key(origin, machine, number)
+            name = state.id.removeprefix(prefix)
+            row = self._machines.setdefault((key[0], owner), MachineCoverage(owner))
+            row.states.setdefault(key, name)
+            row.origins.setdefault(key, origin)
+            known.states[state.id] = row, key
+            for transition in state.transitions:
+                # That of a parallel state may be in its regions as well.
+                if _identity(transition) not in known.transitions:
+                    number = len(machine.states) + len(known.transitions)
+                    key = self._key(transition.origin, machine, number)
+                    row.transitions.setdefault(key, f"{name}: {_words(transition)}")
+                    row.origins.setdefault(key, transition.origin)
+                    known.transitions[_identity(transition)] = row, key
+
+    def _key(self, origin: object, machine: Machine, number: int) -> _Key:
+        place = _place(origin)
+        if place is None:
+            # Two documents may give their machines the same name.
+            return self._files.get(machine, machine.name), number
+        return place.source.name, place.start
+
+
+def _identity(transition: Transition) -> int:
+    """What tells transitions of the model apart, however many the engine has for one."""
+    modelled = isinstance(transition.origin, ModelTransition)
+    return id(transition.origin if modelled else transition)
+
+
+def _place(origin: object) -> Span | None:
+    """Where something stands in the text of the model."""
+    place = origin if isinstance(origin, Span) else getattr(origin, "origin", None)
+    return place if isinstance(place, Span) else None
+
+
+def _words(transition: Transition) -> str:
+    place = _place(transition.origin)
+    if place is not None:
+        return " ".join(place.text.split())
+    return " ".join([*transition.events, "->", *transition.targets])

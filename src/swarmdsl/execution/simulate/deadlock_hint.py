@@ -1,0 +1,40 @@
+"""What to do about a run in which all wait for events that nobody sends."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.diagnostics.render.printable import printable
+from swarmdsl.base.find_files import files_below
+from swarmdsl.driver.config import find_file
+from swarmdsl.driver.config.toml import parse_toml
+from swarmdsl.execution.simulate.scenario_file import read_scenario
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.project.read_source import read_source
+
+_MOST = 5
+"""How many events are named."""
+
+
+def advice(awaited: list[str], subject: Subject, start: Path) -> str:
+    """Which events are waited for, and how they come: by a scenario of the project at `start`."""
+    events = printable(listed(awaited[:_MOST], "or"))
+    more = " and others" if len(awaited) > _MOST else ""
+    project = find_file(start)
+    scenario = _scenario(project.parent, subject) if project is not None else None
+    return f"all wait for {events}{more}: --events FILE or --scenario {scenario or 'FILE'}"
+
+
+def _scenario(folder: Path, subject: Subject) -> str | None:
+    """A file there that is a scenario of this model, and sends something."""
+    for path in files_below(folder, ".toml"):
+        report = Diagnostics()
+        source = read_source(path, None, report)
+        document = parse_toml(source, report) if source is not None else None
+        if document is None:
+            continue
+        scenario = read_scenario(document, subject, report)
+        if not report.has_errors and scenario.messages:
+            return printable(path.as_posix())
+    return None

@@ -1,0 +1,91 @@
+"""Expressions as functions; the text of a model is never evaluated as code.
+
+Values are as in Python: whole numbers of any size, `/` the division of real numbers, `%` with
+the sign of the divisor. Durations are in nanoseconds, messages are dictionaries.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from swarmdsl.analysis.types.constant_folding import OPERATIONS
+from swarmdsl.execution.engine import ExecutionError
+from swarmdsl.ir import (
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    ParamRef,
+    Unary,
+    VariableRef,
+)
+
+Value = Callable[[Mapping[str, Any], Any], Any]
+"""The value of an expression, given the data of the machine and the message of the event."""
+
+
+def function_of(expression: Expression) -> Value:
+    """The expression as a function.
+
+    Called, it raises ArithmeticError or ValueError where an operation has no result, and
+    ExecutionError where a message has no such field.
+    """
+    match expression:
+        case Literal(value=literal):
+            return lambda data, message: literal
+        case VariableRef(name=name) | ParamRef(name=name):
+            return lambda data, message: data[name]
+        case EventData():
+            return lambda data, message: message
+        case FieldAccess(base=base, field=field):
+            return _field(function_of(base), field)
+        case Unary(operator="not", operand=operand):
+            value = function_of(operand)
+            return lambda data, message: not value(data, message)
+        case Unary(operand=operand):
+            value = function_of(operand)
+            return _checked("-", lambda data, message: -value(data, message))
+        case Binary(operator=symbol, left=left, right=right):
+            return _binary(symbol, function_of(left), function_of(right))
+        case Call(function=name, arguments=arguments):
+            function, values = OPERATIONS[name], [function_of(each) for each in arguments]
+            return _checked(
+                name, lambda data, message: function(*[value(data, message) for value in values])
+            )
+
+
+def _binary(symbol: str, left: Value, right: Value) -> Value:
+    if symbol == "and":
+        return lambda data, message: left(data, message) and right(data, message)
+    if symbol == "or":
+        return lambda data, message: left(data, message) or right(data, message)
+    operation = OPERATIONS[symbol]
+    return _checked(
+        symbol, lambda data, message: operation(left(data, message), right(data, message))
+    )
+
+
+def _checked(symbol: str, operation: Value) -> Value:
+    """Where the fields of a message are not known, anything may be in them."""
+
+    def value(data: Mapping[str, Any], message: Any) -> Any:
+        try:
+            return operation(data, message)
+        except TypeError:
+            raise ExecutionError(f"`{symbol}` does not work on what a message holds") from None
+
+    return value
+
+
+def _field(base: Value, field: str) -> Value:
+    def value(data: Mapping[str, Any], message: Any) -> Any:
+        held = base(data, message)
+        try:
+            return held[field]
+        except (KeyError, TypeError):
+            raise ExecutionError(f"there is no field `{field}` in {held!r}") from None
+
+    return value

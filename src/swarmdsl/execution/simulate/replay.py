@@ -1,0 +1,274 @@
+"""A trace of robots, held against the model: what happened to them happens to its machines."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Source, Span
+from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen.default_values import default_value, result_fields
+from swarmdsl.execution.engine import Event, Instance, LoopError, Run, Servers
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.clock import Clock
+from swarmdsl.execution.simulate.durations import MILLISECOND, shown
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.trace import Line, Trace
+from swarmdsl.execution.simulate.trace_line import NAMES, read_line
+from swarmdsl.execution.simulate.world import LOST
+from swarmdsl.ir import Field, Message, System, Type
+
+SHUTDOWN = "node.shutdown"
+"""The event of a machine that was stopped from outside, in a trace of a robot."""
+_EARLY = 5 * MILLISECOND
+"""How much sooner than the model says a delay may be over: a trace has whole milliseconds."""
+
+
+@dataclass(frozen=True)
+class _Record:
+    """A line of the trace, and where it stands."""
+
+    time: int
+    event: str | None
+    data: Any
+    done: Mapping[str, Any]
+    place: Span
+
+
+@dataclass(frozen=True)
+class Replayed:
+    """How much of a trace is as the model says: lines, and members."""
+
+    lines: int
+    members: int
+
+
+def replay(
+    source: Source, subject: Subject, cast: Sequence[Actor], report: Diagnostics
+) -> Replayed:
+    """Hold each line of a trace against the model; the first that departs of each is reported."""
+    by_member: dict[str | None, list[_Record]] = {}
+    for start, end in zip(source.line_starts, [*source.line_starts[1:], None], strict=True):
+        place = Span(source, start, len(source.text) if end is None else end - 1)
+        if place.text.strip():
+            _read(place, by_member, report)
+    actors = {actor.name: actor for actor in cast}
+    followed = 0
+    for member, records in by_member.items():
+        actor = actors.get(member)
+        if actor is None and len(by_member) == len(actors) == 1:
+            # A machine alone is called by no name, whoever ran it.
+            (actor,) = actors.values()
+        if actor is None:
+            _report_member(member, records[0].place, actors, report)
+            continue
+        followed += _Replay(actor, subject, report).follow(records)
+    return Replayed(followed, len(by_member))
+
+
+def _read(place: Span, by_member: dict[str | None, list[_Record]], report: Diagnostics) -> None:
+    """Read a line; what is no line of a trace is reported."""
+    value = read_line(place.text)
+    if isinstance(value, dict):
+        record = _Record(value["t"] * MILLISECOND, value["event"], value.get("data"), value, place)
+        by_member.setdefault(value.get("member"), []).append(record)
+        return
+    help_ = "`swarmc simulate --trace json` writes such lines, and nodes of target `ros2` do"
+    report.report("bad-trace-line", place, reason=value, help=help_)
+
+
+def _report_member(
+    member: str | None, place: Span, actors: Mapping[str | None, Actor], report: Diagnostics
+) -> None:
+    known = [name for name in actors if name is not None]
+    help_ = suggest(member or "", known, "members") if known else None
+    report.report("unresolved-name", place, kind="member", name=member or "", help=help_)
+
+
+class _Delay:
+    """A delay that is going on: when it is over, and what is done then."""
+
+    def __init__(self, due: int, action: Callable[[], None]) -> None:
+        self.due = due
+        self.action = action
+
+
+class _Replay:
+    """One machine, to which happens what a trace says; the `World` of the engine."""
+
+    def __init__(self, actor: Actor, subject: Subject, report: Diagnostics) -> None:
+        self._actor = actor
+        self._subject = subject
+        self._report = report
+        self._clock = Clock()
+        self._lines: deque[Line] = deque()
+        self._trace = Trace(self._clock, [self._lines.append])
+        self._delays: list[_Delay] = []
+        self._runs: list[Run] = []
+        self._last: list[str] = []
+        self._instance = Instance(actor.machine, self, data=actor.data, servers=Servers())
+        self._trace.watch(self._instance, actor)
+
+    def follow(self, records: Sequence[_Record]) -> int:
+        """How many records are as the model says; what is wrong with the next is reported."""
+        for number, record in enumerate(records):
+            self._clock.advance(max(record.time - self._clock.now, 0))
+            if not self._lines:
+                wrong = self._cause(record)
+                if wrong:
+                    self._depart(record, wrong)
+                    return number
+            if not self._lines:
+                self._depart(record, "the model takes no notice of it")
+                return number
+            line = self._lines.popleft()
+            wrong = _difference(line, record)
+            if wrong:
+                self._depart(record, wrong)
+                return number
+            self._last = line.configuration
+        return len(records)
+
+    # ---- what the engine asks of it
+
+    def schedule(self, delay: int, action: Callable[[], None]) -> _Delay:
+        """Keep it until the trace says that it is over."""
+        made = _Delay(self._clock.now + delay, action)
+        self._delays.append(made)
+        return made
+
+    def unschedule(self, handle: _Delay) -> None:
+        """Forget it."""
+        self._delays.remove(handle)
+
+    def start(self, run: Run) -> None:
+        """Keep it until the trace says how it ends."""
+        self._runs.append(run)
+
+    def cancel(self, run: Run) -> None:
+        """Let its server be free: a trace does not tell when that was."""
+        self._runs.remove(run)
+        run.end("preempted")
+
+    def send(self, instance: Instance, event: Event) -> None:
+        """Do nothing: what others heard is in their lines."""
+
+    def failed(self, instance: Instance, error: Exception) -> None:
+        """Do nothing: the line shows what came of it."""
+
+    # ---- inside
+
+    def _cause(self, record: _Record) -> str:
+        """Let happen what the record says; why that cannot be, where it cannot."""
+        name, instance = record.event, self._instance
+        try:
+            if name is None:
+                if instance.running or instance.final is not None:
+                    return "it starts a second time"
+                self._trace.begin(instance, None)
+                instance.start()
+            elif not instance.running:
+                return "it does something after its end" if instance.final else "it has not started"
+            elif name in (SHUTDOWN, LOST):
+                self._trace.begin(instance, name)
+                if name == LOST:
+                    instance.running = False
+                else:
+                    instance.stop()
+            elif name.startswith("after."):
+                return self._end_delay(name)
+            elif name.startswith("do."):
+                return self._end_run(name, record.data)
+            else:
+                self._trace.begin(instance, name)
+                instance.receive(Event(name, self._message(name, record.data)))
+        except LoopError as error:
+            return str(error)
+        finally:
+            self._trace.flush()
+        return ""
+
+    def _end_delay(self, name: str) -> str:
+        found = next((each for each in self._delays if _event_of(each.action) == name), None)
+        if found is None:
+            return f"no delay `{name}` is going on"
+        if self._clock.now < found.due - _EARLY:
+            return f"by the model it is over at {shown(found.due)}, not before"
+        self._delays.remove(found)
+        found.action()
+        return ""
+
+    def _end_run(self, name: str, data: Any) -> str:
+        for run in self._runs:
+            for outcome, event in run.activity.events.items():
+                if event == name:
+                    self._runs.remove(run)
+                    run.end(outcome, self._result(run, data) if outcome == "succeeded" else data)
+                    return ""
+        return f"no activity that could end so is going on: `{name}`"
+
+    def _message(self, name: str, data: Any) -> Any:
+        system = self._subject.system
+        declared = next((e.type for e in system.events if e.name == name), None) if system else None
+        return _as(declared, data, system) if declared is not None and system else data
+
+    def _result(self, run: Run, data: Any) -> Any:
+        system = self._subject.system
+        if system is None:
+            return data
+        fields = result_fields(system.function(run.activity.name).communication, system)
+        if fields is not None:
+            return _with_fields(fields, data, system)
+        return data if isinstance(data, dict) else {}
+
+    def _depart(self, record: _Record, wrong: str) -> None:
+        """Report that a record is not what the model says, with the states it was in."""
+        machine = self._actor.machine
+        origins = [machine.states[machine.numbers[state]].origin for state in self._last]
+        places = [place for place in map(self._subject.place, origins) if place is not None]
+        self._report.report(
+            "trace-departs",
+            record.place,
+            who=f"`{self._actor.name or machine.name}`",
+            event=f"`{record.event}`" if record.event is not None else "its start",
+            time=shown(record.time),
+            label=wrong,
+            related=tuple(Label(place, "it was in this state") for place in places),
+        )
+
+
+def _event_of(action: Callable[[], None]) -> str | None:
+    """The event of a delay: what the engine schedules is a method of its timer."""
+    timer = getattr(action, "__self__", None)
+    return str(timer.event.name) if timer is not None else None
+
+
+def _difference(line: Line, record: _Record) -> str:
+    """What of a record is not as in the line that the model makes; empty where nothing is."""
+    if line.event != record.event:
+        return f"first the model looks at `{line.event}`"
+    for key in NAMES:
+        expected, found = getattr(line, key), record.done[key]
+        if expected != found:
+            return f"`{key}` is {_list(expected)} in the model, {_list(found)} here"
+    return ""
+
+
+def _list(names: Sequence[str]) -> str:
+    return ", ".join(f"`{name}`" for name in names) or "nothing"
+
+
+def _as(type_: Type, data: Any, system: System) -> Any:
+    """Data of a robot as that of a model: fields that it does not know are left out."""
+    described = system.interface(type_)
+    if isinstance(described, Message):
+        return _with_fields(described.fields, data, system)
+    return default_value(type_, system) if data is None else data
+
+
+def _with_fields(fields: Sequence[Field], data: Any, system: System) -> dict[str, Any]:
+    given = data if isinstance(data, dict) else {}
+    return {field.name: _as(field.type, given.get(field.name), system) for field in fields}

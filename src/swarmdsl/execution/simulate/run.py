@@ -1,0 +1,112 @@
+"""Runs a world: in virtual time as fast as it goes, or as fast as time passes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+from queue import SimpleQueue
+from typing import Literal
+
+from swarmdsl.execution.simulate.durations import SECOND
+from swarmdsl.execution.simulate.inputs import Input
+from swarmdsl.execution.simulate.world import World
+
+DEFAULT_UNTIL = 10 * 60 * SECOND
+"""How long a run takes at most, after the last event from outside, if nothing is said."""
+
+Ending = Literal["ended", "quiet", "stopped"]
+"""All machines have ended; nothing can happen any more; the time was over."""
+
+# So that an interrupt is noticed on every platform.
+_NAP = 0.2
+# How soon after it has come an event is looked at, in seconds.
+_BLINK = 0.01
+
+
+class Pace:
+    """Lets virtual time pass no faster than real time does."""
+
+    def __init__(self) -> None:
+        self._start = time.monotonic_ns()
+
+    @property
+    def now(self) -> int:
+        """The nanoseconds since the start."""
+        return time.monotonic_ns() - self._start
+
+    def wait(self, until: int) -> None:
+        """Wait for a moment."""
+        while (left := until - self.now) > 0:
+            time.sleep(min(left / SECOND, _NAP))
+
+
+def run(
+    world: World, inputs: Iterable[Input | None], until: int | None, pace: Pace | None = None
+) -> Ending:
+    """Start all machines, and run them with these events; None is one that was wrong.
+
+    Raises LoopError where a machine does not come to rest.
+    """
+    world.begin()
+    last = 0
+    for each in inputs:
+        if each is None:
+            continue
+        at = world.clock.now + each.after
+        if until is not None and at > until:
+            break
+        _let_happen(world, at, pace)
+        if world.over:
+            break
+        if pace is not None:
+            pace.wait(at)
+        world.clock.advance(at - world.clock.now)
+        world.deliver(each.event, each.data, each.to)
+        last = at
+    return _finish(world, until if until is not None else last + DEFAULT_UNTIL, pace)
+
+
+def run_live(
+    world: World, arrivals: SimpleQueue[Input | None], until: int | None, pace: Pace
+) -> Ending:
+    """The same in real time, with events that come at any time; None is the last one.
+
+    Raises LoopError where a machine does not come to rest.
+    """
+    world.begin()
+    while until is None or pace.now < until:
+        while not arrivals.empty():
+            each = arrivals.get()
+            if each is None:
+                return _finish(world, until or pace.now + DEFAULT_UNTIL, pace)
+            world.clock.schedule(pace.now + each.after - world.clock.now, _arrival(world, each))
+        _let_happen(world, pace.now, None)
+        if world.over:
+            return "ended"
+        world.clock.advance(max(pace.now - world.clock.now, 0))
+        time.sleep(_BLINK)
+    return _finish(world, until, pace)
+
+
+def _arrival(world: World, each: Input) -> Callable[[], None]:
+    return lambda: world.deliver(each.event, each.data, each.to)
+
+
+def _let_happen(world: World, until: int, pace: Pace | None) -> None:
+    """Do all that is to be done until then."""
+    while not world.over and (due := world.clock.next) is not None and due <= until:
+        if pace is not None:
+            pace.wait(due)
+        world.step()
+
+
+def _finish(world: World, until: int, pace: Pace | None) -> Ending:
+    _let_happen(world, until, pace)
+    if world.over:
+        return "ended"
+    if world.clock.next is None:
+        return "quiet"
+    if pace is not None:
+        pace.wait(until)
+    world.clock.advance(until - world.clock.now)
+    return "stopped"

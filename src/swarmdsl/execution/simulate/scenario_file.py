@@ -1,0 +1,239 @@
+"""Scenarios from TOML: everything that is named in one exists, and has values that fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.driver.config.toml import Document
+from swarmdsl.execution.simulate.actors import params, words
+from swarmdsl.execution.simulate.durations import MILLISECOND
+from swarmdsl.execution.simulate.scenario import EVERY_FUNCTION, Fault, Message, Robot, Scenario
+from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.simulate.values import Way, fitted, fitted_result
+from swarmdsl.ir import Communication, Type
+
+TABLES = ("seed", "until", "count", "params", "network", "functions", "messages", "faults")
+_SHARES = ("aborted", "preempted", "never")
+_FUNCTION = ("duration", "stopping", *_SHARES, "results", "of")
+
+
+def read_scenario(document: Document, subject: Subject, report: Diagnostics) -> Scenario:
+    """The scenario in a document; incomplete where errors were reported."""
+    return _Reader(document, subject, report).read()
+
+
+class _Reader:
+    def __init__(self, document: Document, subject: Subject, report: Diagnostics) -> None:
+        self.top = Table(document, (), report)
+        self.subject = subject
+        self.report = report
+        self.robots: list[Robot] = []
+        self.members: list[str] = []
+        """All words that members are meant by."""
+
+    def read(self) -> Scenario:
+        top = self.top
+        top.check_keys(TABLES, "a scenario")
+        counts = self.counts()
+        self.robots = self.subject.crew(counts)
+        self.members = list(dict.fromkeys(w for robot in self.robots for w in robot.words))
+        network = top.inside("network")
+        network.check_keys(("latency", "loss"), "`[network]`")
+        found: dict[str, Any] = {
+            "seed": top.whole("seed") if "seed" in top else None,
+            "until": top.duration("until") if "until" in top else None,
+            "latency": network.length("latency") if "latency" in network else None,
+            "loss": network.share("loss") if "loss" in network else None,
+        }
+        return Scenario(
+            counts=counts,
+            params=self.params(),
+            functions=self.functions(),
+            messages=tuple(m for m in map(self.message, top.items("messages")) if m is not None),
+            faults=tuple(f for f in map(self.fault, top.items("faults")) if f is not None),
+            **{name: value for name, value in found.items() if value is not None},
+        )
+
+    def counts(self) -> dict[str, int]:
+        """How many there are of each role, as its multiplicity allows."""
+        table = self.top.inside("count")
+        roles = {r.name: r for r in self.subject.swarm.roles} if self.subject.swarm else {}
+        found: dict[str, int] = {}
+        for name in table.values:
+            if name not in roles:
+                table.unknown(table.key_place(name), name, roles, "role")
+                continue
+            allowed = roles[name].multiplicity
+            count = table.whole(name, allowed.lower, allowed.upper)
+            if count is not None:
+                found[name] = count
+        return found
+
+    def params(self) -> dict[str, dict[str, Any]]:
+        """The values of params, by whom they are given to."""
+        top = self.top.inside("params")
+        known: dict[str, dict[str, Type]] = {}
+        for robot in self.robots:
+            for part, machine in self.subject.behaviours(robot):
+                types = {
+                    p.name: p.type for p in params(self.subject, robot, part, machine).values()
+                }
+                for word in words(robot, part):
+                    known.setdefault(word, {}).update(types)
+        if self.subject.swarm is None:
+            return {"": self.param_values(top, known.get("", {}))}
+        found: dict[str, dict[str, Any]] = {}
+        for word in top.values:
+            if word in known:
+                found[word] = self.param_values(top.inside(word), known[word])
+            else:
+                top.unknown(top.key_place(word), word, known, "member")
+        return found
+
+    def param_values(self, table: Table, types: Mapping[str, Type]) -> dict[str, Any]:
+        """The values of the params of one machine."""
+        found: dict[str, Any] = {}
+        for name in table.values:
+            if name not in types:
+                table.unknown(table.key_place(name), name, types, "param")
+                continue
+            value = self.fitted(table, types[name], name)
+            if value is not None:
+                found[name] = value
+        return found
+
+    def functions(self) -> dict[tuple[str, str], dict[str, Any]]:
+        """What is said of each function, in general and of members."""
+        top = self.top.inside("functions")
+        known = self.known_functions()
+        found: dict[tuple[str, str], dict[str, Any]] = {}
+        for name in top.values:
+            if name not in known:
+                top.unknown(top.key_place(name), name, known, "function")
+                continue
+            table = top.inside(name)
+            found[name, ""] = self.conduct(table, known[name], _FUNCTION)
+            others = table.inside("of")
+            for member in others.values:
+                if member not in self.members:
+                    others.unknown(others.key_place(member), member, self.members, "member")
+                    continue
+                inner = others.inside(member)
+                found[name, member] = self.conduct(inner, known[name], _FUNCTION[:-1])
+                self.check_shares(inner, {**found[name, ""], **found[name, member]})
+            self.check_shares(table, found[name, ""])
+        return found
+
+    def conduct(
+        self, table: Table, call: Communication | None, keys: tuple[str, ...]
+    ) -> dict[str, Any]:
+        """What is said of a function, as far as it can be understood."""
+        table.check_keys(keys, "a function")
+        found: dict[str, Any] = {}
+        for key in table.values:
+            if key in ("duration", "stopping"):
+                found[key] = table.length(key)
+            elif key in _SHARES:
+                found[key] = table.share(key)
+            elif key == "results":
+                found[key] = self.results(table, call)
+        return {key: value for key, value in found.items() if value is not None}
+
+    def results(self, table: Table, call: Communication | None) -> tuple[Any, ...]:
+        """The results that a function may have."""
+        system = self.subject.system
+
+        def fit(value: Any, way: Way) -> Any:
+            if call is None or system is None:
+                return value
+            return fitted_result(call, value, system, "the result", way)
+
+        numbers = [item.keys[-1] for item in table.items("results")]
+        found = [table.fitted(fit, "results", number) for number in numbers]
+        return tuple(each for each in found if each is not None)
+
+    def check_shares(self, table: Table, said: Mapping[str, Any]) -> None:
+        """The probabilities of all that is no success are no more than one together."""
+        given = [share for share in _SHARES if share in table]
+        together = sum(said.get(share, 0.0) for share in _SHARES)
+        if given and together > 1 + 1e-9:
+            expected = "what the other outcomes leave of 1"
+            table.wrong((given[-1],), expected, table.values[given[-1]])
+
+    def known_functions(self) -> dict[str, Communication | None]:
+        """The functions there are, with how they are called where that is known."""
+        found: dict[str, Communication | None] = {EVERY_FUNCTION: None}
+        document = self.subject.document
+        if document is not None:
+            activities = (state.activity for state in document.machine.states)
+            found.update({each.name: None for each in activities if each is not None})
+        system = self.subject.system
+        if system is not None:
+            found.update({each.name: each.communication for each in system.functions})
+        return found
+
+    def message(self, table: Table) -> Message | None:
+        """An event from outside."""
+        table.check_keys(("event", "at", "every", "to", "data"), "a message")
+        if not self.needs(table, "event", "at"):
+            return None
+        system = self.subject.system
+        event = table.values["event"]
+        data = table.values.get("data")
+        if system is not None:
+            types = {each.name: each.type for each in system.events}
+            event = table.name("event", types, "event")
+            if event is None:
+                return None
+            data = fitted(types[event], {}, system)
+            if "data" in table:
+                data = self.fitted(table, types[event], "data")
+        elif not isinstance(event, str):
+            table.wrong(("event",), "the name of an event", event)
+            return None
+        at = table.length("at")
+        every = table.duration("every") if "every" in table else None
+        if every is not None and every < MILLISECOND:
+            table.wrong(("every",), "a time of 1 ms or more", table.values["every"])
+        to = table.names("to", self.members, "member") if "to" in table else None
+        return Message(event, at, every, to, data) if at is not None else None
+
+    def fault(self, table: Table) -> Fault | None:
+        """Something that breaks."""
+        table.check_keys(("at", "lost", "silent", "of", "lasts"), "a fault")
+        if not self.needs(table, "at"):
+            return None
+        at = table.length("at")
+        if "lost" in table:
+            for key in ("silent", "of", "lasts"):
+                if key in table:
+                    table.wrong((key,), "nothing where a member is lost", table.values[key])
+            of = table.names("lost", self.members, "member")
+            return Fault(at, of) if at is not None else None
+        if "silent" not in table:
+            help_ = "`lost` names a member that is lost, `silent` a function that does not answer"
+            self.report.report("missing-key", table.value_place(()), name="lost", help=help_)
+            return None
+        function = table.name("silent", self.known_functions(), "function")
+        to = table.names("of", self.members, "member") if "of" in table else None
+        lasts = table.duration("lasts") if "lasts" in table else None
+        return Fault(at, to, function, lasts) if at is not None and function else None
+
+    def needs(self, table: Table, *keys: str) -> bool:
+        """Whether a table has these keys; if not, that is reported."""
+        for key in keys:
+            if key not in table:
+                self.report.report("missing-key", table.value_place(()), name=key)
+        return all(key in table for key in keys)
+
+    def fitted(self, table: Table, type_: Type, key: str) -> Any:
+        system = self.subject.system
+        assert system is not None
+
+        def fit(value: Any, way: Way) -> Any:
+            return fitted(type_, value, system, way)
+
+        return table.fitted(fit, key)

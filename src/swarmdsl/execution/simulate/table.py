@@ -1,0 +1,301 @@
+"""State machines of a model as tables of the engine.
+
+The events that triggers mean are those of portable SCXML; ids of states are as in the model.
+Where a state, transition or activity comes from is its `origin`: that of the IR.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from copy import deepcopy
+from typing import Any
+
+from swarmdsl import ir
+from swarmdsl.codegen.default_values import default_value, field_type, sent_types
+from swarmdsl.codegen.shared.events import Events, delays
+from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.execution.engine import (
+    Activity,
+    Effect,
+    Event,
+    ExecutionError,
+    Guard,
+    Instance,
+    Kind,
+    Machine,
+    State,
+    Transition,
+    bounded,
+)
+from swarmdsl.execution.simulate.expressions import Value, function_of
+from swarmdsl.ir import (
+    Assignment,
+    Expression,
+    Primitive,
+    Send,
+    StateKind,
+    System,
+    Type,
+)
+from swarmdsl.ir.integer_ranges import bound_of, bound_of_any
+from swarmdsl.syntax.types import DURATION
+
+_KINDS = {StateKind.PARALLEL: Kind.PARALLEL, StateKind.FINAL: Kind.FINAL}
+OUTCOMES = ("succeeded", "aborted", "preempted")
+
+
+def table(machine: ir.StateMachine, system: System) -> Machine:
+    """The machine as the engine runs it; the data of an instance are a dictionary by name.
+
+    An instance that has values of its own for params gets them from `first_data`.
+    """
+    maker = _Maker(machine, system)
+    return Machine(
+        machine.name,
+        [maker.state(state) for state in machine.states],
+        (machine.initial,),
+        data=lambda: first_data(machine, system, {}),
+    )
+
+
+def first_data(
+    machine: ir.StateMachine, system: System, params: Mapping[str, Any]
+) -> dict[str, Any]:
+    """What variables and params hold at first, given the values of some params.
+
+    Raises ValueError where a param has no value.
+    """
+    data: dict[str, Any] = {}
+    for param in machine.params:
+        if param.name in params:
+            data[param.name] = deepcopy(params[param.name])
+        elif (default := first_value(param)) is not None:
+            data[param.name] = stored(default, param.type)(data, None)
+        else:
+            raise ValueError(f"param `{param.name}` of `{machine.name}` has no value")
+    for variable in machine.variables:
+        if variable.initial is not None:
+            data[variable.name] = stored(variable.initial, variable.type)(data, None)
+        else:
+            data[variable.name] = default_value(variable.type, system)
+    return data
+
+
+def first_value(param: ir.Param) -> Expression | None:
+    """The default of a param; that of the machine where those who behave so do not agree."""
+    return param.default if param.default is not None else param.declared
+
+
+class _Maker:
+    """Makes the states of one machine."""
+
+    def __init__(self, machine: ir.StateMachine, system: System) -> None:
+        self.system = system
+        self.types = {variable.name: variable.type for variable in machine.variables}
+        self.events = Events(machine, {state.id: state.id for state in machine.walk()})
+
+    def state(self, state: ir.State, around: ir.State | None = None) -> State:
+        """A state and what is in it."""
+        if state.kind is StateKind.HISTORY:
+            default = Transition(targets=_targets(state.transitions[0]))
+            kind = Kind.DEEP_HISTORY if state.deep else Kind.HISTORY
+            return State(state.id, kind, transitions=(default,), origin=state)
+        entry: list[Effect] = []
+        leave: list[Effect] = []
+        final = state.kind is StateKind.FINAL
+        if final and around is not None and around.id in self.events.told_apart:
+            entry.append(_raise(self.events.final(state.id)))
+        if state.entry:
+            entry.append(self.effects(state.entry))
+        if delays(state):
+            names = {self.events.timer(state, delay): delay for delay in delays(state)}
+            entry.append(_start_timers(names))
+            leave.append(_cancel_timers(tuple(names)))
+        if state.exit:
+            leave.append(self.effects(state.exit))
+        transitions = [self.transition(each, state) for each in state.transitions]
+        if around is not None and around.kind is StateKind.PARALLEL:
+            transitions += self.inward(state, around)
+        return State(
+            state.id,
+            _KINDS.get(state.kind, Kind.STATE),
+            tuple(self.state(child, state) for child in state.states),
+            (state.initial,) if state.initial is not None else (),
+            tuple(transitions),
+            tuple(entry),
+            tuple(leave),
+            self.activity(state, state.activity) if state.activity is not None else None,
+            origin=state,
+        )
+
+    def transition(self, transition: ir.Transition, state: ir.State) -> Transition:
+        """A transition of a state."""
+        events = (e for t in transition.triggers for e in self.events.of_trigger(t, state))
+        there = region_entered(transition, state) is not None
+        return Transition(
+            tuple(dict.fromkeys(events)),
+            () if there else _targets(transition),
+            _guard(transition.guard),
+            self.effects(transition.effects) if transition.effects and not there else None,
+            transition.internal and not there,
+            origin=transition,
+        )
+
+    def inward(self, region: ir.State, around: ir.State) -> Iterable[Transition]:
+        """The transitions of a parallel state that its region takes."""
+        for event, guard, transition, number in inward(region, around, self.events):
+            yield Transition(
+                (event,) if event else (),
+                _targets(transition),
+                _guard(guard),
+                self.effects(transition.effects) if transition.effects else None,
+                internal=True,
+                origin=transition,
+                around=number,
+            )
+
+    def activity(self, state: ir.State, activity: ir.Activity) -> Activity:
+        """What a state does; what callbacks fill in is left out."""
+        call = self.system.function(activity.function).communication
+        sent = sent_types(self.system.interface(call.type))
+        goal = [(name, stored(value, sent.get(name))) for name, value in activity.arguments]
+
+        def make_goal(instance: Instance) -> dict[str, Any]:
+            return {name: value(instance.data, None) for name, value in goal}
+
+        return Activity(
+            activity.function,
+            call.name,
+            {outcome: self.events.outcome(state, outcome) for outcome in OUTCOMES},
+            make_goal,
+            self.results(activity.results) if activity.results else None,
+            "succeeded" if activity.judges_response else "aborted",
+        )
+
+    def results(self, results: Iterable[ir.ResultMapping]) -> Effect:
+        """What stores the results of an activity."""
+        return _store_results(
+            [
+                (
+                    each,
+                    bound_of_any(field_type(self.types.get(each.variable), each.path, self.system)),
+                )
+                for each in results
+            ]
+        )
+
+    def effects(self, effects: Iterable[ir.Effect]) -> Effect:
+        """Effects, done one after the other until one has no value."""
+        made = [self.effect(each) for each in effects]
+        if len(made) == 1:
+            return made[0]
+
+        def all_of_them(instance: Instance, event: Event) -> None:
+            for each in made:
+                each(instance, event)
+
+        return all_of_them
+
+    def effect(self, effect: ir.Effect) -> Effect:
+        """One effect."""
+        match effect:
+            case Assignment(variable=variable, path=path, value=expression):
+                held = field_type(self.types.get(variable), path, self.system)
+                value = stored(expression, held)
+
+                def assign(instance: Instance, event: Event) -> None:
+                    _store(instance.data, variable, path, value(instance.data, event.data))
+
+                return assign
+            case Send(event=name, arguments=arguments):
+                type_ = self.system.event(name).type
+                fields = [
+                    (field, stored(value, field_type(type_, (field,), self.system)))
+                    for field, value in arguments
+                ]
+
+                def send(instance: Instance, event: Event) -> None:
+                    message = default_value(type_, self.system)
+                    for field, value in fields:
+                        message[field] = value(instance.data, event.data)
+                    instance.emit(Event(name, message))
+
+                return send
+
+
+def _targets(transition: ir.Transition) -> tuple[str, ...]:
+    return (transition.target,) if transition.target is not None else ()
+
+
+def _guard(expression: Expression | None) -> Guard | None:
+    if expression is None:
+        return None
+    value = function_of(expression)
+    return lambda instance, event: value(instance.data, event.data)
+
+
+def stored(expression: Expression, wanted: Type | None) -> Value:
+    """A value that is kept or sent, in what is of the type `wanted` if that is known.
+
+    It is a copy, as ROS has it, durations are in whole nanoseconds, and whole numbers fit.
+    """
+    value = function_of(expression)
+    bound = bound_of(expression, wanted)
+    if bound is not None:
+        return lambda data, message: bounded(value(data, message), bound)
+    if expression.type == DURATION:
+        return lambda data, message: round(value(data, message))
+    if isinstance(expression.type, Primitive):
+        return value
+    return lambda data, message: deepcopy(value(data, message))
+
+
+def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: Any) -> None:
+    if not path:
+        data[variable] = value
+        return
+    held = data[variable]
+    for field in path[:-1]:
+        held = held.setdefault(field, {}) if isinstance(held, dict) else None
+    if not isinstance(held, dict):
+        raise ExecutionError(f"`{variable}` has no `{'.'.join(path)}` that could be stored")
+    held[path[-1]] = value
+
+
+def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Effect:
+    def store(instance: Instance, event: Event) -> None:
+        for result, bound in results:
+            try:
+                value = event.data[result.field]
+            except (KeyError, TypeError):
+                raise ExecutionError(
+                    f"there is no field `{result.field}` in {event.data!r}"
+                ) from None
+            if bound is not None:
+                bounded(value, bound)
+            _store(instance.data, result.variable, result.path, deepcopy(value))
+
+    return store
+
+
+def _raise(name: str) -> Effect:
+    return lambda instance, event: instance.raise_event(Event(name))
+
+
+def _start_timers(timers: Mapping[str, Expression]) -> Effect:
+    lengths = [(name, function_of(delay)) for name, delay in timers.items()]
+
+    def start(instance: Instance, event: Event) -> None:
+        for name, length in lengths:
+            instance.send_after(Event(name), math.ceil(length(instance.data, None)), name)
+
+    return start
+
+
+def _cancel_timers(names: Iterable[str]) -> Effect:
+    def cancel(instance: Instance, event: Event) -> None:
+        for name in names:
+            instance.cancel(name)
+
+    return cancel

@@ -1,0 +1,300 @@
+"""A picture of a run: a lane for each machine, a bar for each state, arrows for swarm events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import groupby
+from typing import NamedTuple
+
+from swarmdsl.execution.engine import Machine
+from swarmdsl.execution.simulate.actors import Actor
+from swarmdsl.execution.simulate.durations import SECOND, shown
+from swarmdsl.execution.simulate.scenario import Robot
+from swarmdsl.execution.simulate.svg import Drawing
+from swarmdsl.execution.simulate.trace import Line
+from swarmdsl.execution.simulate.world import LOST, Crossing
+
+_WIDTH = 1200
+"""Of the time axis."""
+_ROW = 18
+_GAP = 6
+_TOP = 78
+_LETTER = 6.2
+"""How wide a letter is, on average."""
+_NARROWEST = 0.6
+"""Bars that are narrower are drawn together: nobody could see them."""
+_MOST_ARROWS = 2000
+# The scheme "light" for areas under dark letters, which people who see few colours tell apart:
+# Paul Tol, Colour Schemes, SRON/EPS/TN/09-002, issue 3.2. In an order in which neighbours differ.
+_COLOURS = ("77aadd", "ee8866", "eedd88", "44bb99", "ffaabb", "99ddff", "bbcc33", "aaaa00")
+# Towards which part of white, and how far.
+_TONES = ((255, 0.0), (255, 0.55), (0, 0.12))
+_STEPS = tuple(
+    SECOND * each
+    for each in (
+        0.1,
+        0.2,
+        0.5,
+        1,
+        2,
+        5,
+        10,
+        15,
+        30,
+        60,
+        120,
+        300,
+        600,
+        900,
+        1800,
+        3600,
+        7200,
+        21600,
+    )
+)
+_TICKS = 12
+
+
+class Timeline:
+    """Keeps what is drawn in the end."""
+
+    def __init__(self, title: str, cast: Iterable[Actor]) -> None:
+        self._title = title
+        self._lines: dict[Actor, list[Line]] = {actor: [] for actor in cast}
+        self._crossings: list[Crossing] = []
+
+    def note(self, line: Line) -> None:
+        """Keep a line that changes something."""
+        lines = self._lines[line.actor]
+        if not lines or line.event == LOST or line.configuration != lines[-1].configuration:
+            lines.append(line)
+
+    def crossed(self, crossing: Crossing) -> None:
+        """Keep a swarm event on its way."""
+        self._crossings.append(crossing)
+
+    def svg(self, end: int) -> str:
+        """The picture of a run that took so long."""
+        return _Picture(self._title, self._lines, self._crossings, max(end, 1)).draw()
+
+
+class _Stay(NamedTuple):
+    """A time in a state."""
+
+    state: str
+    start: int
+    end: int
+
+
+class _Picture:
+    def __init__(
+        self, title: str, lines: dict[Actor, list[Line]], crossings: list[Crossing], end: int
+    ) -> None:
+        self.title = title
+        self.lines = lines
+        self.crossings = crossings
+        self.end = end
+        names = [_name(actor) for actor in lines]
+        self.left = 32 + 1.15 * _LETTER * max(map(len, names), default=0)
+        self.rows = {
+            actor: max((len(line.configuration) for line in of), default=1) or 1
+            for actor, of in lines.items()
+        }
+        self.tops: dict[Actor, float] = {}
+        top = float(_TOP)
+        for robot, actors in groupby(lines, key=lambda actor: actor.robot):
+            for actor in actors:
+                self.tops[actor] = top
+                top += self.rows[actor] * _ROW + (2 if actor.robot is robot else _GAP)
+            top += _GAP
+        self.bottom = top
+        self.robots: dict[Robot, Actor] = {}
+        for actor in lines:
+            self.robots.setdefault(actor.robot, actor)
+        self.colours: dict[tuple[Machine, str], str] = {}
+        for actor in lines:
+            for state in actor.machine.states[1:]:
+                if not state.states:
+                    key = (actor.machine, state.id)
+                    self.colours.setdefault(key, nth_colour(len(self.colours)))
+
+    def draw(self) -> str:
+        drawing = Drawing(self.left + _WIDTH + 24, self.bottom + 40 + self.legend_height())
+        drawing.text(16, 26, self.title, "title")
+        words = [shown(self.end)]
+        if len(self.robots) > 1:
+            words.append(f"{len(self.robots)} members")
+        if self.crossings:
+            words.append("arrows are swarm events, crosses those that were lost on the way")
+        if len(self.crossings) > _MOST_ARROWS:
+            words.append(f"the first {_MOST_ARROWS} of {len(self.crossings)} are drawn")
+        drawing.text(16, 44, ", ".join(words), "note")
+        self.axis(drawing)
+        for actor in self.lines:
+            self.lane(drawing, actor)
+        self.arrows(drawing)
+        self.legend(drawing)
+        return drawing.finish()
+
+    def x(self, time: float) -> float:
+        return self.left + _WIDTH * time / self.end
+
+    def axis(self, drawing: Drawing) -> None:
+        """Lines at round times, with the time above and below."""
+        step = next((s for s in _STEPS if self.end / s <= _TICKS), self.end / _TICKS)
+        number = 0
+        while number * step <= self.end:
+            x = self.x(number * step)
+            drawing.line(x, _TOP - 8, x, self.bottom, "tick")
+            label = _clock(number * step, step)
+            drawing.text(x, _TOP - 13, label, "time")
+            drawing.text(x, self.bottom + 13, label, "time")
+            number += 1
+
+    def lane(self, drawing: Drawing, actor: Actor) -> None:
+        """The name of a machine, and where it was."""
+        top, height = self.tops[actor], self.rows[actor] * _ROW
+        drawing.text(self.left - 8, top + height / 2 + 4, _name(actor), "member")
+        drawing.rect(self.left, top, _WIDTH, height, "lane")
+        for (number, count), stays in self.stays(actor).items():
+            slot = height / count
+            narrow: list[_Stay] = []
+            for stay in stays:
+                if self.x(stay.end) - self.x(stay.start) < _NARROWEST:
+                    narrow.append(stay)
+                    if self.x(stay.end) - self.x(narrow[0].start) < _NARROWEST:
+                        continue
+                if narrow:
+                    self.blur(drawing, narrow, top + number * slot, slot)
+                if not narrow or narrow[-1] is not stay:
+                    self.bar(drawing, actor, stay, top + number * slot, slot)
+                narrow = []
+            if narrow:
+                self.blur(drawing, narrow, top + number * slot, slot)
+
+    def stays(self, actor: Actor) -> dict[tuple[int, int], list[_Stay]]:
+        """Where a machine was, by place in the lane: of states active together each has its own.
+
+        The places are the number of the state among them, and how many there are.
+        """
+        found: dict[tuple[int, int], list[_Stay]] = {}
+        lines = self.lines[actor]
+        for number, line in enumerate(lines):
+            end = lines[number + 1].time if number + 1 < len(lines) else self.end
+            states = [LOST] if line.event == LOST else line.configuration
+            for place, state in enumerate(states):
+                stays = found.setdefault((place, len(states)), [])
+                if stays and (stays[-1].end, stays[-1].state) == (line.time, state):
+                    stays[-1] = _Stay(state, stays[-1].start, end)
+                else:
+                    stays.append(_Stay(state, line.time, end))
+        return found
+
+    def bar(self, drawing: Drawing, actor: Actor, stay: _Stay, top: float, height: float) -> None:
+        """One stay in one state."""
+        x, width = self.x(stay.start), self.x(stay.end) - self.x(stay.start)
+        lost = stay.state == LOST
+        colour = "url(#lost)" if lost else self.colours[actor.machine, stay.state]
+        state = "lost" if lost else stay.state
+        title = f"{_name(actor)}: {state}\n{_between(stay.start, stay.end)}"
+        drawing.bar(x, top, width, height, colour, title)
+        label = _shortened(state, width - 6)
+        if label:
+            drawing.text(x + 4, top + height / 2 + 4, label, "state")
+
+    def blur(self, drawing: Drawing, stays: list[_Stay], top: float, height: float) -> None:
+        """Several stays that are too short to be seen."""
+        start, end = stays[0].start, stays[-1].end
+        title = f"{len(stays)} short stays\n{_between(start, end)}"
+        width = max(self.x(end) - self.x(start), _NARROWEST)
+        drawing.bar(self.x(start), top, width, height, "#8a8f98", title)
+
+    def arrows(self, drawing: Drawing) -> None:
+        """Swarm events from robot to robot."""
+        for each in self.crossings[:_MOST_ARROWS]:
+            if each.source not in self.robots or each.target not in self.robots:
+                continue
+            source, target = self.robots[each.source], self.robots[each.target]
+            down = self.tops[target] > self.tops[source]
+            start = self.tops[source] + (self.rows[source] * _ROW if down else 0)
+            end = self.tops[target] + (0 if down else self.rows[target] * _ROW)
+            words = f"{each.event}: {each.source.name} -> {each.target.name}, {shown(each.sent)}"
+            x, to = self.x(each.sent), self.x(min(each.due, self.end))
+            if each.arrives:
+                drawing.arrow(x, start, to, end, words)
+            else:
+                drawing.lost(x, start, to, end, f"{words}, lost")
+
+    def legend(self, drawing: Drawing) -> None:
+        """What the colours mean, a line a machine or more."""
+        for x, y, machine, state in self.legend_items():
+            if state is None:
+                drawing.text(16, y + 10, machine.name, "machine")
+                continue
+            drawing.bar(x, y, 11, 11, self.colours[machine, state], state)
+            drawing.text(x + 16, y + 10, state, "legend")
+
+    def legend_items(self) -> list[tuple[float, float, Machine, str | None]]:
+        """Where everything in the legend stands: machines, and the states that were entered."""
+        seen = {
+            (actor.machine, state)
+            for actor, lines in self.lines.items()
+            for line in lines
+            for state in line.configuration
+        }
+        machines = dict.fromkeys(actor.machine for actor in self.lines)
+        indent = 32 + 1.15 * _LETTER * max((len(machine.name) for machine in machines), default=0)
+        found: list[tuple[float, float, Machine, str | None]] = []
+        y = self.bottom + 32
+        for machine in machines:
+            found.append((16, y, machine, None))
+            x = indent
+            for of, state in self.colours:
+                if of is not machine or (of, state) not in seen:
+                    continue
+                width = 34 + _LETTER * len(state)
+                if x + width > self.left + _WIDTH and x > indent:
+                    x, y = indent, y + _ROW
+                found.append((x, y, machine, state))
+                x += width
+            y += _ROW + 4
+        return found
+
+    def legend_height(self) -> float:
+        items = self.legend_items()
+        return items[-1][1] - self.bottom if items else 0.0
+
+
+def _name(actor: Actor) -> str:
+    return actor.name or actor.machine.name
+
+
+def nth_colour(number: int) -> str:
+    """One of the colours, then one of lighter ones, then of darker ones, and again."""
+    parts = (int(_COLOURS[number % len(_COLOURS)][at : at + 2], 16) for at in (0, 2, 4))
+    towards, share = _TONES[number // len(_COLOURS) % len(_TONES)]
+    return "#" + "".join(f"{round(part + (towards - part) * share):02x}" for part in parts)
+
+
+def _shortened(state: str, width: float) -> str:
+    """As much of a name as there is room for: all of it, its end, the first letters of that."""
+    room = int(width / _LETTER)
+    last = state.rpartition(".")[2]
+    if len(last) <= room:
+        return last
+    return f"{last[: room - 1]}\N{HORIZONTAL ELLIPSIS}" if room >= 4 else ""
+
+
+def _clock(time: float, step: float) -> str:
+    """A time on the axis."""
+    if step < SECOND:
+        return f"{time / SECOND:.1f} s"
+    seconds = round(time / SECOND)
+    if step < 60 * SECOND and seconds < 60:
+        return f"{seconds} s"
+    hours, minutes, seconds = seconds // 3600, seconds // 60 % 60, seconds % 60
+    return f"{hours}:{minutes:02}:{seconds:02}" if hours else f"{minutes}:{seconds:02}"
+
+
+def _between(start: int, end: int) -> str:
+    return f"{shown(start)} to {shown(end)}: {shown(end - start)}"

@@ -1,0 +1,42 @@
+"""Where test files lie."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.find_files import files_below
+
+SUFFIX = ".swarmtest.toml"
+
+
+def test_files(paths: Iterable[Path], report: Diagnostics) -> list[Path]:
+    """The test files named and those in folders named; where there is none, that is reported."""
+    found: dict[str, Path] = {}
+    for path in paths:
+        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+            if path.name.endswith(".toml") or not os.path.lexists(path):
+                found.setdefault(os.path.realpath(path), path)
+            else:
+                report.report(
+                    "not-a-file",
+                    path=path,
+                    actual=f"a {path.suffix or 'nameless'} file",
+                    expected=f"a test file, *{SUFFIX}",
+                    help="name its folder: the tests lie beside the model",
+                )
+            continue
+        inside = files_below(path, SUFFIX)
+        if not inside:
+            help_ = f"tests are in files called `NAME{SUFFIX}`"
+            report.report("no-tests", path=path, help=help_)
+        for each in inside:
+            found.setdefault(os.path.realpath(each), each)
+    return list(found.values())
+
+
+def selected(name: str, pattern: str | None) -> bool:
+    """Whether a test, with its file, has the pattern in its name."""
+    return pattern is None or pattern.lower() in name.lower()

@@ -1,0 +1,58 @@
+"""The data that a claim wants, from TOML to values of the types in the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.values import Way, fitted
+from swarmdsl.execution.testing.data import only
+from swarmdsl.execution.testing.names import Names
+from swarmdsl.ir import System, Type
+
+
+def event_data(table: Table, names: Names, event: str) -> Mapping[str, Any] | None:
+    """The fields that an event that is sent has, as far as they are named."""
+    given, system = table.values["data"], names.subject.system
+    if not isinstance(given, dict) or not given:
+        table.wrong(("data",), "a table of fields", given)
+        return None
+    if system is None:
+        return given
+    type_ = system.event(event).type
+    found = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
+    return only(found, given) if found is not None else None
+
+
+def variables(
+    table: Table, names: Names, who: list[int], word: str
+) -> dict[int, Mapping[str, Any]]:
+    """What the variables of each machine hold that is meant."""
+    given, system = table.values["has"], names.subject.system
+    if not isinstance(given, dict) or not given:
+        table.wrong(("has",), "a table of variables", given)
+        return {}
+    places = table.document.places
+    named = [(name, places[(*table.keys, "has", name)].key) for name in given]
+    found: dict[int, Mapping[str, Any]] = {}
+    read: dict[str, Mapping[str, Any]] = {}
+    for number in names.holders(who, word, named):
+        machine = names.cast[number].machine
+        if machine.name not in read:
+            types = names.variables(machine)
+            values = dict(given)
+            for name, type_ in types.items() if types is not None else ():
+                if name in given and system is not None:
+                    held = table.fitted(partial(_fit, type_, system), "has", name)
+                    if held is None:
+                        return {}
+                    values[name] = only(held, given[name])
+            read[machine.name] = values
+        found[number] = read[machine.name]
+    return found
+
+
+def _fit(type_: Type, system: System, value: Any, way: Way) -> Any:
+    return fitted(type_, value, system, way)

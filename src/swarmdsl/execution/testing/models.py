@@ -1,0 +1,117 @@
+"""The models that tests are about, each compiled once."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Span
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_file, find_settings
+from swarmdsl.execution.scxml import read as read_scxml
+from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.subject import Document, Subject
+from swarmdsl.ir import System
+from swarmdsl.project.read_source import read_source
+
+_SCXML = ".scxml"
+
+
+@dataclass
+class Model:
+    """A system, or SCXML documents; its subjects are kept, with the tables in them."""
+
+    system: System | None
+    documents: dict[str, Document]
+    subjects: dict[tuple[str, str], Subject] = field(default_factory=dict)
+
+    def subject(self, table: Table, key: str | None, report: Diagnostics) -> Subject | None:
+        """The swarm or the machine that `key` of a table names, else the only one there is."""
+        swarms = {each.name: each for each in self.system.swarms} if self.system else {}
+        machines = {each.name: each for each in self.system.machines} if self.system else {}
+        names = {"swarm": list(swarms), "machine": [*machines, *self.documents]}
+        if key is None:
+            key = "swarm" if len(swarms) == 1 else "machine"
+            if len(names[key]) != 1 or (key == "machine" and swarms):
+                choices = [f'{kind} = "{name}"' for kind in names for name in names[kind]]
+                help_ = f"write {listed(choices)}" if choices else "declare a `statemachine`"
+                code = "unclear-subject" if choices else "nothing-to-simulate"
+                report.report(code, _start(table), help=help_)
+                return None
+            (name,) = names[key]
+        else:
+            what = "swarm" if key == "swarm" else "state machine"
+            found = table.name(key, names[key], what)
+            if found is None:
+                return None
+            name = found
+        if (key, name) not in self.subjects:
+            if name in self.documents:
+                subject = Subject(name, document=self.documents[name])
+            elif key == "swarm":
+                subject = Subject(name, self.system, swarm=swarms[name])
+            else:
+                subject = Subject(name, self.system, machine=machines[name])
+            self.subjects[key, name] = subject
+        return self.subjects[key, name]
+
+
+class Models:
+    """Compiles models, and remembers them."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Path, ...], Model | None] = {}
+
+    def of(
+        self, named: list[tuple[Path, Span]], test_file: Path, report: Diagnostics
+    ) -> Model | None:
+        """The model in files and folders, else that of the project or folder of a test file.
+
+        None where it has errors, which are reported.
+        """
+        places = dict(named)
+        if named:
+            paths = tuple(places)
+        elif find_file(test_file) is not None:
+            paths = find_settings([test_file], report).sources
+        else:
+            paths = (test_file.parent,)
+        missing = [path for path in paths if not os.path.lexists(path)]
+        for path in missing:
+            report.report("file-not-found", places.get(path), path=path)
+        if missing:
+            return None
+        if paths not in self._known:
+            self._known[paths] = _compiled(paths, test_file, report)
+        return self._known[paths]
+
+
+def _compiled(paths: Iterable[Path], test_file: Path, report: Diagnostics) -> Model | None:
+    documents: dict[str, Document] = {}
+    models = []
+    for path in paths:
+        if path.suffix != _SCXML:
+            models.append(path)
+            continue
+        source = read_source(path, None, report)
+        machine = read_scxml(source, report) if source is not None else None
+        if source is None or machine is None:
+            return None
+        document = Document(source, machine)
+        documents[document.name] = document
+    system = None
+    if models:
+        checked = pipeline.check(models, find_settings([test_file], report))
+        report.include(checked.report)
+        system = checked.system
+        if system is None:
+            return None
+    return Model(system, documents)
+
+
+def _start(table: Table) -> Span:
+    """Where a test says what it is about, or could."""
+    return table.key_place("name") if "name" in table else table.value_place(())

@@ -1,0 +1,207 @@
+"""Test files: what is tested, with what around it, and the tests."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Source, Span
+from swarmdsl.driver.config.toml import Document, Keys, Place, parse_toml
+from swarmdsl.execution.simulate.actors import Actor, actors
+from swarmdsl.execution.simulate.scenario import Scenario
+from swarmdsl.execution.simulate.scenario_file import read_scenario
+from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.subject import Subject
+from swarmdsl.execution.testing.case import Case, End, Step, TestFile, Unread
+from swarmdsl.execution.testing.models import Model, Models
+from swarmdsl.execution.testing.names import Names
+from swarmdsl.execution.testing.steps import StepReader
+from swarmdsl.project.read_source import read_source
+
+_SHARED = ("swarm", "machine", "scenario", "seeds", "passing")
+_FILE = ("model", *_SHARED, "test")
+_TEST = ("name", *_SHARED, "steps", "always")
+_NEVER = {"aborted": 0.0, "preempted": 0.0, "never": 1.0}
+# More than that is no test any more.
+_MOST_SEEDS = 10_000
+
+
+def read_tests(source: Source, models: Models, report: Diagnostics) -> TestFile | None:
+    """The tests of a file; None where it has errors, which are reported.
+
+    What is wrong with one test alone is kept with that, so that the others can run.
+    """
+    document = parse_toml(source, report)
+    if document is None:
+        return None
+    assert source.path is not None  # what it names lies beside it
+    cases = _Reader(document, source.path, models, report).read()
+    if not cases or report.has_errors:
+        for case in cases:
+            report.include(case.problems if isinstance(case, Unread) else ())
+        return None
+    return TestFile(document.source, tuple(cases))
+
+
+class _Reader:
+    def __init__(self, document: Document, path: Path, models: Models, report: Diagnostics) -> None:
+        self._path = path
+        self._models = models
+        self._report = report
+        self._top = Table(document, (), report)
+
+    def read(self) -> list[Case | Unread]:
+        """The tests; none where the model has mistakes."""
+        self._top.check_keys(_FILE, "a test file")
+        if self._top.values.get("test", []) == []:
+            help_ = "a test begins with `[[test]]`"
+            self._report.report("no-tests", path=self._top.document.source.name, help=help_)
+            return []
+        named = list(self._paths(self._top, "model")) if "model" in self._top else []
+        if "model" in self._top and not named:
+            if not self._report.has_errors:
+                self._top.wrong(("model",), "a path, or a list of some", [])
+            return []
+        model = self._models.of(named, self._path, self._report)
+        if model is None:
+            return []
+        names: dict[str, Span] = {}
+        tables = enumerate(self._top.items("test"))
+        return [self._read(number, table.keys, names, model) for number, table in tables]
+
+    def _read(self, number: int, keys: Keys, names: dict[str, Span], model: Model) -> Case | Unread:
+        report = Diagnostics()
+        table = Table(self._top.document, keys, report)
+        table.check_keys(_TEST, "a test")
+        name = self._name(table, names)
+        case = self._case(table, name or "", model)
+        if case is None or report.has_errors:
+            return Unread(name or f"test {number + 1}", tuple(report))
+        self._report.include(report)
+        return case
+
+    def _name(self, table: Table, names: dict[str, Span]) -> str | None:
+        if "name" not in table:
+            table.report.report("missing-key", table.value_place(()), name="name")
+            return None
+        name, place = table.values["name"], table.value_place(("name",))
+        if not isinstance(name, str) or not name.strip() or not name.isprintable():
+            table.wrong(("name",), "a text in one line", name)
+            return None
+        if name in names:
+            related = (Label(names[name], "the first one"),)
+            table.report.report("duplicate-name", place, kind="test", name=name, related=related)
+        names.setdefault(name, place)
+        return name
+
+    def _case(self, table: Table, name: str, model: Model) -> Case | None:
+        subject = self._subject(table, model)
+        scenario = self._scenario(table, subject) if subject is not None else None
+        count = self._whole(table, "seeds")
+        passing = self._holder(table, "passing")
+        share = passing.share("passing") if "passing" in passing else 1.0
+        if subject is None or scenario is None:
+            return None
+        cast = actors(subject, subject.crew(scenario.counts), scenario, table.report)
+        if not cast:
+            return None
+        reader = StepReader(Names(subject, cast, table.report), table.report)
+        steps = self._steps(table, reader)
+        always = [reader.claim(each) for each in table.items("always")]
+        if share is None:
+            return None
+        return Case(
+            name,
+            table.value_place(("name",)) if name else table.value_place(()),
+            subject,
+            _with_ends(scenario, steps, cast),
+            tuple(steps),
+            tuple(claim for claim in always if claim is not None),
+            tuple(range(scenario.seed, scenario.seed + count)),
+            share,
+        )
+
+    def _steps(self, table: Table, reader: StepReader) -> list[Step]:
+        if not table.values.get("steps", True) or "steps" not in table:
+            table.report.report(
+                "missing-key",
+                table.value_place(("steps",) if "steps" in table else ()),
+                name="steps",
+                help='`steps = [{ pass = "1 min" }]` lets a minute pass',
+            )
+            return []
+        found = [reader.step(each) for each in table.items("steps")]
+        return [step for step in found if step is not None]
+
+    def _subject(self, table: Table, model: Model) -> Subject | None:
+        for holder in (table, self._top):
+            given = [key for key in ("swarm", "machine") if key in holder]
+            if len(given) > 1:
+                reason = "`swarm` and `machine` are not given together"
+                holder.report.report("impossible-step", holder.key_place("machine"), reason=reason)
+                return None
+            if given:
+                return model.subject(holder, given[0], holder.report)
+        return model.subject(table, None, table.report)
+
+    def _scenario(self, table: Table, subject: Subject) -> Scenario | None:
+        """What is around the test: a file, or a table in this one."""
+        holder = self._holder(table, "scenario")
+        value: Any = holder.values.get("scenario", {})
+        if "scenario" not in holder:
+            return Scenario()
+        if isinstance(value, dict):
+            return read_scenario(_part(holder, "scenario"), subject, holder.report)
+        if not isinstance(value, str):
+            holder.wrong(("scenario",), "a file, or a table", value)
+            return None
+        for path, place in self._paths(holder, "scenario"):
+            source = read_source(path, place, holder.report, "a scenario")
+            document = parse_toml(source, holder.report) if source is not None else None
+            if document is not None:
+                return read_scenario(document, subject, holder.report)
+        return None
+
+    def _whole(self, table: Table, key: str) -> int:
+        holder = self._holder(table, key)
+        return (holder.whole(key, 1, _MOST_SEEDS) or 1) if key in holder else 1
+
+    def _holder(self, table: Table, key: str) -> Table:
+        """The test, where it has a key, else the file."""
+        return table if key in table else self._top
+
+    def _paths(self, table: Table, key: str) -> Iterator[tuple[Path, Span]]:
+        """The paths that a text or a list of texts names, from the folder of the test file."""
+        value = table.values[key]
+        for number, each in enumerate(value if isinstance(value, list) else [value]):
+            way = (key, number) if isinstance(value, list) else (key,)
+            if not isinstance(each, str) or not each or "\0" in each:
+                table.wrong(way, "a path", each)
+            else:
+                yield Path(os.path.normpath(self._path.parent / each)), table.value_place(way)
+
+
+def _part(table: Table, key: str) -> Document:
+    """A table in a document as a document of its own."""
+    keys = (*table.keys, key)
+    inside: dict[tuple[str | int, ...], Place] = {
+        way[len(keys) :]: place
+        for way, place in table.document.places.items()
+        if way[: len(keys)] == keys
+    }
+    return Document(table.document.source, table.values[key], inside)
+
+
+def _with_ends(scenario: Scenario, steps: list[Step], cast: list[Actor]) -> Scenario:
+    """A scenario in which the functions that a test ends do not end by themselves."""
+    functions = {key: dict(said) for key, said in scenario.functions.items()}
+    for step in steps:
+        if isinstance(step, End):
+            for number in step.of:
+                key = (step.function, cast[number].robot.name or "")
+                functions[key] = {**functions.get(key, {}), **_NEVER}
+    return replace(scenario, functions=functions)

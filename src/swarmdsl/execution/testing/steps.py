@@ -1,0 +1,316 @@
+"""Steps of a test from TOML: a verb each, and everything that is named exists."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Span
+from swarmdsl.base.suggest import suggest
+from swarmdsl.execution.simulate.durations import shown
+from swarmdsl.execution.simulate.scenario_table import Table
+from swarmdsl.execution.simulate.table import OUTCOMES
+from swarmdsl.execution.simulate.values import fitted, fitted_result, kind
+from swarmdsl.execution.testing.case import (
+    ALL,
+    ANY,
+    NONE,
+    Claim,
+    Deed,
+    End,
+    Expect,
+    Lose,
+    Pass,
+    Quantity,
+    Send,
+    Step,
+)
+from swarmdsl.execution.testing.data import told
+from swarmdsl.execution.testing.expected_data import event_data, variables
+from swarmdsl.execution.testing.names import Names
+
+_ACTIONS: Mapping[str, tuple[str, ...]] = {
+    "send": ("to", "data"),
+    "end": ("of", "as", "result"),
+    "pass": (),
+    "lose": (),
+}
+_SUBJECTS: Mapping[str, Quantity] = {"who": ALL, "all": ALL, "any": ANY, "no": NONE}
+_DEEDS: Mapping[str, Deed] = {"sends": "sends", "starts": "starts", "cancels": "cancels"}
+_VERBS = ("in", "has", *_DEEDS)
+_TIMES = ("within", "for")
+_CLAIM = (*_SUBJECTS, "count", "of", *_VERBS, "data")
+# What other tools and languages call it.
+_OTHER_WORDS = {
+    **dict.fromkeys(("wait", "sleep", "delay", "after", "advance", "elapse"), "pass"),
+    **dict.fromkeys(("event", "raise", "emit", "publish", "trigger"), "send"),
+    **dict.fromkeys(("finish", "complete", "outcome", "succeed", "abort"), "end"),
+    **dict.fromkeys(("kill", "lost", "crash", "fail"), "lose"),
+    **dict.fromkeys(("expect", "state", "active", "assert", "is"), "in"),
+    **dict.fromkeys(("variable", "variables", "var", "values", "where"), "has"),
+    **dict.fromkeys(("every", "each"), "all"),
+    **dict.fromkeys(("none", "not", "never"), "no"),
+    **dict.fromkeys(("timeout", "before", "eventually"), "within"),
+    **dict.fromkeys(("during", "always", "lasting"), "for"),
+    **dict.fromkeys(("member", "by", "robot"), "who"),
+}
+_COUNT = re.compile(r"([0-9]{1,9})(?:\.\.([0-9]{1,9}|\*))?")
+
+
+class StepReader:
+    """Reads the steps of one test; a step in which something is wrong is None."""
+
+    def __init__(self, names: Names, report: Diagnostics) -> None:
+        self._names = names
+        self._report = report
+
+    def step(self, table: Table) -> Step | None:
+        """A step: something that is done, or something that is expected."""
+        verbs = [key for key in table.values if key in _ACTIONS]
+        if not verbs:
+            return self._expect(table)
+        verb = verbs[0]
+        self._check_keys(table, (verb, *_ACTIONS[verb]), f"a step with `{verb}`")
+        read: dict[str, Callable[[Table], Step | None]] = {
+            "send": self._send,
+            "end": self._end,
+            "pass": self._pass,
+            "lose": self._lose,
+        }
+        return read[verb](table)
+
+    def claim(self, table: Table) -> Claim | None:
+        """Something that must be so all the time."""
+        self._check_keys(table, _CLAIM, "what is always so")
+        return self._claim(table)
+
+    def _check_keys(self, table: Table, known: Iterable[str], owner: str) -> None:
+        """Report keys that mean nothing, some with what they may have been meant for."""
+        known = list(known)
+        for key in table.values:
+            if key not in known:
+                word = _OTHER_WORDS.get(key)
+                help_ = f"write `{word}`" if word in known else suggest(key, known, "keys")
+                place = table.key_place(key)
+                self._report.report("unknown-key", place, name=key, owner=owner, help=help_)
+
+    # ---- what is done
+
+    def _send(self, table: Table) -> Send | None:
+        place = table.value_place(("send",))
+        event = _text(table, "send", "the name of an event")
+        who = self._members(table, "to") if "to" in table else self._names.everybody()
+        if event is None or not who or not self._names.is_known("event", event, place):
+            return None
+        listening = [n for n in who if self._names.cast[n].listens(event)]
+        if not listening:
+            self._report.report("unheard-event", place, name=event)
+        data = table.values.get("data")
+        system = self._names.subject.system
+        if system is not None:
+            type_ = system.event(event).type
+            data = fitted(type_, {}, system)
+            if "data" in table:
+                data = table.fitted(lambda value, way: fitted(type_, value, system, way), "data")
+        return Send(place, event, data, tuple(listening))
+
+    def _end(self, table: Table) -> End | None:
+        place = table.value_place(("end",))
+        function = _text(table, "end", "the name of a function")
+        outcome = table.name("as", OUTCOMES, "outcome") if "as" in table else "succeeded"
+        who = self._members(table, "of") if "of" in table else self._names.everybody()
+        if function is None or outcome is None or not who:
+            return None
+        word = table.values.get("of", "")
+        able = self._names.able(who, word, "starts", function, place)
+        result = None
+        if "result" in table and able:
+            if outcome != "succeeded":
+                table.wrong(("result",), "nothing unless it succeeds", table.values["result"])
+            result = self._result(table, function)
+        return End(place, function, outcome, result, tuple(able)) if able else None
+
+    def _result(self, table: Table, function: str) -> Any:
+        system = self._names.subject.system
+        if system is None:
+            return table.values["result"]
+        call = system.function(function).communication
+        owner = f"the result of `{function}`"
+        return table.fitted(
+            lambda value, way: fitted_result(call, value, system, owner, way), "result"
+        )
+
+    def _pass(self, table: Table) -> Pass | None:
+        length = table.duration("pass")
+        return Pass(table.value_place(("pass",)), length) if length is not None else None
+
+    def _lose(self, table: Table) -> Lose | None:
+        who = self._members(table, "lose")
+        robots = dict.fromkeys(self._names.cast[n].robot.name for n in who)
+        return Lose(table.value_place(("lose",)), tuple(robots)) if who else None
+
+    # ---- what is expected
+
+    def _expect(self, table: Table) -> Expect | None:
+        self._check_keys(table, (*_ACTIONS, *_CLAIM, *_TIMES), "a step")
+        claim = self._claim(table)
+        times = [key for key in _TIMES if key in table]
+        lengths = {key: table.duration(key) for key in times}
+        if len(times) > 1:
+            self._one_of(table, times)
+            return None
+        if claim is None or None in lengths.values():
+            return None
+        within, lasting = (lengths.get(key) for key in _TIMES)
+        text = claim.text
+        if within is not None:
+            text += f" within {shown(within)}"
+        if lasting is not None:
+            text += f" for {shown(lasting)}"
+        if within is not None and claim.deed is not None and not claim.quantity.waits:
+            reason = "nothing has to be done for this, so that `within` waits for nothing"
+            help_ = "`for` lets time pass in which it stays so"
+            self._report.report(
+                "impossible-step", table.key_place("within"), reason=reason, help=help_
+            )
+            return None
+        return Expect(claim.place, replace(claim, text=text), within, lasting)
+
+    def _claim(self, table: Table) -> Claim | None:
+        verb = self._only(table, _VERBS, "what is expected")
+        subjects = [key for key in (*_SUBJECTS, "count") if key in table]
+        if len(subjects) > 1:
+            self._one_of(table, subjects)
+            return None
+        quantity = self._quantity(table)
+        key = "of" if "of" in table else next((k for k in _SUBJECTS if k in table), None)
+        if key == "of" and "count" not in table:
+            reason, place = "`of` stands with a `count`", table.key_place("of")
+            help_ = "write `all`, `any` or `no` in its place"
+            self._report.report("impossible-step", place, reason=reason, help=help_)
+            return None
+        who = self._members(table, key) if key is not None else self._names.everybody()
+        if verb is None or quantity is None or not who:
+            return None
+        if "data" in table and verb != "sends":
+            reason, place = "`data` stands with `sends`", table.key_place("data")
+            help_ = "`has` says what variables hold"
+            self._report.report("impossible-step", place, reason=reason, help=help_)
+            return None
+        words = _words(table, key)
+        word = table.values[key] if key is not None else ""
+        if verb == "in":
+            states = self._states(table)
+            meant = self._names.in_state(who, word, states) if states else {}
+            claim = Claim(
+                table.value_place(("in",)),
+                f"{words}in {listed([name for name, _ in states], 'and')}",
+                quantity,
+                tuple(meant),
+                states=meant,
+            )
+        elif verb == "has":
+            values = variables(table, self._names, who, word)
+            text = (
+                f"{words}to have `{told(table.values['has'], table.values['has'])}`"
+                if values
+                else ""
+            )
+            place = table.value_place(("has",))
+            claim = Claim(place, text, quantity, tuple(values), values=values)
+        else:
+            what = "the name of an event" if verb == "sends" else "the name of a function"
+            name = _text(table, verb, what)
+            place = table.value_place((verb,))
+            able = self._names.able(who, word, _DEEDS[verb], name, place) if name else []
+            said = {"sends": "to send", "starts": "to start", "cancels": "to cancel"}[verb]
+            text = f"{words}{said} `{name}`"
+            data = None
+            if name and able and "data" in table:
+                data = event_data(table, self._names, name)
+                if data is None:
+                    return None
+                text += f" with `{told(data, data)}`"
+            deed = _DEEDS[verb]
+            claim = Claim(place, text, quantity, tuple(able), deed=deed, name=name or "", data=data)
+        return claim if claim.who and self._is_possible(table, claim) else None
+
+    def _is_possible(self, table: Table, claim: Claim) -> bool:
+        """Whether there are as many machines as are wanted."""
+        least, there = claim.quantity.least or 0, len(claim.who)
+        if least <= there:
+            return True
+        reason = f"there {'is' if there == 1 else 'are'} only {there}, not {least}"
+        self._report.report("impossible-step", table.value_place(("count",)), reason=reason)
+        return False
+
+    def _quantity(self, table: Table) -> Quantity | None:
+        if "count" not in table:
+            return next((q for key, q in _SUBJECTS.items() if key in table), ALL)
+        given = table.values["count"]
+        found = None
+        if isinstance(given, (int, str)) and not isinstance(given, bool):
+            found = _COUNT.fullmatch(str(given))
+        if found is None or (found[2] not in (None, "*") and int(found[1]) > int(found[2])):
+            table.wrong(("count",), 'a number, or a range like "1..3" or "2..*"', given)
+            return None
+        least = int(found[1])
+        return Quantity(least, None if found[2] == "*" else int(found[2] or least))
+
+    def _states(self, table: Table) -> list[tuple[str, Span]]:
+        given = table.values["in"]
+        each = given if isinstance(given, list) else [given]
+        ways: list[tuple[str | int, ...]]
+        ways = [("in", i) for i in range(len(each))] if isinstance(given, list) else [("in",)]
+        if not each or not all(isinstance(name, str) for name in each):
+            table.wrong(("in",), "the name of a state, or a list of them", given)
+            return []
+        return [(name, table.value_place(way)) for name, way in zip(each, ways, strict=True)]
+
+    def _members(self, table: Table, key: str) -> list[int]:
+        word = _text(table, key, "the name of a member, of a role or of a type of member")
+        return self._names.members(word, table.value_place((key,))) if word is not None else []
+
+    def _only(self, table: Table, keys: tuple[str, ...], what: str) -> str | None:
+        given = [key for key in keys if key in table]
+        if len(given) == 1:
+            return given[0]
+        if given:
+            self._one_of(table, given)
+        elif not any(key not in (*_ACTIONS, *_CLAIM, *_TIMES) for key in table.values):
+            place = table.value_place(())
+            self._report.report(
+                "missing-key",
+                place,
+                name="in",
+                help=f"say {what} with {listed(list(keys))}, or what is done with "
+                f"{listed(list(_ACTIONS))}",
+            )
+        return None
+
+    def _one_of(self, table: Table, keys: list[str]) -> None:
+        reason = f"{listed(keys, 'and')} are not given together"
+        self._report.report("impossible-step", table.key_place(keys[1]), reason=reason)
+
+
+def _words(table: Table, key: str | None) -> str:
+    """Whom a claim is about, in words."""
+    name = f"`{table.values[key]}` " if key is not None else ""
+    if "count" in table:
+        return f"{table.values['count']} {f'of {name}' if name else ''}"
+    if key in (None, "who"):
+        return name
+    return f"{key} {name}"
+
+
+def _text(table: Table, key: str, what: str) -> str | None:
+    value = table.values[key]
+    if isinstance(value, str) and value:
+        return value
+    table.report.report(
+        "wrong-value", table.value_place((key,)), name=key, expected=what, found=kind(value)
+    )
+    return None

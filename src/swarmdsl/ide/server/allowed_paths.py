@@ -1,0 +1,47 @@
+"""The files that a server may read: those of its models, and of what these may use.
+
+A model that somebody else wrote is opened in an editor without a thought; what it imports
+shall not lead to the files of whoever reads it.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from pathlib import Path
+
+from swarmdsl.base import resources
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.driver.config import Settings
+from swarmdsl.project.libraries import installed_folders
+
+# Where the packages of ROS are installed, divided as paths of programs are.
+_ROS = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "ROS_PACKAGE_PATH")
+
+
+class Territory:
+    """All in some folders, the sources and libraries of a project, and what is installed."""
+
+    def __init__(self, folders: Iterable[Path], settings: Settings) -> None:
+        named = [*folders, *settings.sources, *settings.libraries, resources.library()]
+        self._folders = {os.path.realpath(each) for each in named}
+
+    def __contains__(self, path: object) -> bool:
+        real = os.path.realpath(str(path))
+        return self._holds(self._folders, real) or self._holds(self._installed, real)
+
+    def _holds(self, folders: Iterable[str], path: str) -> bool:
+        return any(
+            path == each or path.startswith(each.rstrip(os.sep) + os.sep) for each in folders
+        )
+
+    @cached_property
+    def _installed(self) -> set[str]:
+        return {os.path.realpath(each) for each in (*installed_folders(Diagnostics()), *_ros())}
+
+
+def _ros() -> Iterator[Path]:
+    yield Path("/opt/ros")
+    for name in _ROS:
+        yield from (Path(each) for each in os.environ.get(name, "").split(os.pathsep) if each)

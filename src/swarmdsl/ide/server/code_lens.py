@@ -1,0 +1,46 @@
+"""What an editor can offer above a declaration: how often it is used, a picture, a run."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Literal
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.driver.workspace.references import owners
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import Component, Member, Optimization, StateMachine, Swarm, TopLevel
+
+Kind = Literal["machine", "member", "swarm", "component"]
+
+_KINDS: dict[type[TopLevel], Kind] = {
+    StateMachine: "machine",
+    Member: "member",
+    Swarm: "swarm",
+    Component: "component",
+}
+_PREVIEWED: tuple[Kind, ...] = ("machine", "member", "swarm")
+_SIMULATED: tuple[Kind, ...] = ("machine", "swarm")
+
+
+@dataclass(frozen=True)
+class Lens:
+    """What is offered at the name of a declaration; `kind` is None where it has no picture."""
+
+    offer: Literal["references", "preview", "simulate"]
+    name: Span
+    kind: Kind | None = None
+
+
+def lenses(file: File) -> Iterator[Lens]:
+    """What is offered in a file."""
+    for owner in owners(file):
+        if isinstance(owner, Optimization):
+            continue
+        name = owner.name.span.absolute  # type: ignore[attr-defined]
+        kind = _KINDS.get(type(owner))
+        yield Lens("references", name)
+        if kind in _PREVIEWED:
+            yield Lens("preview", name, kind)
+        if kind in _SIMULATED:
+            yield Lens("simulate", name, kind)

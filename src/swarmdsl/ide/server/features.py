@@ -1,0 +1,70 @@
+"""The requests that the server answers, with what a client has to know of them.
+
+What answers them is imported with the first: a client sees what is wrong before it asks.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import import_module
+from typing import Any
+
+from lsprotocol import types as lsp
+
+from swarmdsl.ide.server.session import Session
+from swarmdsl.ide.server.tokens import MODIFIERS, TYPES
+
+FEATURES: Mapping[str, Mapping[str, Any]] = {
+    "read": {
+        lsp.TEXT_DOCUMENT_HOVER: None,
+        lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL: None,
+        lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: lsp.SemanticTokensLegend(
+            token_types=TYPES, token_modifiers=MODIFIERS
+        ),
+        lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA: None,
+        lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE: None,
+        lsp.TEXT_DOCUMENT_FOLDING_RANGE: None,
+        lsp.TEXT_DOCUMENT_SELECTION_RANGE: None,
+        lsp.TEXT_DOCUMENT_INLAY_HINT: None,
+        lsp.TEXT_DOCUMENT_DOCUMENT_LINK: None,
+        lsp.TEXT_DOCUMENT_CODE_LENS: None,
+        lsp.CODE_LENS_RESOLVE: None,
+    },
+    "navigate": {
+        lsp.TEXT_DOCUMENT_DEFINITION: None,
+        lsp.TEXT_DOCUMENT_REFERENCES: None,
+        lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: None,
+        lsp.WORKSPACE_SYMBOL: None,
+        lsp.TEXT_DOCUMENT_PREPARE_CALL_HIERARCHY: None,
+        lsp.CALL_HIERARCHY_INCOMING_CALLS: None,
+        lsp.CALL_HIERARCHY_OUTGOING_CALLS: None,
+    },
+    "edit": {
+        lsp.TEXT_DOCUMENT_COMPLETION: lsp.CompletionOptions(
+            trigger_characters=[".", ">", ":", "[", "(", ",", "/"]
+        ),
+        lsp.TEXT_DOCUMENT_SIGNATURE_HELP: lsp.SignatureHelpOptions(
+            trigger_characters=["(", ","], retrigger_characters=["="]
+        ),
+        lsp.TEXT_DOCUMENT_FORMATTING: None,
+        lsp.TEXT_DOCUMENT_RANGE_FORMATTING: None,
+        lsp.TEXT_DOCUMENT_PREPARE_RENAME: None,
+        lsp.TEXT_DOCUMENT_RENAME: None,
+        lsp.TEXT_DOCUMENT_CODE_ACTION: lsp.CodeActionOptions(
+            code_action_kinds=[lsp.CodeActionKind.QuickFix]
+        ),
+    },
+    "preview": {"swarmdsl/pictures": None},
+}
+"""By the module that answers them; its `REQUESTS` are the functions."""
+
+
+def requests(module: str) -> Mapping[str, Any]:
+    """What answers the requests of a module."""
+    found: Mapping[str, Any] = import_module(f"swarmdsl.ide.server.handlers.{module}").REQUESTS
+    return found
+
+
+def answer(module: str, name: str, session: Session, params: Any) -> Any:
+    """The answer to a request; raises what refuses it."""
+    return requests(module)[name](session, params)

@@ -1,0 +1,164 @@
+"""What can be given by name: fields of goals, of messages and of structs, params."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.types import Typing
+from swarmdsl.base.records import dataclass
+from swarmdsl.ide.server.speculative_parse import WORD
+from swarmdsl.project.loader import Project
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Activity,
+    Argument,
+    Communication,
+    Event,
+    EventTrigger,
+    Field,
+    FieldUse,
+    Function,
+    Interface,
+    MessageType,
+    MonitorTrigger,
+    Operation,
+    Param,
+    Parameter,
+    Part,
+    PartValue,
+    ResultMapping,
+    Send,
+    ServiceType,
+    State,
+    StateMachine,
+    StructType,
+    TopLevel,
+    Transition,
+    Word,
+    nodes_of,
+    walk,
+)
+from swarmdsl.syntax.types import Named, Type
+
+Given = Field | Parameter | Param
+
+
+@dataclass(frozen=True)
+class Slots:
+    """What can be given, how that is called, and what is given already."""
+
+    of: str
+    fields: Sequence[Given]
+    given: frozenset[str] = frozenset()
+
+    @property
+    def left(self) -> list[Given]:
+        """What is not given yet."""
+        return [each for each in self.fields if each.name not in self.given]
+
+
+def slots_of_call(
+    target: Function | Operation | None, interfaces: Interfaces
+) -> tuple[Sequence[Given], Sequence[Given]]:
+    """What a function or an operation takes, and what it gives."""
+    if isinstance(target, Operation):
+        return (
+            [each for each in target.parameters if each.direction != "out"],
+            [each for each in target.parameters if each.direction == "out"],
+        )
+    items = target.items if target is not None else ()
+    call = next((item for item in items if isinstance(item, Communication)), None)
+    wanted: type[Interface] = ServiceType
+    if call is not None and call.paradigm == "action":
+        wanted = ActionType
+    match _interface(call.type.type if call is not None else None, interfaces, wanted):
+        case ActionType(goal=taken, result=given) | ServiceType(request=taken, response=given):
+            return taken, given
+    return (), ()
+
+
+def slots_of_event(event: Event | None, interfaces: Interfaces) -> Sequence[Given]:
+    """The fields of the message of an event."""
+    found = _interface(event.type.type if event is not None else None, interfaces, MessageType)
+    return found.fields if isinstance(found, (MessageType, StructType)) else ()
+
+
+def slots(owner: TopLevel, project: Project) -> Slots | None:
+    """What the word on trial can be the name of, or give a value to."""
+    interfaces = Interfaces(project.declarations())
+    for activity in nodes_of(owner, Activity):
+        taken, given = slots_of_call(activity.function.target, interfaces)
+        if _holds(activity.arguments):
+            return Slots(activity.function.name, taken, _names(activity.arguments))
+        if any(_is_trial(each) for each in activity.results):
+            others = frozenset(str(each.field) for each in activity.results)
+            return Slots(activity.function.name, given, others)
+    for send in nodes_of(owner, Send):
+        if _holds(send.arguments):
+            fields = slots_of_event(send.event.target, interfaces)
+            return Slots(send.event.name, fields, _names(send.arguments))
+    for state in nodes_of(owner, State):
+        machine = state.machine.target if state.machine is not None else None
+        if _holds(state.bindings) and isinstance(machine, StateMachine):
+            params = [each for each in machine.items if isinstance(each, Param)]
+            return Slots(str(machine.name), params, _names(state.bindings))
+    for part in nodes_of(owner, Part):
+        if _holds(part.values) and part.component.target is not None:
+            of = part.component.target
+            return Slots(str(of.name), all_items(of, Param), _names(part.values))
+    return None
+
+
+def fields_of(use: FieldUse, owner: TopLevel, project: Project) -> Sequence[Field]:
+    """The fields that the base of a field on trial has."""
+    typing = Typing(Interfaces(project.declarations()))
+    type_ = _with_event(use, owner, typing).infer(use.base)
+    return (typing.interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
+
+
+def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
+    """Typing where the field is used, which may be a transition on an event."""
+    for transition in nodes_of(owner, Transition):
+        if any(node is use for node in walk(transition)):
+            triggers = [
+                each
+                for each in transition.triggers
+                if isinstance(each, (EventTrigger, MonitorTrigger))
+            ]
+            types = [_message(each) for each in triggers]
+            return typing.on_event(types[0] if types else None)
+    return typing
+
+
+def _message(trigger: EventTrigger | MonitorTrigger) -> Type | None:
+    if isinstance(trigger, MonitorTrigger):
+        return trigger.type.type
+    return trigger.event.target.type.type if trigger.event.target is not None else None
+
+
+def _interface(
+    type_: Type | None, interfaces: Interfaces, wanted: type[Interface]
+) -> Interface | None:
+    return interfaces.get(type_, wanted) if isinstance(type_, Named) else None
+
+
+def _holds(arguments: Sequence[Argument | PartValue]) -> bool:
+    return any(_is_trial(each) for each in arguments)
+
+
+def _is_trial(given: Argument | PartValue | ResultMapping) -> bool:
+    return WORD in given.span.text
+
+
+def _names(arguments: Sequence[Argument | PartValue]) -> frozenset[str]:
+    return frozenset(str(each.name) for each in arguments)
+
+
+def is_name_on_trial(owner: TopLevel) -> bool:
+    """Whether the word on trial is the name of what is given, and not a part of its value."""
+    names: list[Word] = [each.name for each in nodes_of(owner, Argument)]
+    names += [each.name for each in nodes_of(owner, PartValue)]
+    names += [each.field for each in nodes_of(owner, ResultMapping)]
+    return WORD in names

@@ -1,0 +1,191 @@
+"""Answers for whoever writes: what can stand here, new names, changes that mend something."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import Any
+
+from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Span
+from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
+from swarmdsl.ide.server.completion import Completion, completions
+from swarmdsl.ide.server.diagnostics import as_findings
+from swarmdsl.ide.server.fixes import fix
+from swarmdsl.ide.server.hover import described
+from swarmdsl.ide.server.layout import line_changes
+from swarmdsl.ide.server.session import Place, Session
+from swarmdsl.ide.server.signatures import signature
+from swarmdsl.ide.server.snippets import snippets
+from swarmdsl.ide.server.symbol_kinds import COMPLETION_KINDS
+from swarmdsl.syntax.formatter import formatted
+
+
+def _completion(session: Session, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
+    place = session.place(params.text_document, params.position)
+    if place is None:
+        return []
+    fills = session.offers("text_document.completion.completion_item.snippet_support")
+    answers = []
+    for index, each in enumerate(completions(*place)):
+        answer = lsp.CompletionItem(
+            label=each.word,
+            detail=each.detail,
+            kind=_completion_kind(each),
+            sort_text=f"{each.node is None:d}{index:05}",
+        )
+        if each.node is not None:
+            text = described(each.node)
+            answer.documentation = lsp.MarkupContent(kind=lsp.MarkupKind.Markdown, value=text)
+        if fills and each.text is not None:
+            answer.insert_text = each.text
+            answer.insert_text_format = lsp.InsertTextFormat.Snippet
+        answers.append(answer)
+    return [*answers, *(_snippets(place, answers) if fills else ())]
+
+
+def _completion_kind(completion: Completion) -> lsp.CompletionItemKind:
+    if completion.node is not None:
+        return COMPLETION_KINDS.get(type(completion.node), lsp.CompletionItemKind.Variable)
+    if completion.detail == "keyword":
+        return lsp.CompletionItemKind.Keyword
+    return lsp.CompletionItemKind.Struct
+
+
+def _snippets(place: Place, answers: list[lsp.CompletionItem]) -> Iterator[lsp.CompletionItem]:
+    """Whole statements that begin with one of the keywords that can stand here."""
+    keywords = {each.label for each in answers if each.kind is lsp.CompletionItemKind.Keyword}
+    for snippet in snippets(keywords, *place):
+        yield lsp.CompletionItem(
+            label=snippet.label,
+            detail=snippet.about,
+            kind=lsp.CompletionItemKind.Snippet,
+            filter_text=snippet.label,
+            insert_text=snippet.text,
+            insert_text_format=lsp.InsertTextFormat.Snippet,
+            sort_text=f"2{snippet.label}",
+        )
+
+
+def _signature(session: Session, params: lsp.SignatureHelpParams) -> lsp.SignatureHelp | None:
+    place = session.place(params.text_document, params.position)
+    found = signature(*place) if place is not None else None
+    if found is None:
+        return None
+    parameters = [
+        lsp.ParameterInformation(label=(start, end), documentation=doc or None)
+        for start, end, doc in found.parameters
+    ]
+    answer = lsp.SignatureInformation(label=found.label, parameters=parameters)
+    # Where none is meant, one behind the last says so in all versions of the protocol.
+    active = found.active if found.active is not None else len(parameters)
+    return lsp.SignatureHelp(signatures=[answer], active_signature=0, active_parameter=active)
+
+
+def _formatting(session: Session, params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
+    return _layout(session, params.text_document)
+
+
+def _range_formatting(
+    session: Session, params: lsp.DocumentRangeFormattingParams
+) -> list[lsp.TextEdit]:
+    return _layout(session, params.text_document, params.range)
+
+
+def _layout(
+    session: Session, document: lsp.TextDocumentIdentifier, part: lsp.Range | None = None
+) -> list[lsp.TextEdit]:
+    """The changes that give a file, or the lines of a part of it, their layout."""
+    found = session.file(document)
+    if found is None:
+        return []
+    source = found[1].source
+    text = formatted(source, Diagnostics())
+    if text is None:
+        return []
+    whole = Span(source, 0, len(source.text))
+    within = whole if part is None else session.span(found[1], part)
+    shown = session.documents.get(source.path) if source.path is not None else None
+    crlf = shown is not None and "\r\n" in shown.text
+    return [
+        lsp.TextEdit(range=session.range(span), new_text=new.replace("\n", "\r\n") if crlf else new)
+        for span, new in line_changes(source, text, within)
+    ]
+
+
+def _prepare_rename(
+    session: Session, params: lsp.PrepareRenameParams
+) -> lsp.PrepareRenamePlaceholder | None:
+    place = session.place(params.text_document, params.position)
+    if place is None:
+        return None
+    try:
+        found = renamable(*place)
+    except RefusedError as error:
+        raise _failed(error) from error
+    return lsp.PrepareRenamePlaceholder(
+        range=session.range(found.span), placeholder=found.span.text
+    )
+
+
+def _rename(session: Session, params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
+    place = session.place(params.text_document, params.position)
+    if place is None:
+        return None
+    try:
+        spans = rename(*place, params.new_name)
+    except RefusedError as error:
+        raise _failed(error) from error
+    return _edits(session, [(span, params.new_name) for span in spans])
+
+
+def _failed(error: RefusedError) -> JsonRpcException:
+    return JsonRpcException(str(error), lsp.LSPErrorCodes.RequestFailed)
+
+
+def _edits(session: Session, changes: Iterable[tuple[Span, str]]) -> lsp.WorkspaceEdit:
+    """Texts to be put in places, by file."""
+    found: dict[str, list[lsp.TextEdit]] = {}
+    for span, text in changes:
+        location = session.location(span)
+        if location is not None:
+            edit = lsp.TextEdit(range=location.range, new_text=text)
+            found.setdefault(location.uri, []).append(edit)
+    return lsp.WorkspaceEdit(changes=found)
+
+
+def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
+    found = session.file(params.text_document)
+    if found is None:
+        return []
+    workspace, file = found
+    wanted = session.span(file, params.range)
+    actions = []
+    for each in workspace.diagnostics().get(file.source.name, []):
+        span = each.primary.span if each.primary is not None else None
+        touched = span is not None and span.start <= wanted.end and wanted.start <= span.end
+        mended = fix(each, file.model.declarations) if touched else None
+        if mended is not None:
+            actions.append(
+                lsp.CodeAction(
+                    title=mended.title,
+                    kind=lsp.CodeActionKind.QuickFix,
+                    diagnostics=as_findings([each], session.encoding, session.uri),
+                    edit=_edits(session, [(mended.span, mended.text)]),
+                    is_preferred=True,
+                )
+            )
+    return actions
+
+
+REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
+    lsp.TEXT_DOCUMENT_COMPLETION: _completion,
+    lsp.TEXT_DOCUMENT_SIGNATURE_HELP: _signature,
+    lsp.TEXT_DOCUMENT_FORMATTING: _formatting,
+    lsp.TEXT_DOCUMENT_RANGE_FORMATTING: _range_formatting,
+    lsp.TEXT_DOCUMENT_PREPARE_RENAME: _prepare_rename,
+    lsp.TEXT_DOCUMENT_RENAME: _rename,
+    lsp.TEXT_DOCUMENT_CODE_ACTION: _code_actions,
+}

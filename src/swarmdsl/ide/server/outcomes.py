@@ -1,0 +1,37 @@
+"""The ends of an activity that a state does not react to yet."""
+
+from __future__ import annotations
+
+from swarmdsl.ide.server.candidates import containers
+from swarmdsl.syntax.ast import (
+    Activity,
+    OutcomeTrigger,
+    State,
+    StateMachine,
+    TopLevel,
+    Transition,
+)
+
+_ALL = ("succeeded", "aborted", "preempted")
+
+
+def outcomes_left(owner: TopLevel | None, offset: int) -> list[str]:
+    """The outcomes that the state at an offset can have and that no transition takes for sure.
+
+    The transition that is being written there does not count. All where no state is known.
+    """
+    if not isinstance(owner, StateMachine):
+        return list(_ALL)
+    state = containers(owner, offset)[-1]
+    if not isinstance(state, State):
+        return [] if state is not owner else list(_ALL)
+    if not any(isinstance(item, Activity) for item in state.items):
+        return []
+    taken: set[str] = set()
+    for item in state.items:
+        if isinstance(item, Transition) and item.guard is None:
+            _, start, end = item.span.absolute
+            if not start <= offset <= end:
+                triggers = (each for each in item.triggers if isinstance(each, OutcomeTrigger))
+                taken.update(each.outcome for each in triggers)
+    return [each for each in _ALL if each not in taken]

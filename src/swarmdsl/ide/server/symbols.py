@@ -1,0 +1,63 @@
+"""The outline of a file, and the declarations of a model by a part of their names."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from swarmdsl.analysis.resolve.scopes import KINDS, bare, kind_of
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.driver.workspace import Workspace
+from swarmdsl.driver.workspace.references import owners
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import Node, Optimization, children
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """Something with a name: all of it, its name, and what is inside."""
+
+    name: str
+    kind: type[Node]
+    detail: str
+    span: Span
+    selection: Span
+    inside: list[Symbol]
+
+
+def outline(file: File) -> list[Symbol]:
+    """What a file declares, in the order of its text."""
+    found = [symbol for owner in owners(file) for symbol in symbols_of(owner)]
+    return sorted(found, key=lambda symbol: symbol.span.start)
+
+
+def search(workspace: Workspace, query: str) -> Iterator[Symbol]:
+    """All in the files of a model whose name has the letters of the query, in their order."""
+    for file in workspace.project.files:
+        if file.source.path is not None and not file.library:
+            work = outline(file)
+            while work:
+                symbol = work.pop(0)
+                work[:0] = symbol.inside
+                if _matches(query.lower(), symbol.name.lower()):
+                    yield symbol
+
+
+def _matches(query: str, name: str) -> bool:
+    letters = iter(name)
+    return all(letter in letters for letter in query)
+
+
+def symbols_of(node: Node) -> Iterator[Symbol]:
+    """What is declared in a node, and the node itself if it has a name."""
+    inside = [symbol for child in children(node) for symbol in symbols_of(child)]
+    if not isinstance(node, Optimization) and type(node) not in KINDS:
+        yield from inside
+        return
+    span = node.span.absolute
+    if isinstance(node, Optimization):
+        name = node.swarm.span.absolute
+        yield Symbol(f"optimize {node.swarm.name}", type(node), "", span, name, inside)
+    else:
+        name = node.name.span.absolute  # type: ignore[attr-defined]
+        yield Symbol(name.text, type(node), bare(kind_of(node)), span, name, inside)

@@ -1,0 +1,170 @@
+"""What trees of expressions of ECMAScript stand for, and of which types they are."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cache
+from typing import Any
+
+from lark import Tree
+
+from swarmdsl.codegen.exchange.scxml.ecmascript import dialect
+from swarmdsl.execution.scxml.ecmascript import parse
+from swarmdsl.ir import Literal, Primitive, Type
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, FLOATS, INT, STRING
+
+OPERATORS = {"===": "==", "!==": "!="}
+COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
+FLOAT_TYPES = tuple(map(Primitive, FLOATS))
+
+
+class Types:
+    """The types of expressions, as far as they do not depend on what is wanted.
+
+    `data` has those of variables and params, `field` gives those of fields; `event` is the message
+    at hand.
+    """
+
+    def __init__(
+        self,
+        data: Mapping[str, Type],
+        field: Callable[[Type | None, str], Type | None],
+        event: Type | None,
+    ) -> None:
+        self.data = data
+        self.field = field
+        self.event = event
+
+    def common(self, *trees: Any) -> Type | None:
+        """The type that operands have together, which that of a number only seems to be."""
+        found = [type_ for type_ in map(self.of, trees) if type_ is not None]
+        sure = [
+            t
+            for t, tree in zip(map(self.of, trees), trees, strict=True)
+            if t is not None and not is_number(tree)
+        ]
+        if DURATION in found:
+            return DURATION
+        floats = [type_ for type_ in found if type_ in FLOAT_TYPES]
+        return next(iter(floats or sure or found), None)
+
+    def of(self, tree: Any) -> Type | None:
+        """The type of an operand, where it does not depend on what is wanted."""
+        children = tree.children
+        match tree.data:
+            case "number":
+                return number(str(children[0]), None).type
+            case "text":
+                return STRING
+            case "name":
+                name = str(children[0])
+                return BOOL if name in ("true", "false") else self.data.get(name)
+            case "member":
+                if is_event(tree):
+                    return self.event
+                return self.field(self.of(children[0]), str(children[1]))
+            case "sign":
+                return BOOL if children[0] == "!" else self.of(children[1])
+            case "both" | "either":
+                return BOOL
+            case "operation":
+                left, operator, right = children
+                left, right = remainder(tree) or (left, right)
+                if OPERATORS.get(operator, operator) in COMPARISONS:
+                    return BOOL
+                return self.of_operation(operator, self.of(left), self.of(right))
+            case "call":
+                callee, *arguments = children
+                meant = operator_of(callee, arguments)
+                if meant in ("/", "%"):
+                    return self.of_operation(meant, *map(self.of, arguments))
+                if copied(tree) is not None:
+                    return self.of(copied(tree))
+                return self.common(*arguments) if meant is None else FLOAT
+        return None
+
+    def of_operation(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
+        """The type of a sum, product or the like of these."""
+        if operator == "/" and right == DURATION:
+            return FLOAT
+        if DURATION in (left, right):
+            return DURATION
+        if operator == "/":
+            return FLOAT
+        floats = [type_ for type_ in (left, right) if type_ in FLOAT_TYPES]
+        return next(iter(floats), left if left is not None else right)
+
+
+def number(text: str, wanted: Type | None) -> Literal:
+    """A number as it is written; a duration in milliseconds, where one is wanted."""
+    if text[1:2] in ("x", "X"):
+        value: int | float = int(text, 16)
+    else:
+        value = int(text) if text.isdigit() else float(text)
+    if wanted == DURATION:
+        return Literal(round(value * 1_000_000), DURATION)
+    return Literal(value, FLOAT if isinstance(value, float) else INT)
+
+
+def is_number(tree: Any) -> bool:
+    """Whether it is a number, with signs before it."""
+    if tree.data == "sign":
+        return is_number(tree.children[1])
+    return bool(tree.data == "number")
+
+
+def is_name(tree: Any, name: str) -> bool:
+    """Whether it is that name."""
+    return bool(tree.data == "name" and tree.children[0] == name)
+
+
+def is_event(tree: Any) -> bool:
+    """Whether it is `_event.data`."""
+    return is_name(tree.children[0], "_event") and tree.children[1] == "data"
+
+
+def copied(tree: Any) -> Any:
+    """What `JSON.parse(JSON.stringify(...))` copies; None for anything else."""
+    callee, *arguments = tree.children
+    if callee.data != "member" or not is_name(callee.children[0], "JSON") or len(arguments) != 1:
+        return None
+    if callee.children[1] == "stringify":
+        return arguments[0]
+    inner = arguments[0]
+    return copied(inner) if inner.data == "call" else None
+
+
+def remainder(tree: Any) -> tuple[Any, Any] | None:
+    """The operands of `((a % b) + b) % b`, which has the sign of `b`; None for anything else."""
+    match tree:
+        case Tree(
+            data="operation",
+            children=[
+                Tree(
+                    data="operation",
+                    children=[Tree(data="operation", children=[left, "%", inner]), "+", again],
+                ),
+                "%",
+                right,
+            ],
+        ) if inner == right and again == right:
+            return left, right
+    return None
+
+
+def operator_of(callee: Any, arguments: list[Any]) -> str | None:
+    """The operator, or `sqrt`, that is meant where a function is called in its place.
+
+    The portable profile writes these as functions, to have no value where they have none.
+    """
+    operator = _wrapped().get(callee) if callee.data == "function" else None
+    return operator if operator and len(arguments) == (1 if operator == "sqrt" else 2) else None
+
+
+@cache
+def _wrapped() -> Mapping[Any, str]:
+    words = dialect({})
+    root = words.functions["sqrt"]
+    assert not isinstance(root, str)
+    texts = {"/": words.quotient("a", "b"), "%": words.modulo("a", "b"), "sqrt": root(["a"])}
+    return {parse(text).children[0]: operator for operator, text in texts.items()}

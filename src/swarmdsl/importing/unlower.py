@@ -1,0 +1,97 @@
+"""What the portable profile made of constructs that SCXML does not have, taken back.
+
+A result is stored by the transitions on the end of its activity, or by one before them. An
+internal transition of a parallel state stands in the region that it leads into; where it belongs,
+one is left that does nothing. See exchange/scxml/portable.py and inward.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lark import Token, Tree
+
+from swarmdsl.base.records import replace
+from swarmdsl.execution.scxml.document import Node
+from swarmdsl.execution.scxml.ecmascript import Unreadable, parse
+from swarmdsl.importing.partial_states import Draft, Edge
+from swarmdsl.ir import StateKind
+
+
+def fold_lowered(top: Draft) -> None:
+    """Give each transition what it does in the model, in a document of the portable profile."""
+    for draft in top.walk():
+        activity = draft.said("activity")
+        if activity is not None:
+            results = sum(node.name == "mapping" for node in activity.walk())
+            _fold_results(draft, results)
+        if draft.kind is StateKind.PARALLEL:
+            _fold_inward(draft)
+
+
+def _fold_results(draft: Draft, results: int) -> None:
+    end, stored = f"do.{draft.id}.succeeded", f"gives.{draft.id}.succeeded"
+    left = [edge for edge in draft.edges if not (edge.event == end and _raises(edge, stored))]
+    if len(left) == len(draft.edges):
+        left = [
+            replace(edge, content=_rest(edge.node, results)) if edge.event == end else edge
+            for edge in left
+        ]
+    draft.edges = left
+
+
+def _raises(edge: Edge, event: str) -> bool:
+    return any(node.name == "raise" and node.get("event") == event for node in edge.does[:1])
+
+
+def _rest(node: Node, first: int) -> Node:
+    """The element without the first elements in it."""
+    rest = Node(
+        f"{node.namespace}}}{node.name}", node.attributes, node.parent, node.start, node.line
+    )
+    rest.children = node.children[first:]
+    return rest
+
+
+def _fold_inward(draft: Draft) -> None:
+    for index, edge in enumerate(draft.edges):
+        if edge.target is not None or edge.node.children:
+            continue
+        wanted = _guard(draft.edges[:index], edge)
+        inner = next(
+            (
+                each
+                for region in draft.children
+                for each in region.edges
+                if each.event == edge.event and _condition(each.node) == wanted
+            ),
+            None,
+        )
+        if inner is not None:
+            for region in draft.children:
+                region.edges = [each for each in region.edges if each is not inner]
+            draft.edges[index] = replace(edge, target=inner.target, content=inner.node)
+
+
+def _guard(before: list[Edge], edge: Edge) -> Any:
+    """The condition with which it stands in a region: those before it there must not hold."""
+    guards = [
+        Tree("sign", [Token("NOT", "!"), _condition(each.node) or parse("true")])
+        for each in before
+        if each.event == edge.event and each.node is not edge.node
+    ]
+    own = _condition(edge.node)
+    guards += [own] if own is not None else []
+    made = None
+    for guard in guards:
+        made = guard if made is None else Tree("both", [made, guard])
+    return made
+
+
+def _condition(node: Node) -> Any:
+    """The tree of the condition; None where there is none."""
+    text = node.get("cond")
+    try:
+        return parse(text) if text else None
+    except Unreadable:
+        return None

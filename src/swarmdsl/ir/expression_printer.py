@@ -1,0 +1,123 @@
+"""Expressions in the language of a target.
+
+One printer serves all targets: a `Dialect` says how operators, names and literals look.
+Parentheses follow the target's own precedence, and wherever comparisons or signs meet,
+so that what is printed never depends on fine points of the target's grammar.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.ir import (
+    Binary,
+    Call,
+    EventData,
+    Expression,
+    FieldAccess,
+    Literal,
+    ParamRef,
+    Unary,
+    VariableRef,
+)
+from swarmdsl.syntax.types import DURATION
+
+_PRECEDENCE = {
+    "or": 1,
+    "and": 2,
+    "not": 3,
+    **dict.fromkeys(("==", "!=", "<", "<=", ">", ">="), 4),
+    **dict.fromkeys(("+", "-"), 5),
+    **dict.fromkeys(("*", "/", "%"), 6),
+    "negative": 7,
+}
+_PRIMARY = 8
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """How one target writes expressions.
+
+    `operators` renames those the target spells otherwise; `literal`, `variable` and
+    `param` print a leaf; `event` is the message of the triggering event; `functions`
+    renames the built-in functions, to `.name` where the target has a property instead, or
+    prints a call from its arguments. `modulo` prints `%`, whose result has the sign of the
+    divisor in the language, `quotient` prints `/`, the division of real numbers.
+    """
+
+    literal: Callable[[Literal], str]
+    variable: Callable[[str], str]
+    param: Callable[[str], str]
+    event: str
+    operators: Mapping[str, str]
+    functions: Mapping[str, str | Callable[[Sequence[str]], str]]
+    modulo: Callable[[str, str], str] = "{} % {}".format
+    quotient: Callable[[str, str], str] = "{} / {}".format
+
+
+def translate(expression: Expression, dialect: Dialect) -> str:
+    """The expression as text of the target."""
+    return _print(expression, dialect)[0]
+
+
+def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
+    """Return the text and how strongly it binds."""
+    match expression:
+        case Literal():
+            text = dialect.literal(expression)
+            return text, _PRECEDENCE["negative"] if text.startswith("-") else _PRIMARY
+        case VariableRef(name=name):
+            return dialect.variable(name), _PRIMARY
+        case ParamRef(name=name):
+            return dialect.param(name), _PRIMARY
+        case EventData():
+            return dialect.event, _PRIMARY
+        case FieldAccess(base=base, field=field):
+            return f"{_operand(base, _PRIMARY, dialect)}.{field}", _PRIMARY
+        case Call(function=function, arguments=arguments):
+            written = dialect.functions.get(function, function)
+            if isinstance(written, str) and written.startswith("."):
+                return f"{_operand(arguments[0], _PRIMARY, dialect)}{written}", _PRIMARY
+            values = [translate(argument, dialect) for argument in arguments]
+            if not isinstance(written, str):
+                return written(values), _PRIMARY
+            return f"{written}({', '.join(values)})", _PRIMARY
+        case Unary(operator="not", operand=operand):
+            level = _PRECEDENCE["not"]
+            word = dialect.operators.get("not", "not ")
+            # `!` binds tighter than a comparison, `not ` looser: parentheses suit both.
+            return f"{word}{_operand(operand, _PRIMARY, dialect)}", level
+        case Unary(operand=operand):
+            return f"-{_operand(operand, _PRIMARY, dialect)}", _PRECEDENCE["negative"]
+        case Binary(operator=operator, left=left, right=right):
+            level = _PRECEDENCE[operator]
+            comparison = level == _PRECEDENCE["=="]
+            first = _operand(left, level + 1 if comparison else level, dialect)
+            second = _operand(right, level + 1, dialect)
+            if operator == "%":
+                return dialect.modulo(first, second), level
+            if operator == "/":
+                return dialect.quotient(first, second), level
+            return f"{first} {dialect.operators.get(operator, operator)} {second}", level
+
+
+def _operand(expression: Expression, least: int, dialect: Dialect) -> str:
+    text, level = _print(expression, dialect)
+    return text if level >= least else f"({text})"
+
+
+def python_literal(literal: Literal) -> str:
+    """A literal in Python; a duration in seconds, as rospy and rclpy take it."""
+    if literal.type == DURATION:
+        return repr(literal.milliseconds / 1000)
+    return repr(literal.value)
+
+
+def ecmascript_literal(literal: Literal) -> str:
+    """A literal in ECMAScript; a duration in milliseconds, as SCXML delays are."""
+    if literal.type == DURATION:
+        length = literal.milliseconds
+        return json.dumps(int(length) if length.is_integer() else length)
+    return json.dumps(literal.value)

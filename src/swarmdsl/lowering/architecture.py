@@ -1,0 +1,171 @@
+"""Components, members, swarms and environments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from swarmdsl import ir
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.base.naming import snake_case
+from swarmdsl.lowering.context import Context
+from swarmdsl.lowering.docs import lower_docs
+from swarmdsl.lowering.expressions import lower_expression
+from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.syntax.ast import (
+    BehaviorUse,
+    CommunicationSettings,
+    Component,
+    Connector,
+    Environment,
+    EnvironmentUse,
+    FitnessUse,
+    Member,
+    Multiplicity,
+    Param,
+    Part,
+    Port,
+    PortRef,
+    Role,
+    Size,
+    Swarm,
+    World,
+    in_metres,
+)
+
+
+def lower_component(component: Component, context: Context) -> ir.Component:
+    """A component with its ports and params."""
+    return ir.Component(
+        name=context.names[component],
+        kind=component.kind,
+        ports=_ports(all_items(component, Port), context),
+        params=lower_params(all_items(component, Param), context),
+        operations=context.offered(component),
+        behavior=_behavior(component, context),
+        base=context.name(component.base) if component.base is not None else None,
+        doc=component.doc,
+        docs=lower_docs(all_items(component, BehaviorUse)),
+        origin=component.name.span,
+    )
+
+
+def lower_member(member: Member, context: Context) -> ir.Member:
+    """A member with its parts and connectors."""
+    return ir.Member(
+        name=context.names[member],
+        behavior=_behavior(member, context),
+        ports=_ports(all_items(member, Port), context),
+        params=lower_params(all_items(member, Param), context),
+        parts=tuple(_part(part, context) for part in all_items(member, Part)),
+        connectors=tuple(
+            ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
+            for item in all_items(member, Connector)
+        ),
+        communication=_communication(member, context),
+        base=context.name(member.base) if member.base is not None else None,
+        doc=member.doc,
+        docs=lower_docs(all_items(member, BehaviorUse)),
+        origin=member.name.span,
+    )
+
+
+def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
+    """A swarm with its roles."""
+    place = next((item for item in swarm.items if isinstance(item, EnvironmentUse)), None)
+    fitness = next((item for item in swarm.items if isinstance(item, FitnessUse)), None)
+    return ir.Swarm(
+        name=context.names[swarm],
+        roles=tuple(
+            ir.Role(
+                str(item.name),
+                context.name(item.member),
+                _multiplicity(item.multiplicity),
+                item.doc,
+                item.name.span,
+            )
+            for item in swarm.items
+            if isinstance(item, Role)
+        ),
+        environment=context.name(place.environment) if place else None,
+        fitness=context.name(fitness.fitness) if fitness else None,
+        doc=swarm.doc,
+        docs=lower_docs(swarm.items),
+        origin=swarm.name.span,
+    )
+
+
+def lower_environment(environment: Environment, context: Context) -> ir.Environment:
+    """An environment, lengths in metres."""
+    world = next((item for item in environment.items if isinstance(item, World)), None)
+    size = next((item for item in environment.items if isinstance(item, Size)), None)
+    return ir.Environment(
+        name=context.names[environment],
+        world=str(world.file) if world else None,
+        size=_size(size) if size else None,
+        doc=environment.doc,
+        docs=lower_docs(environment.items),
+        origin=environment.name.span,
+    )
+
+
+def _behavior(owner: Component | Member, context: Context) -> str | None:
+    uses = all_items(owner, BehaviorUse)
+    return context.name(uses[0].machine) if uses else None
+
+
+def _communication(member: Member, context: Context) -> ir.CommunicationSettings | None:
+    for settings in all_items(member, CommunicationSettings):
+        return ir.CommunicationSettings(
+            str(settings.technology),
+            tuple((str(v.name), lower_expression(v.value, context)) for v in settings.values),
+            settings.doc,
+            lower_docs(settings.values),
+            settings.span,
+        )
+    return None
+
+
+def _ports(items: Iterable[Port], context: Context) -> tuple[ir.Port, ...]:
+    return tuple(
+        ir.Port(
+            str(item.name),
+            item.direction,
+            context.type_of(item.type),
+            str(item.topic) if item.topic is not None else snake_case(item.name),
+            item.doc,
+            item.name.span,
+        )
+        for item in items
+    )
+
+
+def _part(part: Part, context: Context) -> ir.Part:
+    return ir.Part(
+        name=str(part.name),
+        component=context.name(part.component),
+        values=tuple(
+            (str(value.name), lower_expression(value.value, context)) for value in part.values
+        ),
+        operations=context.offered(part),
+        doc=part.doc,
+        docs=lower_docs(part.values),
+        origin=part.name.span,
+    )
+
+
+def _end(end: PortRef) -> ir.PortRef:
+    return ir.PortRef(end.part.name if end.part is not None else None, end.port.name)
+
+
+def _multiplicity(multiplicity: Multiplicity | None) -> ir.Multiplicity:
+    if multiplicity is None:
+        return ir.Multiplicity(1, 1)
+    if multiplicity.lower == "*":
+        return ir.Multiplicity(0, None)
+    lower, upper = multiplicity.lower, multiplicity.upper or multiplicity.lower
+    return ir.Multiplicity(int(lower), None if upper == "*" else int(upper))
+
+
+def _size(size: Size) -> tuple[float, ...]:
+    lengths = [size.width, size.depth, *([size.height] if size.height else [])]
+    return tuple(map(in_metres, lengths))

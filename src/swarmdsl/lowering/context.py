@@ -1,0 +1,199 @@
+"""What lowering needs everywhere: names in the system, types of expressions."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Container, Iterable, Iterator, Mapping
+from typing import Any, cast
+
+from swarmdsl import ir
+from swarmdsl.analysis.event_topics import heard_on
+from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.types import Typing
+from swarmdsl.analysis.types.enum_values import underlying
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import camel_case, snake_case
+from swarmdsl.base.records import dataclass, field, replace
+from swarmdsl.project.loader import File, Project
+from swarmdsl.syntax.ast import (
+    Activity,
+    BehaviorUse,
+    Component,
+    Declaration,
+    EnumType,
+    Event,
+    Member,
+    MonitorTrigger,
+    Operation,
+    Param,
+    Part,
+    Ref,
+    StateMachine,
+    TypeRef,
+    Variable,
+    nodes_of,
+)
+
+
+@dataclass(frozen=True)
+class Context:
+    """Passed through lowering.
+
+    `names` gives each declaration its name in the system: its own, with the package
+    before it where two packages use the same. `operations` gives the functions of operations
+    by the namespace of their server, `services` the types of these servers. `heard` gives the
+    events by the topics they are heard on; `monitored` are those among them that are not
+    declared, because a transition monitors their topic.
+    `behaving` are the members and components by machine, `parts` those of members by what
+    they are.
+    In a machine that another one reuses, `variables` and `values` say what its variables
+    are called there and which values its params have. `enums` are the types of the numbers
+    behind enums.
+    """
+
+    names: Mapping[Declaration, str]
+    operations: Mapping[tuple[str, Operation], str]
+    services: Mapping[Operation, ir.Named]
+    heard: Mapping[str, str]
+    monitored: tuple[ir.Event, ...]
+    typing: Typing
+    behaving: Mapping[StateMachine, list[Member | Component]]
+    parts: Mapping[Component, list[Part]]
+    variables: Mapping[Variable, str] = field(default_factory=dict)
+    values: Mapping[Param, ir.Expression] = field(default_factory=dict)
+    enums: Mapping[ir.Named, ir.Primitive] = field(default_factory=dict)
+
+    def name(self, ref: Ref[Any]) -> str:
+        """The name of what a resolved reference means."""
+        return self.names[cast("Declaration", ref.target)]
+
+    def function(self, activity: Activity) -> str:
+        """The name of the function that an activity calls."""
+        operation = activity.function.target
+        if not isinstance(operation, Operation):
+            return self.name(activity.function)
+        assert activity.owner is not None
+        return self.operations[self.namespace(activity.owner), operation]
+
+    def namespace(self, owner: Component | Part) -> str:
+        """Where the servers of its operations are, from the namespace of the robot."""
+        return str(owner.name) if isinstance(owner, Part) else snake_case(self.names[owner])
+
+    def offered(self, owner: Component | Part) -> tuple[str, ...]:
+        """The functions that its operations are, inherited ones first."""
+        namespace = self.namespace(owner)
+        return tuple(self.operations[namespace, item] for item in operations_of(owner))
+
+    def reusing(
+        self, variables: Mapping[Variable, str], values: Mapping[Param, ir.Expression]
+    ) -> Context:
+        """The same inside a reused machine."""
+        return replace(self, variables=variables, values=values)
+
+    def with_event(self, type_: ir.Type) -> Context:
+        """The same, where `event` is a message of that type."""
+        return replace(self, typing=self.typing.on_event(type_))
+
+    def type_of(self, ref: TypeRef) -> ir.Type:
+        """The type a resolved type reference means, an enum's being that of its numbers."""
+        assert ref.type is not None
+        return self.plain(ref.type)
+
+    def plain(self, type_: ir.Type) -> ir.Type:
+        """The same type with the numbers of enums for the enums."""
+        if isinstance(type_, ir.Array):
+            return replace(type_, element=self.plain(type_.element))
+        return self.enums.get(type_, type_) if isinstance(type_, ir.Named) else type_
+
+
+def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Context:
+    """Name what belongs to the system and gather what is known of types and behaviours."""
+    count = Counter(str(declaration.name) for _, declaration in pairs)
+    names: dict[Declaration, str] = {}
+    behaving: dict[StateMachine, list[Member | Component]] = {}
+    parts: dict[Component, list[Part]] = {}
+    enums: dict[ir.Named, ir.Primitive] = {}
+    taken = set(count)
+    for file, declaration in pairs:
+        name = str(declaration.name)
+        if count[name] > 1:
+            name = f"{file.package.replace('.', '_')}_{name}"
+            while name in taken:
+                name += "_"
+            taken.add(name)
+        names[declaration] = name
+        if isinstance(declaration, EnumType) and declaration.type is not None:
+            enums[declaration.type] = underlying(declaration)
+        if isinstance(declaration, (Member, Component)):
+            for use in all_items(declaration, BehaviorUse):
+                if use.machine.target is not None:
+                    behaving.setdefault(use.machine.target, []).append(declaration)
+        for part in all_items(declaration, Part) if isinstance(declaration, Member) else ():
+            if part.component.target is not None:
+                parts.setdefault(part.component.target, []).append(part)
+    taken = set(names.values())
+    operations: dict[tuple[str, Operation], str] = {}
+    services: dict[Operation, ir.Named] = {}
+    typing = Typing(Interfaces(project.declarations()), Diagnostics())
+    context = Context(names, operations, services, {}, (), typing, behaving, parts, enums=enums)
+    for file, declaration in pairs:
+        for item in declaration.items if isinstance(declaration, Component) else ():
+            if isinstance(item, Operation):
+                service = f"{declaration.name}{camel_case(item.name)}"
+                services[item] = interface_name(file, service)
+    for owner in operation_owners(pairs):
+        namespace = context.namespace(owner)
+        for item in operations_of(owner):
+            if (namespace, item) not in operations:
+                name = f"{namespace}_{item.name}"
+                while name in taken:
+                    name += "_"
+                taken.add(name)
+                operations[namespace, item] = name
+    heard: dict[str, str] = {}
+    for _, declaration in pairs:
+        if isinstance(declaration, Event):
+            heard.setdefault(heard_on(declaration), names[declaration])
+    monitored = tuple(_monitored(pairs, heard, taken))
+    heard.update({event.topic: event.name for event in monitored})
+    return replace(context, heard=heard, monitored=monitored)
+
+
+def operation_owners(pairs: Iterable[tuple[File, Declaration]]) -> list[Component | Part]:
+    """What can be asked for operations: the components, then the parts of the members."""
+    owners = [declaration for _, declaration in pairs]
+    return [
+        *(owner for owner in owners if isinstance(owner, Component)),
+        *(item for owner in owners if isinstance(owner, Member) for item in all_items(owner, Part)),
+    ]
+
+
+def operations_of(owner: Component | Part) -> list[Operation]:
+    """The operations of a component, or of the one that a part is."""
+    component = owner.component.target if isinstance(owner, Part) else owner
+    assert component is not None
+    return all_items(component, Operation)
+
+
+def _monitored(
+    pairs: Iterable[tuple[File, Declaration]], declared: Container[str], taken: set[str]
+) -> Iterator[ir.Event]:
+    """One event for each other topic that is monitored, named after it."""
+    seen: set[str] = set()
+    for _, declaration in pairs:
+        for node in nodes_of(declaration, MonitorTrigger):
+            if node.type.type is None:
+                continue
+            topic = heard_on(node)
+            if topic in declared or topic in seen:
+                continue
+            seen.add(topic)
+            name = camel_case(topic)
+            if not name[:1].isalpha():
+                name = f"Topic{name}"
+            while name in taken:
+                name += "_"
+            taken.add(name)
+            yield ir.Event(name, node.type.type, topic, False, "", node.span)

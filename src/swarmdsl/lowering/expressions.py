@@ -1,0 +1,130 @@
+"""Expressions, with their types filled in."""
+
+from __future__ import annotations
+
+from swarmdsl import ir
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Span
+from swarmdsl.lowering.context import Context
+from swarmdsl.syntax.ast import (
+    Call,
+    Constant,
+    EnumType,
+    Expression,
+    ExpressionTree,
+    FieldUse,
+    FitnessInput,
+    NameUse,
+    OperatorUse,
+    Param,
+    Value,
+    Variable,
+)
+from swarmdsl.syntax.parser.literals import nanoseconds
+from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
+
+_TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
+
+
+def lower_optional(expression: Expression | None, context: Context) -> ir.Expression | None:
+    """An expression, or None where there is none."""
+    return None if expression is None else lower_expression(expression, context)
+
+
+def lower_expression(expression: Expression, context: Context) -> ir.Expression:
+    """An expression that was parsed and checked."""
+    assert expression.tree is not None
+    return _lower(expression.tree, context)
+
+
+def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str, ...]]:
+    """A place to store a value: the variable and the fields below it."""
+    tree = expression.tree
+    path: list[str] = []
+    while isinstance(tree, FieldUse):
+        path.insert(0, str(tree.name))
+        tree = tree.base
+    assert isinstance(tree, NameUse)
+    assert isinstance(tree.target, Variable)
+    return context.variables.get(tree.target, tree.name), tuple(path)
+
+
+def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
+    """An expression; its type follows from its parts, which may stand for other values here."""
+    match tree:
+        case Value():
+            return _literal(tree)
+        case NameUse(target=Param() as param) if param in context.values:
+            return context.values[param]
+        case NameUse(target=Constant() as constant):
+            return _constant(constant, tree.span, context)
+        case NameUse():
+            return _name(tree, context)
+        case FieldUse(base=NameUse(target=EnumType() as enum), name=name):
+            return ir.Literal(context.typing.folding.numbers(enum)[str(name)], INT, tree.span)
+        case FieldUse(base=base, name=name):
+            owner = _lower(base, context)
+            type_ = context.typing.field(owner.type, name, name.span)
+            type_ = context.plain(type_) if type_ is not None else None
+            return ir.FieldAccess(owner, str(name), type_, tree.span)
+        case Call(function=function, arguments=arguments):
+            values = tuple(_lower(argument, context) for argument in arguments)
+            return ir.Call(str(function), values, _result(tree, values, context), tree.span)
+        case OperatorUse(operator=operator, operands=operands):
+            values = tuple(_lower(operand, context) for operand in operands)
+            type_ = _result(tree, values, context)
+            if len(values) == 1:
+                return _unary(str(operator), values[0], type_, tree.span)
+            return ir.Binary(str(operator), values[0], values[1], type_, tree.span)
+    raise AssertionError(tree)
+
+
+def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
+    """The value of a constant: its expression could be that of others, again and again."""
+    value = context.typing.folding.constant(constant)
+    assert value is not None
+    if constant.type.type == DURATION:
+        assert not isinstance(value, str)
+        return ir.Literal(round(value), DURATION, at)
+    return ir.Literal(value, _TYPES[type(value)], at)
+
+
+def _name(use: NameUse, context: Context) -> ir.Expression:
+    type_ = context.typing.infer(use)
+    assert type_ is not None
+    type_ = context.plain(type_)
+    match use.target:
+        case Param():
+            return ir.ParamRef(use.name, type_, use.span)
+        case Variable() as variable:
+            return ir.VariableRef(context.variables.get(variable, use.name), type_, use.span)
+        case FitnessInput():
+            return ir.VariableRef(use.name, type_, use.span)
+    assert use.name == "event"
+    return ir.EventData(type_, use.span)
+
+
+def _result(
+    tree: Call | OperatorUse, operands: tuple[ir.Expression, ...], context: Context
+) -> ir.Type | None:
+    return context.typing.result(tree, [operand.type for operand in operands])
+
+
+def _unary(operator: str, operand: ir.Expression, type_: ir.Type | None, at: Span) -> ir.Expression:
+    """An operator before its operand; with a number it makes another number."""
+    if operator == "-" and isinstance(operand, ir.Literal) and not isinstance(operand.value, str):
+        return replace(operand, value=-operand.value, origin=at)
+    return ir.Unary(operator, operand, type_, at)
+
+
+def _literal(value: Value) -> ir.Literal:
+    match value.value:
+        case bool():
+            return ir.Literal(value.value, BOOL, value.span)
+        case int() | float() if value.unit:
+            return ir.Literal(nanoseconds(value.span.text, value.unit), DURATION, value.span)
+        case int():
+            return ir.Literal(value.value, INT, value.span)
+        case float():
+            return ir.Literal(value.value, FLOAT, value.span)
+    return ir.Literal(value.value, STRING, value.span)

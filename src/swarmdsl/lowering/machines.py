@@ -1,0 +1,250 @@
+"""State machines: ids, submachines put in place, references by id."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import partial
+
+from swarmdsl import ir
+from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.machines import regions, vertices
+from swarmdsl.base.naming import snake_case
+from swarmdsl.base.records import replace
+from swarmdsl.lowering.context import Context
+from swarmdsl.lowering.docs import lower_docs
+from swarmdsl.lowering.expressions import lower_expression, lower_optional
+from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.lowering.transitions import (
+    Frame,
+    lower_activity,
+    lower_branch,
+    lower_effects,
+    lower_transitions,
+)
+from swarmdsl.syntax.ast import (
+    Choice,
+    Component,
+    Container,
+    Entry,
+    Exit,
+    FinalState,
+    History,
+    Initial,
+    Member,
+    NameUse,
+    Parallel,
+    Param,
+    Region,
+    State,
+    StateMachine,
+    Variable,
+    Vertex,
+    nodes_of,
+)
+
+
+def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
+    """A machine as a behaviour of its own, the machines it reuses in place."""
+    params = _params(machine, context)
+    builder = _Builder({param.name for param in params})
+    frame = Frame(_ids(machine, ""), context)
+    initial = frame.ids[_initial(machine)]
+    builder.add_variables(machine, "", context)
+    states = builder.states(machine, frame)
+    return ir.StateMachine(
+        name=context.names[machine],
+        initial=initial,
+        states=states,
+        variables=tuple(builder.variables),
+        params=params,
+        endless=machine.endless,
+        doc=machine.doc,
+        docs=lower_docs(machine.items),
+        origin=machine.name.span,
+    )
+
+
+class _Builder:
+    """Builds the states of one machine and gathers the variables of those it reuses."""
+
+    def __init__(self, taken: set[str]) -> None:
+        self.variables: list[ir.Variable] = []
+        self._taken = taken
+
+    def add_variables(
+        self, machine: StateMachine, prefix: str, context: Context
+    ) -> dict[Variable, str]:
+        """Add a machine's variables, named after the state that reuses it; return the names."""
+        names: dict[Variable, str] = {}
+        for item in machine.items:
+            if isinstance(item, Variable):
+                name = prefix + item.name
+                while name in self._taken:
+                    name += "_"
+                self._taken.add(name)
+                names[item] = name
+                self.variables.append(
+                    ir.Variable(
+                        name,
+                        context.type_of(item.type),
+                        lower_optional(item.initial, context),
+                        item.doc,
+                        item.name.span,
+                    )
+                )
+        return names
+
+    def states(self, container: Container, frame: Frame) -> tuple[ir.State, ...]:
+        """The states directly inside a container."""
+        return tuple(self._state(state, frame) for state in vertices(container))
+
+    def _state(self, state: Vertex, frame: Frame) -> ir.State:
+        made = partial(
+            ir.State,
+            id=frame.ids[state],
+            name=str(state.name),
+            doc=state.doc,
+            origin=state.name.span,
+        )
+        match state:
+            case FinalState():
+                return made(kind=ir.StateKind.FINAL)
+            case History():
+                assert state.target.target is not None
+                target = frame.ids[state.target.target]
+                resume = ir.Transition((), None, (), target, origin=state.span)
+                return made(kind=ir.StateKind.HISTORY, deep=state.deep, transitions=(resume,))
+            case Choice():
+                branches = tuple(lower_branch(branch, frame) for branch in state.branches)
+                return made(kind=ir.StateKind.CHOICE, transitions=branches)
+            case Parallel():
+                return made(
+                    kind=ir.StateKind.PARALLEL,
+                    states=tuple(
+                        self._region(item, frame)
+                        for item in state.items
+                        if isinstance(item, Region)
+                    ),
+                    transitions=lower_transitions(state, frame),
+                    entry=lower_effects(state, Entry, frame),
+                    exit=lower_effects(state, Exit, frame),
+                    docs=lower_docs(state.items),
+                )
+            case State():
+                made = partial(
+                    made,
+                    transitions=lower_transitions(state, frame),
+                    exit=lower_effects(state, Exit, frame),
+                    docs=lower_docs(state.items),
+                )
+                entry = lower_effects(state, Entry, frame)
+                if state.machine is not None:
+                    return self._submachine(made, entry, state, frame)
+                if vertices(state):
+                    return made(
+                        kind=ir.StateKind.COMPOSITE,
+                        initial=frame.ids[_initial(state)],
+                        states=self.states(state, frame),
+                        entry=entry,
+                    )
+                activity = lower_activity(state, frame)
+                return made(kind=ir.StateKind.SIMPLE, activity=activity, entry=entry)
+
+    def _region(self, region: Region, frame: Frame) -> ir.State:
+        return ir.State(
+            id=frame.ids[region],
+            name=str(region.name),
+            kind=ir.StateKind.REGION,
+            initial=frame.ids[_initial(region)],
+            states=self.states(region, frame),
+            doc=region.doc,
+            docs=lower_docs(region.items),
+            origin=region.name.span,
+        )
+
+    def _submachine(
+        self,
+        made: partial[ir.State],
+        entry: tuple[ir.Effect, ...],
+        state: State,
+        frame: Frame,
+    ) -> ir.State:
+        assert state.machine is not None
+        machine = state.machine.target
+        assert machine is not None
+        names = self.add_variables(machine, snake_case(frame.ids[state]) + "_", frame.context)
+        bound = {str(binding.name): binding.value for binding in state.bindings}
+        values = {}
+        for item in machine.items:
+            if isinstance(item, Param):
+                value = bound.get(str(item.name), item.default)
+                assert value is not None
+                values[item] = lower_expression(value, frame.context)
+        inner = Frame(_ids(machine, frame.ids[state]), frame.context.reusing(names, values))
+        return made(
+            kind=ir.StateKind.COMPOSITE,
+            initial=inner.ids[_initial(machine)],
+            states=self.states(machine, inner),
+            # Its variables start anew each time: a counter of tries, for instance.
+            entry=(*_first_values(names, frame.context), *entry),
+            submachine=frame.context.names[machine],
+        )
+
+
+def _first_values(names: Mapping[Variable, str], context: Context) -> Iterator[ir.Assignment]:
+    for variable, name in names.items():
+        if variable.initial is not None:
+            value = lower_expression(variable.initial, context)
+            yield ir.Assignment(name, (), value, variable.name.span)
+
+
+def _ids(container: Container, prefix: str) -> dict[Vertex | Region, str]:
+    """Paths of all states of a machine below `prefix`, those of reused machines left out."""
+    found: dict[Vertex | Region, str] = {}
+    for inside in (*vertices(container), *regions(container)):
+        path = f"{prefix}.{inside.name}" if prefix else str(inside.name)
+        found[inside] = path
+        if isinstance(inside, (State, Parallel, Region)):
+            found |= _ids(inside, path)
+    return found
+
+
+def _initial(container: Container) -> Vertex:
+    found = next(item for item in container.items if isinstance(item, Initial))
+    assert found.target.target is not None
+    return found.target.target
+
+
+def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
+    """The params a machine runs with: its own, and those of its members that it uses.
+
+    A default is that of the members and components which behave so, where they agree.
+    """
+    own = [item for item in machine.items if isinstance(item, Param)]
+    used = {use.target for use in nodes_of(machine, NameUse) if isinstance(use.target, Param)}
+    given = [
+        values for owner in context.behaving.get(machine, []) for values in _values(owner, context)
+    ]
+    found = []
+    for param in lower_params(
+        [*own, *sorted(used - set(own), key=lambda p: p.span.absolute.start)], context
+    ):
+        values = [params.get(param.name, param.default) for params in given] or [param.default]
+        agreed = values[0] if all(value == values[0] for value in values) else None
+        found.append(replace(param, default=agreed, declared=param.default))
+    return tuple(found)
+
+
+def _values(
+    owner: Member | Component, context: Context
+) -> Iterator[dict[str, ir.Expression | None]]:
+    """The values of an owner's params: for a component, in each part that is one."""
+    defaults = {
+        param.name: param.default for param in lower_params(all_items(owner, Param), context)
+    }
+    parts = context.parts.get(owner, []) if isinstance(owner, Component) else []
+    for part in parts:
+        given = {str(v.name): lower_expression(v.value, context) for v in part.values}
+        yield {**defaults, **given}
+    if not parts:
+        yield defaults

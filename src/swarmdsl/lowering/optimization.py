@@ -1,0 +1,76 @@
+"""Fitness and optimization."""
+
+from __future__ import annotations
+
+from swarmdsl import ir
+from swarmdsl.lowering.context import Context
+from swarmdsl.lowering.docs import lower_docs
+from swarmdsl.lowering.expressions import lower_expression, lower_optional
+from swarmdsl.lowering.interfaces import lower_params
+from swarmdsl.syntax.ast import (
+    CountRange,
+    Fitness,
+    FitnessInput,
+    Objective,
+    Optimization,
+    ParamRange,
+    Setting,
+)
+
+
+def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
+    """A fitness with its inputs and params."""
+    objective = next(item for item in fitness.items if isinstance(item, Objective))
+    return ir.Fitness(
+        name=context.names[fitness],
+        inputs=tuple(
+            ir.Field(str(item.name), context.type_of(item.type), item.doc, item.name.span)
+            for item in fitness.items
+            if isinstance(item, FitnessInput)
+        ),
+        params=lower_params(fitness.items, context),
+        goal=objective.goal,
+        value=lower_expression(objective.value, context),
+        doc=fitness.doc,
+        docs=lower_docs(fitness.items),
+        origin=fitness.name.span,
+    )
+
+
+def lower_optimization(optimization: Optimization, context: Context) -> ir.Optimization:
+    """What an optimiser may vary."""
+    return ir.Optimization(
+        swarm=context.name(optimization.swarm),
+        params=tuple(
+            ir.ParamRange(
+                item.role.name,
+                item.param.name,
+                lower_expression(item.lower, context),
+                lower_expression(item.upper, context),
+                lower_optional(item.step, context),
+                item.doc,
+                item.span,
+            )
+            for item in optimization.items
+            if isinstance(item, ParamRange)
+        ),
+        counts=tuple(
+            ir.CountRange(
+                item.role.name,
+                lower_expression(item.lower, context),
+                lower_expression(item.upper, context),
+                item.doc,
+                item.span,
+            )
+            for item in optimization.items
+            if isinstance(item, CountRange)
+        ),
+        settings=tuple(
+            (item.name, lower_expression(item.value, context))
+            for item in optimization.items
+            if isinstance(item, Setting)
+        ),
+        doc=optimization.doc,
+        docs=lower_docs(optimization.items),
+        origin=optimization.swarm.span,
+    )

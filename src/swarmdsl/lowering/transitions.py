@@ -1,0 +1,182 @@
+"""What is on a state: transitions, effects on entry and exit, the activity."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from swarmdsl import ir
+from swarmdsl.analysis.event_topics import heard_on
+from swarmdsl.base.records import dataclass, replace
+from swarmdsl.lowering.context import Context
+from swarmdsl.lowering.expressions import lower_expression, lower_optional, lower_path
+from swarmdsl.syntax.ast import (
+    Activity,
+    Argument,
+    Assignment,
+    Branch,
+    DoneTrigger,
+    Effect,
+    Entry,
+    EventTrigger,
+    Exit,
+    MonitorTrigger,
+    OutcomeTrigger,
+    Parallel,
+    Ref,
+    Region,
+    Send,
+    State,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    Vertex,
+)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One use of a machine: the ids of its states there, and what its names mean."""
+
+    ids: Mapping[Vertex | Region, str]
+    context: Context
+
+
+def lower_effects(
+    state: State | Parallel, kind: type[Entry] | type[Exit], frame: Frame
+) -> tuple[ir.Effect, ...]:
+    """The effects on entry or on exit of a state."""
+    return tuple(
+        _effect(effect, frame.context)
+        for item in state.items
+        if isinstance(item, kind)
+        for effect in item.effects
+    )
+
+
+def lower_transitions(state: State | Parallel, frame: Frame) -> tuple[ir.Transition, ...]:
+    """The transitions that a state holds."""
+    items = [item for item in state.items if isinstance(item, Transition)]
+    return tuple(made for item in items for made in _transition(item, state, frame))
+
+
+def _transition(
+    transition: Transition, owner: State | Parallel, frame: Frame
+) -> Iterator[ir.Transition]:
+    """One transition; two where one of the triggers is the completion of a simple state.
+
+    A state that does nothing and has nothing in it is complete at once (UML 2.5.1, 14.2.3.4):
+    a transition on that is one without trigger.
+    """
+    context = frame.context
+    types = [_message_type(trigger, context) for trigger in transition.triggers]
+    if types and types[0] is not None:
+        context = context.with_event(types[0])
+    waiting = [t for t in transition.triggers if not _at_once(t, owner)]
+    triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
+    made = ir.Transition(
+        triggers=triggers,
+        guard=lower_optional(transition.guard, context),
+        effects=tuple(_effect(effect, context) for effect in transition.effects),
+        target=_target(transition.target, frame) if transition.target is not None else None,
+        # Without a target a transition is internal anyway.
+        internal=transition.internal and transition.target is not None,
+        doc=transition.doc,
+        origin=transition.span,
+    )
+    if len(waiting) < len(transition.triggers):
+        yield replace(made, triggers=())
+    if waiting or not transition.triggers:
+        yield made
+
+
+def _message_type(trigger: Trigger, context: Context) -> ir.Type | None:
+    match trigger:
+        case EventTrigger():
+            assert trigger.event.target is not None
+            return context.type_of(trigger.event.target.type)
+        case MonitorTrigger():
+            return context.type_of(trigger.type)
+    return None
+
+
+def _at_once(trigger: Trigger, owner: State | Parallel) -> bool:
+    if not (isinstance(trigger, DoneTrigger) and trigger.region is None):
+        return False
+    return (
+        isinstance(owner, State)
+        and owner.machine is None
+        and not any(isinstance(item, (Activity, Vertex)) for item in owner.items)
+    )
+
+
+def lower_branch(branch: Branch, frame: Frame) -> ir.Transition:
+    """A branch of a choice."""
+    return ir.Transition(
+        triggers=(),
+        guard=lower_optional(branch.guard, frame.context),
+        effects=tuple(_effect(effect, frame.context) for effect in branch.effects),
+        target=_target(branch.target, frame),
+        doc=branch.doc,
+        origin=branch.span,
+    )
+
+
+def _target(ref: Ref[Vertex], frame: Frame) -> str:
+    assert ref.target is not None
+    return frame.ids[ref.target]
+
+
+def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trigger:
+    match trigger:
+        case EventTrigger():
+            return ir.EventTrigger(frame.context.name(trigger.event), trigger.span)
+        case OutcomeTrigger(outcome=outcome):
+            return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
+        case MonitorTrigger():
+            return ir.EventTrigger(frame.context.heard[heard_on(trigger)], trigger.span)
+        case TimeTrigger(delay=delay):
+            return ir.TimeTrigger(lower_expression(delay, frame.context), trigger.span)
+        case DoneTrigger(region=region, final=final):
+            state = frame.ids[owner]
+            if region is not None:
+                state = f"{state}.{region.name}"
+            reached = f"{state}.{final.name}" if final is not None else None
+            return ir.DoneTrigger(state, reached, trigger.span)
+
+
+def _effect(effect: Effect, context: Context) -> ir.Effect:
+    match effect:
+        case Assignment():
+            variable, path = lower_path(effect.target, context)
+            value = lower_expression(effect.value, context)
+            return ir.Assignment(variable, path, value, effect.span)
+        case Send():
+            return ir.Send(
+                context.name(effect.event), _arguments(effect.arguments, context), effect.span
+            )
+
+
+def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
+    """What a simple state does, if anything."""
+    found = next((item for item in state.items if isinstance(item, Activity)), None)
+    if found is None:
+        return None
+    context = frame.context
+    return ir.Activity(
+        function=context.function(found),
+        arguments=_arguments(found.arguments, context),
+        goal_callback=str(found.goal_callback) if found.goal_callback else None,
+        results=tuple(
+            ir.ResultMapping(str(result.field), *lower_path(result.target, context), result.span)
+            for result in found.results
+        ),
+        result_callback=str(found.result_callback) if found.result_callback else None,
+        doc=found.doc,
+        origin=found.span,
+    )
+
+
+def _arguments(
+    arguments: list[Argument], context: Context
+) -> tuple[tuple[str, ir.Expression], ...]:
+    return tuple((str(a.name), lower_expression(a.value, context)) for a in arguments)

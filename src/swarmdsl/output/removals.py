@@ -1,0 +1,98 @@
+"""Files that are not generated any more: they go, or are put aside with the lines of the user."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager, suppress
+
+from swarmdsl.base.relative_paths import clash_key
+from swarmdsl.output import warnings
+from swarmdsl.output.changes import PARKED, Action, Change
+from swarmdsl.output.disk import UnreadableError, report_os_error
+from swarmdsl.output.plan import Plan
+
+
+def drop_stale(plan: Plan, targets: Collection[str]) -> None:
+    """Decide about what was generated before for these targets and is not any more."""
+    for path in [path for path in plan.parked if not plan.is_there(f"{PARKED}/{path}")]:
+        del plan.parked[path]
+    new = {clash_key(path): path for path in plan.hashes}
+    moved = {source for source, _ in plan.moved.values()}
+    for path, old in plan.before.files.items():
+        if path.partition("/")[0] not in targets:
+            plan.hashes[path] = old
+        elif path not in new.values() and path not in moved:
+            _drop(plan, path, old, new.get(clash_key(path)))
+    _keep_what_is_known(plan)
+
+
+def remove_generated(plan: Plan, targets: Collection[str]) -> None:
+    """Decide to remove what was generated for these targets and not edited."""
+    for path, hash_ in plan.before.files.items():
+        plan.hashes[path] = hash_
+        if path.partition("/")[0] in targets and plan.is_inside(path):
+            with _told(plan, path):
+                _remove(plan, path, hash_)
+    _keep_what_is_known(plan)
+
+
+def _remove(plan: Plan, path: str, hash_: str) -> None:
+    content = plan.disk.content(path)
+    if content is None:
+        del plan.hashes[path]
+        return
+    if plan.disk.is_link(path) or not plan.is_pristine(path, content, hash_):
+        plan.edited.append(path)
+        return
+    del plan.hashes[path]
+    plan.changes.append(Change(Action.REMOVE, path, content, None))
+
+
+@contextmanager
+def _told(plan: Plan, path: str) -> Iterator[None]:
+    """Tell of what cannot be read; what is there now and is no file is not swarmc's."""
+    with suppress(OSError):
+        try:
+            yield
+        except UnreadableError as error:
+            report_os_error(plan.disk.out / path, error, plan.report)
+
+
+def _keep_what_is_known(plan: Plan) -> None:
+    """Of files that are no more looked at, but there."""
+    for path, owner in plan.before.owners.items():
+        if path in plan.hashes or path in plan.parked:
+            plan.owners.setdefault(path, owner)
+    for path, map_ in plan.before.maps.items():
+        if path in plan.hashes:
+            plan.maps.setdefault(path, map_)
+
+
+def _drop(plan: Plan, path: str, old: str, successor: str | None) -> None:
+    """Remove a file, or put it aside where it has lines of the user."""
+    with _told(plan, path):
+        if plan.disk.is_link(path) or not plan.leads_inside(path):
+            return
+        if successor is not None and plan.disk.same(path, successor):
+            return  # one file under two names, where case does not count
+        content = plan.disk.content(path)
+        if content is None:
+            return
+        if plan.is_pristine(path, content, old):
+            plan.changes.append(Change(Action.REMOVE, path, content, None))
+        else:
+            _park(plan, path, content, old)
+
+
+def _park(plan: Plan, path: str, content: bytes, old: str) -> None:
+    aside, number = f"{PARKED}/{path}", 1
+    while plan.is_there(aside) and plan.disk.content(aside) != content:
+        aside, number = f"{PARKED}/{path}.{number}", number + 1
+    if not plan.is_inside(aside):
+        return
+    plan.parked[aside.removeprefix(f"{PARKED}/")] = old
+    mode, replaced = plan.disk.mode(path), plan.disk.content(aside)
+    change = Change(Action.PARK, aside, content, content, path, mode=mode, replaced=replaced)
+    plan.changes.append(change)
+    out = plan.disk.out
+    warnings.report_parked(out / path, out / aside, plan.remarks)

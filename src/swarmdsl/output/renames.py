@@ -1,0 +1,97 @@
+"""Elements of the model that get another name: their files move, and names in them change."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from contextlib import suppress
+
+from swarmdsl.base.records import replace
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.user_code_marks import mark_in, mark_of, marked
+from swarmdsl.output import warnings
+from swarmdsl.output.changes import PARKED, Action
+from swarmdsl.output.names import Names
+from swarmdsl.output.plan import Found, Plan
+
+
+def find_moves(plan: Plan, made: Mapping[str, OutputFile]) -> None:
+    """Which files are those of elements that had another name, and have lines of the user."""
+    for old, new in plan.how.renames:
+        names = Names(old, new)
+        found = 0
+        for path, base in (*plan.before.files.items(), *plan.before.parked.items()):
+            moved = names(path)
+            if moved == path or moved not in made or path in made or moved in plan.moved:
+                continue
+            found += 1
+            source = path if path in plan.before.files else f"{PARKED}/{path}"
+            with suppress(OSError):
+                content = plan.disk.content(source) if plan.leads_inside(source) else None
+                if content is not None and not plan.is_pristine(path, content, base):
+                    plan.moved[moved] = (source, names)
+                    if source != path:
+                        plan.parked.pop(path, None)
+        if not found:
+            warnings.report_bad_rename(names, made, plan.report)
+
+
+def add_strays(plan: Plan, targets: Collection[str], made: Mapping[str, OutputFile]) -> None:
+    """Move what the user has put beside generated files into the folder with the new name."""
+    known = (*plan.before.files, *plan.before.parked)
+    tops = {"/".join(path.split("/")[:2]) for path in known}
+    there: set[str] = set()
+    for old, new in plan.how.renames:
+        names = Names(old, new)
+        for top in sorted(top for top in tops if names(top) != top):
+            taken = any(path.startswith(f"{top}/") for path in made)
+            if taken or top.partition("/")[0] not in targets:
+                continue
+            for path in plan.disk.files(top):
+                moved = names(path)
+                free = moved not in made and moved not in there and not plan.is_there(moved)
+                if path not in plan.before.files and free and plan.leads_inside(path):
+                    there.add(moved)
+                    content = plan.disk.content(path)
+                    if content is not None:
+                        plan.bring(moved, Found(content, None, path, names), content)
+
+
+def find_renamed(plan: Plan, made: Mapping[str, OutputFile]) -> None:
+    """Tell of new elements that may be those that are gone, under another name."""
+    aside: dict[tuple[str, str], list[str]] = {}
+    for path in plan.parked:
+        if path in plan.owners and path not in made:
+            old, _, mark = plan.owners[path].rpartition(" ")
+            aside.setdefault((old, mark), []).append(path)
+    created = {change.path for change in plan.changes if change.action is Action.CREATE}
+    fresh = {path: file for path, file in made.items() if file.owner and path in created}
+    for (old, mark), paths in aside.items():
+        owners = {file.owner for file in fresh.values()} - {old}
+        facts = plan.texts.facts(mark) or []
+        like = [new for new in owners if _is_like(Names(old, new), paths, facts, fresh)]
+        if len(like) == 1:
+            place = next(file.origin for file in fresh.values() if file.owner == like[0])
+            warnings.report_renamed(old, like[0], place, plan.how.command, plan.remarks)
+
+
+def renamed(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> Found:
+    """The content with the new name of its element, as far as that is clear."""
+    if found.names is None:
+        return found
+    text = found.content.decode(errors="surrogateescape")
+    text, left = found.names.rewritten(text, new.decode())
+    content = text.encode(errors="surrogateescape")
+    mark = mark_in(content)
+    facts = plan.texts.facts(mark) if mark is not None and file.facts else None
+    if facts is not None and found.names.same(facts, file.facts):
+        content = marked(content, mark_of(file.facts))
+    warnings.report_old_name(plan.disk.out / path, content, left, found.names, plan.remarks)
+    return replace(found, content=content)
+
+
+def _is_like(
+    names: Names, paths: Iterable[str], facts: Sequence[str], fresh: Mapping[str, OutputFile]
+) -> bool:
+    """Whether files of an element would be those of another one, if it had another name."""
+    files = [fresh.get(names(path)) for path in paths]
+    return all(file is not None and names.same(facts, file.facts) for file in files)

@@ -1,0 +1,331 @@
+"""Files into memory: read, parse, follow imports."""
+
+from __future__ import annotations
+
+import os
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.graphs import cycles
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.base.source import Source, Span
+from swarmdsl.base.suggest import did_you_mean
+from swarmdsl.project.libraries import SUFFIX, Libraries, imported_name, place_of
+from swarmdsl.project.read_source import read_source, without_control_characters
+from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, parse_interface
+from swarmdsl.syntax.ast import (
+    Declaration,
+    Import,
+    ImportFile,
+    ImportLibrary,
+    ImportRos,
+    Model,
+    Optimization,
+)
+from swarmdsl.syntax.parser.parse import Parsed, parse
+
+if TYPE_CHECKING:
+    from swarmdsl.project.rosidl.package_folder import InterfacePath
+
+_IMPORTED = "`swarmc import` makes a model of SCXML, ADF and AMF"
+_WAYS = {
+    ".toml": "`swarmc simulate --scenario FILE` plays a scenario, `swarmc test FILE` runs tests; "
+    "swarm.toml is found without being named",
+    ".jsonl": "`swarmc simulate` takes events by `--events FILE`, and traces by `--replay FILE`, "
+    "which is written before each",
+    ".json": "`swarmc simulate` takes events by `--events FILE`",
+    ".xml": _IMPORTED,
+    ".scxml": _IMPORTED,
+}
+"""What files are for that are often given in place of models, by their suffix."""
+
+
+@dataclass(eq=False)
+class File:
+    """A file of the project; `imports` are the files it imports, where they could be read.
+
+    One that only a library or a ROS package brings in is a `library` file: of what it
+    declares, only what is used belongs to the system.
+    """
+
+    source: Source
+    parsed: Parsed
+    library: bool = False
+    imports: list[tuple[Import, File]] = field(default_factory=list)
+
+    @property
+    def model(self) -> Model:
+        """The syntax tree."""
+        return self.parsed.model
+
+    @property
+    def package(self) -> str:
+        """The name of the package, or of the file where it declares none."""
+        if self.model.package is not None:
+            return str(self.model.package.name)
+        return Path(self.source.name).stem
+
+
+@dataclass
+class Project:
+    """All files of a run: first those that no other imports, then what they import.
+
+    So a folder and the one file in it that imports all others are the same project.
+    """
+
+    files: list[File] = field(default_factory=list)
+
+    def declarations(self) -> Iterator[tuple[File, Declaration]]:
+        """Every top-level declaration with its file."""
+        for file in self.files:
+            for declaration in file.model.declarations:
+                yield file, declaration
+
+    def optimizations(self) -> Iterator[tuple[File, Optimization]]:
+        """Every optimization with its file."""
+        for file in self.files:
+            for optimization in file.model.optimizations:
+                yield file, optimization
+
+
+class Reader:
+    """Brings files into memory; None for one that cannot be read, which is reported at `at`."""
+
+    def look(self, path: Path) -> None:
+        """Hear of a file or folder that was looked for: what it holds decides what is imported."""
+
+    def allows(self, path: Path, at: Span | None, report: Diagnostics) -> bool:
+        """Whether a file or folder may be read; one that may not is reported at `at`."""
+        return True
+
+    def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
+        """Read and parse a .swarm file."""
+        source = read_source(path, at, report)
+        return parsed_model(source, report) if source is not None else None
+
+    def interface(
+        self, interface: InterfacePath, at: Span | None, report: Diagnostics
+    ) -> File | None:
+        """Read a ROS interface file as a file with one declaration."""
+        source = read_source(interface.path, at, report)
+        return File(source, parsed_interface(interface, source, report)) if source else None
+
+
+_READER = Reader()
+
+
+def load(
+    paths: Iterable[Path],
+    report: Diagnostics,
+    libraries: Sequence[Path] = (),
+    reader: Reader = _READER,
+) -> Project:
+    """Read the files, those in the folders, and everything they import.
+
+    `libraries` are folders where packages are looked for, before the installed ones.
+    """
+    return _Loader(report, Libraries(libraries, report, reader.look), reader).load(paths)
+
+
+@dataclass
+class _Step:
+    """Something to read, and the import that asks for it (none for what the user named)."""
+
+    path: Path
+    importer: File | None = None
+    statement: Import | None = None
+    interface: InterfacePath | None = None
+
+    @property
+    def place(self) -> Span | None:
+        """Where to report what is wrong with it."""
+        return place_of(self.statement) if self.statement is not None else None
+
+    @property
+    def library(self) -> bool:
+        """Whether it comes from a library."""
+        if self.importer is None:
+            return False
+        return self.importer.library or not isinstance(self.statement, ImportFile)
+
+
+class _Loader:
+    def __init__(self, report: Diagnostics, libraries: Libraries, reader: Reader) -> None:
+        self._report = report
+        self._reader = reader
+        self._libraries = libraries
+        self._known: dict[str, File | None] = {}
+        self._work: deque[_Step] = deque()
+
+    def load(self, paths: Iterable[Path]) -> Project:
+        self._work.extend(_Step(path) for path in expanded(paths, self._report))
+        while self._work:
+            step = self._work.popleft()
+            file = self._file(step)
+            if file is None or step.importer is None or step.statement is None:
+                continue
+            step.importer.imports.append((step.statement, file))
+        files = [file for file in self._known.values() if file is not None]
+        _report_cycles(files, self._report)
+        for file in files:
+            for statement in file.model.imports:
+                self._check_name(file, statement)
+        return Project(_in_import_order(files))
+
+    def _file(self, step: _Step) -> File | None:
+        identity = os.path.realpath(step.path)
+        if identity not in self._known:
+            if step.interface is not None:
+                file = self._reader.interface(step.interface, step.place, self._report)
+            else:
+                file = self._reader.model(step.path, step.place, self._report)
+            self._known[identity] = file
+            if file is not None:
+                file.library = step.library
+                for statement in file.model.imports:
+                    self._work.extend(self._imported(file, statement))
+        file = self._known[identity]
+        if file is not None and not step.library:
+            file.library = False
+        return file
+
+    def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
+        folder = Path(file.source.name).parent
+        match statement:
+            case ImportFile(path=wanted) if Path(wanted).suffix[1:] in INTERFACE_KINDS:
+                self._report.report(
+                    "not-a-file",
+                    wanted.span,
+                    path=wanted,
+                    actual="an interface of ROS",
+                    expected="a .swarm file",
+                    help=f'write `import ros "{Path(wanted).parent.as_posix()}"`, with its folder',
+                )
+            case ImportFile(path=wanted):
+                yield _Step(_relative(folder, wanted), file, statement)
+            case ImportRos(path=wanted):
+                place = _relative(folder, wanted)
+                if not self._reader.allows(place, wanted.span, self._report):
+                    return
+                # Imported here because most files import no interfaces.
+                from swarmdsl.project.rosidl.package_folder import find_interfaces
+
+                found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
+                for interface in found:
+                    yield _Step(interface.path, file, statement, interface)
+            case ImportLibrary():
+                for path in self._libraries.find_package(statement, folder):
+                    yield _Step(path, file, statement)
+
+    def _check_name(self, file: File, statement: Import) -> None:
+        """Report the one name that an import brings in where its package does not declare it.
+
+        The import is left out then, so that what it was meant to bring in is not missed.
+        """
+        name = imported_name(statement)
+        targets = [target for found, target in file.imports if found is statement]
+        if name is None or not targets:
+            return
+        declared = [str(node.name) for target in targets for node in target.model.declarations]
+        if name in declared or any(name in target.parsed.lost_names for target in targets):
+            return
+        place = place_of(statement)
+        whole = place.text
+        help_ = did_you_mean(name, declared)
+        if self._libraries.is_package(whole, Path(file.source.name).parent):
+            help_ = f"write `import {whole}.*` for all that this package declares"
+        self._report.report(
+            "unresolved-name",
+            Span(place.source, place.end - len(name), place.end),
+            kind=f"declaration of package `{whole.rpartition('.')[0]}`",
+            name=name,
+            help=help_,
+        )
+        file.imports = [found for found in file.imports if found[0] is not statement]
+
+
+def _in_import_order(files: list[File]) -> list[File]:
+    """Start with the files that no other imports, then level by level what they import."""
+    imported = {target for file in files for _, target in file.imports}
+    ordered = dict.fromkeys(file for file in files if file not in imported)
+    work = deque(ordered)
+    while work:
+        for _, target in work.popleft().imports:
+            if target not in ordered:
+                ordered[target] = None
+                work.append(target)
+    ordered.update(dict.fromkeys(files))  # those of a cycle that nothing else leads to
+    return list(ordered)
+
+
+def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
+    """Replace each folder by the .swarm files below it, in a stable order.
+
+    A file that by its name is of another kind is reported and left out.
+    """
+    for path in paths:
+        if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+            help_ = _WAYS.get(path.suffix)
+            if help_ is None or not os.path.isfile(path):  # noqa: PTH113
+                yield path
+            else:
+                actual = f"a {path.suffix} file"
+                expected = f"a model, *{SUFFIX}"
+                report.report("not-a-file", path=path, actual=actual, expected=expected, help=help_)
+            continue
+        from swarmdsl.base.find_files import files_below
+
+        found = files_below(path, SUFFIX)
+        if not found:
+            report.report("nothing-to-compile", path=path)
+        yield from found
+
+
+def _relative(folder: Path, wanted: str) -> Path:
+    """Where an import leads, as a person would write it from here."""
+    return Path(os.path.normpath(folder / wanted))
+
+
+def parsed_interface(interface: InterfacePath, source: Source, report: Diagnostics) -> Parsed:
+    """Parse a ROS interface file."""
+    read = parse_interface(source, interface.package, interface.name, interface.kind, report)
+    whole = Span(source, 0, len(source.text))
+    parsed = Parsed(Model(whole, None, [], [read.declaration], []))
+    if read.damaged:
+        parsed.damaged |= {read.declaration}
+    return parsed
+
+
+def parsed_model(source: Source, report: Diagnostics) -> File:
+    """Parse a .swarm file."""
+    before = len(report)
+    source = without_control_characters(source, report)
+    parsed = parse(source, report)
+    if len(report) == before:
+        report_empty(source, parsed.model, report)
+    return File(source, parsed)
+
+
+def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
+    """Report a file without a mistake that has nothing in it."""
+    if not (model.declarations or model.imports or model.optimizations):
+        report.report(
+            "empty-file",
+            Span(source, 0, 0),
+            help="declare something, `event Start : ...` for instance",
+        )
+
+
+def _report_cycles(files: list[File], report: Diagnostics) -> None:
+    for file, imports in cycles(files, lambda file: file.imports):
+        *way, last = imports
+        report.report(
+            "import-cycle",
+            place_of(last),
+            path=file.source.name,
+            related=tuple(Label(place_of(step), "by way of this import") for step in way),
+            help="move what both files need to a third one" if way else "remove this import",
+        )

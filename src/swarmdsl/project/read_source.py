@@ -1,0 +1,145 @@
+"""The text of a file: what stands in the way of reading it is reported."""
+
+from __future__ import annotations
+
+import os
+import re
+from codecs import BOM_UTF8
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import replace
+from swarmdsl.base.source import Source, Span
+from swarmdsl.base.suggest import closest, did_you_mean, suggest
+from swarmdsl.project.libraries import SUFFIX
+
+# No format can carry them: all but tab and line end (XML 1.0, 2.2).
+_CONTROL = bytes([*range(0x01, 0x09), 0x0B, 0x0C, *range(0x0E, 0x20), 0x7F])
+
+_MODEL = "a .swarm file"
+# As many files may be named where one is not there.
+_FEW = 5
+# An ending as like that of models as this is one that is misspelt.
+_SAME_SUFFIX = 0.75
+
+
+def read_source(
+    path: Path,
+    at: Span | None,
+    report: Diagnostics,
+    expected: str = _MODEL,
+    most: int | None = None,
+) -> Source | None:
+    """Read the text of a file; None when it cannot be read, which is reported at `at`.
+
+    Of one with more than `most` bytes, no more are read.
+    """
+    content = read_bytes(path, at, report, expected, most)
+    return decoded(path, content, at, report) if content is not None else None
+
+
+def read_bytes(
+    path: Path,
+    at: Span | None,
+    report: Diagnostics,
+    expected: str = _MODEL,
+    most: int | None = None,
+) -> bytes | None:
+    """Read a file; None when it cannot be read, which is reported at `at`."""
+    if os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
+        report.report(
+            "not-a-file",
+            at,
+            path=path,
+            actual="a folder",
+            expected=expected,
+            help="name a file in it"
+            + (
+                ", or write `import ros` if it has interfaces of ROS"
+                if expected == _MODEL and at is not None
+                else ""
+            ),
+        )
+        return None
+    try:
+        if most is None:
+            return path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(most + 1)
+        if len(content) <= most:
+            return content
+        report.report("too-large", at, path=path, most=most // 2**20)
+    except FileNotFoundError:
+        report.report("file-not-found", at, path=path, help=_similar_file(path))
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        report.report("unreadable-file", at, path=path, reason=reason.lower())
+    return None
+
+
+def decoded(path: Path, data: bytes, at: Span | None, report: Diagnostics) -> Source | None:
+    """The content of a file as text; None when it is none, which is reported at `at`."""
+    try:
+        text = data.removeprefix(BOM_UTF8).decode()
+    except UnicodeDecodeError as error:
+        _report_encoding(path, at, data, error, report)
+        return None
+    if "\0" in text:
+        report.report("not-text", at, path=path, help="this looks like a binary file")
+        return None
+    return Source(str(path), _unified(text), path)
+
+
+def _report_encoding(
+    path: Path, at: Span | None, data: bytes, error: UnicodeDecodeError, report: Diagnostics
+) -> None:
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        report.report("not-text", at, path=path, help="it looks like UTF-16: save it as UTF-8")
+    elif b"\0" in data:
+        report.report("not-text", at, path=path, help="this looks like a binary file")
+    else:
+        data = error.object  # without the byte order mark that may come first
+        readable = _unified(data[: error.start].decode())
+        rest = _unified(data[error.start :].decode(errors="replace"))
+        source = Source(str(path), readable + rest, path)
+        report.report(
+            "not-text",
+            Span(source, len(readable), len(readable) + 1),
+            path=path,
+            related=(Label(at, "imported here"),) if at else (),
+            help="save it as UTF-8",
+        )
+
+
+def _unified(text: str) -> str:
+    """The text with all ends of lines alike."""
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _similar_file(path: Path) -> str | None:
+    if path.with_name(f"{path.name}{SUFFIX}").is_file():
+        return f"did you mean `{path.name}{SUFFIX}`?"
+    suffix = closest(path.suffix, (SUFFIX,), _SAME_SUFFIX) or path.suffix or SUFFIX
+    try:
+        names = [entry.name for entry in path.parent.iterdir() if entry.suffix == suffix]
+    except FileNotFoundError:
+        return f"there is no folder `{path.parent}`"
+    except OSError:
+        return None
+    if suffix == SUFFIX or not 0 < len(names) <= _FEW:
+        return did_you_mean(path.name, names)
+    return suggest(path.name, sorted(names), f"files that end with `{suffix}` there")
+
+
+def without_control_characters(source: Source, report: Diagnostics) -> Source:
+    """The source with spaces in place of characters that no format can carry, once reported."""
+    # To find so that there are none takes a tenth of the time that the pattern takes.
+    data = source.text.encode("utf-8", "surrogatepass")
+    if len(data.translate(None, _CONTROL)) == len(data):
+        return source
+    control = re.compile(f"[{_CONTROL.decode()}]")
+    found = list(control.finditer(source.text))
+    for each in found:
+        place = Span(source, each.start(), each.end())
+        report.report("control-character", place, code=f"U+{ord(each[0]):04X}", help="remove it")
+    return replace(source, text=control.sub(" ", source.text))

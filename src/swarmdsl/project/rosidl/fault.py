@@ -1,0 +1,15 @@
+"""What is wrong at one place of an interface file."""
+
+from __future__ import annotations
+
+from swarmdsl.base.source import Span
+
+
+class InterfaceError(Exception):
+    """A line that cannot be read; caught where lines are read, and reported."""
+
+    def __init__(self, span: Span, message: str, help: str | None = None) -> None:  # noqa: A002
+        super().__init__(message)
+        self.span = span
+        self.message = message
+        self.help = help

@@ -1,0 +1,247 @@
+"""Folders of ROS packages: which interfaces and parameter files there are, of which package."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.project.libraries import SUFFIX
+from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Kind
+
+_MANIFEST = "package.xml"
+# Files by which ROS's build tools know that a folder is none of their business.
+_IGNORED = {"AMENT_IGNORE", "CATKIN_IGNORE", "COLCON_IGNORE"}
+# What lies beside the `src` of a workspace: the same interfaces, installed.
+_BUILT = frozenset(
+    f"{name}{suffix}" for name in ("build", "devel", "install") for suffix in ("", "_isolated")
+)
+_NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
+# Where the packages of ROS keep the files with values for their parameters.
+_PARAMETERS = ("param", "params", "config", "cfg")
+_WANTED = (
+    "name the folder of a ROS package with .msg, .srv or .action files, "
+    "or one with several such packages"
+)
+
+
+@dataclass(frozen=True)
+class InterfacePath:
+    """The file of an interface."""
+
+    package: str
+    kind: Kind
+    name: str
+    path: Path
+
+
+@dataclass(frozen=True)
+class ParameterPath:
+    """A file with values for the parameters of the nodes of a package."""
+
+    package: str
+    path: Path
+
+
+def find_parameters(folder: Path) -> list[ParameterPath]:
+    """The YAML files in a folder that have values for parameters, by package and path.
+
+    In a package these lie in `param`, `config` and the like; a folder without `package.xml` is
+    taken for a copy of that. What cannot be read there is passed over.
+    """
+    finder = _Finder(folder, None, Diagnostics())
+    return sorted(finder.find_parameters(), key=lambda found: (found.package, str(found.path)))
+
+
+def find_interfaces(
+    folder: Path,
+    at: Span | None,
+    report: Diagnostics,
+    *,
+    required: bool = True,
+    look: Callable[[Path], None] | None = None,
+) -> list[InterfacePath]:
+    """The interfaces in a folder, by package, kind and name; mistakes are reported at `at`.
+
+    The folder is that of a package, with the files in it or in `msg`, `srv` and `action`,
+    or one with several packages below it: a ROS workspace, for instance. That there are none is a
+    mistake where they are `required`. `look` hears of each folder and manifest that is looked at.
+    """
+    if look is not None:
+        look(folder)
+    if not folder.exists():
+        report.report("file-not-found", at, path=folder, help=_WANTED)
+        return []
+    if not folder.is_dir():
+        report.report(
+            "not-a-file",
+            at,
+            path=folder,
+            actual="a file",
+            expected="a folder",
+            help="write `import` without `ros`" if folder.suffix == SUFFIX else _WANTED,
+        )
+        return []
+    finder = _Finder(folder, at, report, look)
+    found: dict[tuple[str, Kind, str], InterfacePath] = {}
+    for interface in finder.find():
+        first = found.setdefault((interface.package, interface.kind, interface.name), interface)
+        if first is not interface:
+            report.report(
+                "duplicate-name",
+                at,
+                kind="interface",
+                name=f"{interface.package}/{interface.kind}/{interface.name}",
+                notes=(f"the files are `{first.path}` and `{interface.path}`",),
+            )
+    if required and not found and not finder.reported:
+        report.report(
+            "file-not-found",
+            at,
+            path=folder / "*.msg",
+            help=_WANTED,
+        )
+    return [found[key] for key in sorted(found, key=_order)]
+
+
+def _order(key: tuple[str, Kind, str]) -> tuple[str, int, str]:
+    package, kind, name = key
+    return package, INTERFACE_KINDS.index(kind), name
+
+
+class _Finder:
+    """Looks through one folder."""
+
+    def __init__(
+        self,
+        folder: Path,
+        at: Span | None,
+        report: Diagnostics,
+        look: Callable[[Path], None] | None = None,
+    ) -> None:
+        self._top = folder
+        self._look = look
+        self._at = at
+        self._report = report
+        # The package that each manifest names, None for a manifest that names none.
+        self._manifests: dict[Path, str | None] = {}
+        self.reported = False
+
+    def find(self) -> Iterator[InterfacePath]:
+        """All interface files, folder by folder."""
+        for folder, names in self._folders():
+            files = [
+                (name.removesuffix(f".{kind}"), kind, folder / name)
+                for name in names
+                for kind in INTERFACE_KINDS
+                if name.endswith(f".{kind}")
+            ]
+            if not files:
+                continue
+            package = self._package(folder)
+            if not _NAME.fullmatch(package):
+                self._bad_name(package, "package", f"rename the folder, or add a `{_MANIFEST}`")
+                continue
+            for name, kind, path in files:
+                if _NAME.fullmatch(name):
+                    yield InterfacePath(package, kind, name, path)
+                else:
+                    self._bad_name(name, "interface", f"rename `{path}`")
+
+    def find_parameters(self) -> Iterator[ParameterPath]:
+        """All files with values for parameters."""
+        for folder, names in self._folders():
+            within = self._within(folder, _PARAMETERS)
+            home = next((parent for parent in within if parent.name in _PARAMETERS), None)
+            package = self._manifest_name(within)
+            if package is not None and home is None:
+                continue  # of a package, but not for its nodes
+            if package is None:
+                package = (within[0].parent if home is within[0] else within[0]).name
+            for name in names if _NAME.fullmatch(package) else ():
+                if name.endswith((".yaml", ".yml")):
+                    yield ParameterPath(package, folder / name)
+
+    def _folders(self) -> Iterator[tuple[Path, list[str]]]:
+        """The folders that may have interfaces, each with the names of its files."""
+        seen: set[str] = set()
+        for folder, inner, names in os.walk(self._top, onerror=self._unreadable, followlinks=True):
+            real = os.path.realpath(folder)
+            if real in seen or not _IGNORED.isdisjoint(names):
+                inner.clear()
+                continue
+            seen.add(real)
+            if self._look is not None:
+                self._look(Path(folder))
+            left_out = _BUILT if "src" in inner and _MANIFEST not in names else frozenset()
+            inner[:] = sorted({name for name in inner if name[0] != "."} - left_out)
+            yield Path(folder), sorted(names)
+
+    def _package(self, folder: Path) -> str:
+        """The package that the interfaces in a folder belong to."""
+        within = self._within(folder, INTERFACE_KINDS)
+        name = self._manifest_name(within)
+        if name is not None:
+            return name
+        home = within[0]
+        holder = next(
+            (parent for parent in (home, *home.parents) if parent.name in INTERFACE_KINDS), None
+        )
+        return (holder.parent if holder in within else home).name
+
+    def _within(self, folder: Path, inside: Sequence[str]) -> list[Path]:
+        """A folder and those around it that may be the one of its package.
+
+        Where the user has named one that lies `inside` a package, the package is around it.
+        """
+        home, top = _absolute(folder), _absolute(self._top)
+        parents = [home, *home.parents]
+        within = parents[: parents.index(top) + 1] if top in parents else parents[:1]
+        return [*within, top.parent] if top.name in inside else within
+
+    def _manifest_name(self, folders: Iterable[Path]) -> str | None:
+        """The package that the first manifest in these folders names."""
+        names = map(self._named_by_manifest, folders)
+        return next((name for name in names if name is not None), None)
+
+    def _named_by_manifest(self, folder: Path) -> str | None:
+        manifest = folder / _MANIFEST
+        if manifest not in self._manifests:
+            if self._look is not None:
+                self._look(manifest)
+            self._manifests[manifest] = self._read(manifest) if manifest.is_file() else None
+        return self._manifests[manifest]
+
+    def _read(self, manifest: Path) -> str | None:
+        from xml.etree import ElementTree
+
+        try:
+            name = ElementTree.parse(manifest).findtext("name", "").strip()
+        except OSError as error:
+            self._unreadable(error)
+            return None
+        except ElementTree.ParseError as error:
+            self._cannot_read(manifest, f"it is not XML: {error}")
+            return None
+        return name or None
+
+    def _bad_name(self, name: str, what: str, advice: str) -> None:
+        message = f"`{name}` cannot be the name of a ROS {what}"
+        self._report.report("syntax-error", self._at, message=message, help=advice)
+        self.reported = True
+
+    def _unreadable(self, error: OSError) -> None:
+        self._cannot_read(error.filename, (error.strerror or str(error)).lower())
+
+    def _cannot_read(self, path: str | Path, reason: str) -> None:
+        self._report.report("unreadable-file", self._at, path=path, reason=reason)
+        self.reported = True
+
+
+def _absolute(path: Path) -> Path:
+    """A path from the root without `..`; a linked folder keeps the name of the link."""
+    return Path(os.path.abspath(path))  # noqa: PTH100

@@ -1,0 +1,80 @@
+"""The interface types that ROS itself comes with, known where no ROS is installed.
+
+They are in two files beside this module, each interface as in a file of its own below a
+line with its name. The messages are made from those in `rosbags` by a test (`make bless`):
+as a dependency it would bring numpy and more, some 90 MB. The few services and actions were
+written by hand.
+
+Where ROS 1 and ROS 2 differ, there is what either has; what the other lacks is documented
+as `only in ROS 1` or `only in ROS 2`.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Interface, Kind, parse_interface
+from swarmdsl.syntax.ast import Documented
+from swarmdsl.syntax.types import Named
+
+FOLDER = Path(__file__).resolve().parent
+FILES = ("standard_messages.txt", "standard_services.txt")
+_HEADING = re.compile(r"^== (\w+)/(\w+)/(\w+)\n", re.MULTILINE)
+_ONLY: dict[str, Literal[1, 2]] = {"only in ROS 1": 1, "only in ROS 2": 2}
+
+
+def lookup(type_: Named, kind: Kind | None = None) -> Interface | None:
+    """The interface with a name, None when ROS has none.
+
+    A service and an action may share a name: `nav_msgs/GetMap`. Without `kind` a message
+    comes first, then a service.
+    """
+    for wanted in INTERFACE_KINDS if kind is None else (kind,):
+        found = _parsed(type_.package, wanted, type_.name)
+        if found is not None:
+            return found
+    return None
+
+
+def only_in(node: Documented) -> Literal[1, 2] | None:
+    """Which ROS alone has a standard interface, or a field of one; None when both have it."""
+    return _ONLY.get(node.doc)
+
+
+def packages() -> list[str]:
+    """The packages that ROS comes with, sorted."""
+    return sorted(_texts())
+
+
+def names(package: str, kind: Kind | None = None) -> list[str]:
+    """The names of a package's interfaces, or those of a kind, sorted.
+
+    There are none of a package that is not known.
+    """
+    known = _texts().get(package, ())
+    return sorted({name for of, name in known if kind is None or of == kind})
+
+
+@cache
+def _texts() -> dict[str, dict[tuple[str, str], str]]:
+    """The text of each interface, by package, and then by kind and name."""
+    texts: dict[str, dict[tuple[str, str], str]] = {}
+    for file in FILES:
+        _, *parts = _HEADING.split((FOLDER / file).read_text(encoding="utf-8"))
+        for package, kind, name, text in zip(*(parts[i::4] for i in range(4)), strict=True):
+            texts.setdefault(package, {})[kind, name] = text
+    return texts
+
+
+@cache
+def _parsed(package: str, kind: Kind, name: str) -> Interface | None:
+    text = _texts().get(package, {}).get((kind, name))
+    if text is None:
+        return None
+    source = Source(f"{package}/{kind}/{name}.{kind}", text)
+    return parse_interface(source, package, name, kind, Diagnostics()).declaration

@@ -1,1 +1,0 @@
-"""Models run without a robot, on the engine of `swarmdsl.runtime`."""

@@ -1,0 +1,107 @@
+"""Nodes of architecture.tx: components, and members built from them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax.ast.behaviour import StateMachine
+    from swarmdsl.syntax.ast.interfaces import Param
+    from swarmdsl.syntax.ast.nodes import Expression, Ref, TypeRef, Word
+
+
+@dataclass(slots=True, eq=False)
+class Port(Documented):
+    """`out name : Type on "topic"`."""
+
+    direction: Literal["in", "out", "inout"]
+    name: Word
+    type: TypeRef
+    topic: Word | None
+
+
+@dataclass(slots=True, eq=False)
+class Component(TopLevel):
+    """`sensor Name { ... }` and the other kinds."""
+
+    kind: Literal["sensor", "actuator", "controller", "virtual"]
+    name: Word
+    base: Ref[Component] | None
+    items: list[Port | Param | Operation | BehaviorUse]
+
+
+@dataclass(slots=True, eq=False)
+class Parameter(Documented):
+    """`in name : Type` of an operation; `direction` is empty where none is written."""
+
+    direction: Literal["in", "out", ""]
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Operation(Documented):
+    """`operation name(in x : Type, out y : Type)` of a component."""
+
+    name: Word
+    parameters: list[Parameter]
+
+
+@dataclass(slots=True, eq=False)
+class BehaviorUse(Documented):
+    """`behavior Machine`."""
+
+    machine: Ref[StateMachine]
+
+
+@dataclass(slots=True, eq=False)
+class PartValue(Documented):
+    """`name = value` in a part."""
+
+    name: Word
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class CommunicationSettings(Documented):
+    """`communication zyre { ifname = "eth0" }`."""
+
+    technology: Word
+    values: list[PartValue]
+
+
+@dataclass(slots=True, eq=False)
+class Part(Documented):
+    """`name : Component { ... }`."""
+
+    name: Word
+    component: Ref[Component]
+    values: list[PartValue]
+
+
+@dataclass(slots=True, eq=False)
+class PortRef(Node):
+    """`part.port`, or `port` of the member itself."""
+
+    part: Ref[Part] | None
+    port: Ref[Port]
+
+
+@dataclass(slots=True, eq=False)
+class Connector(Documented):
+    """`connect source -> target`."""
+
+    source: PortRef
+    target: PortRef
+
+
+@dataclass(slots=True, eq=False)
+class Member(TopLevel):
+    """`member Name { ... }`."""
+
+    name: Word
+    base: Ref[Member] | None
+    items: list[BehaviorUse | CommunicationSettings | Port | Param | Connector | Part]

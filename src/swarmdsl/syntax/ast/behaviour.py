@@ -1,0 +1,217 @@
+"""Nodes of behaviour.tx: state machines."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax.ast.architecture import Component, Operation, Part
+    from swarmdsl.syntax.ast.interfaces import Event, Function, Param
+    from swarmdsl.syntax.ast.nodes import Expression, Ref, TypeRef, Word
+
+
+@dataclass(slots=True, eq=False)
+class Variable(Documented):
+    """`var name : Type = initial`."""
+
+    name: Word
+    type: TypeRef
+    initial: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Argument(Node):
+    """`name = value` in a call or a send."""
+
+    name: Word
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ResultMapping(Node):
+    """`field => variable`."""
+
+    field: Word
+    target: Expression
+
+
+@dataclass(slots=True, eq=False)
+class Activity(Documented):
+    """`do function(...) gives (...)`; `owner` is what is asked for an operation."""
+
+    function: Ref[Function | Operation]
+    goal_callback: Word | None
+    arguments: list[Argument]
+    result_callback: Word | None
+    results: list[ResultMapping]
+    owner: Component | Part | None = field(default=None, init=False, metadata={"elsewhere": True})
+
+
+@dataclass(slots=True, eq=False)
+class OutcomeTrigger(Node):
+    """`succeeded`, `aborted` or `preempted`."""
+
+    outcome: str
+
+
+@dataclass(slots=True, eq=False)
+class DoneTrigger(Node):
+    """`done`, `done.Final`, `Region.done` or `Region.done.Final`."""
+
+    region: Ref[Region] | None
+    final: Ref[FinalState] | None
+
+
+@dataclass(slots=True, eq=False)
+class EventTrigger(Node):
+    """The name of an event."""
+
+    event: Ref[Event]
+
+
+@dataclass(slots=True, eq=False)
+class TimeTrigger(Node):
+    """`after delay`."""
+
+    delay: Expression
+
+
+@dataclass(slots=True, eq=False)
+class MonitorTrigger(Node):
+    """`monitor "topic" : Type`."""
+
+    topic: Word
+    type: TypeRef
+
+
+Trigger = OutcomeTrigger | DoneTrigger | EventTrigger | TimeTrigger | MonitorTrigger
+
+
+@dataclass(slots=True, eq=False)
+class Send(Node):
+    """`send Event(...)`."""
+
+    event: Ref[Event]
+    arguments: list[Argument]
+
+
+@dataclass(slots=True, eq=False)
+class Assignment(Node):
+    """`target = value`."""
+
+    target: Expression
+    value: Expression
+
+
+Effect = Send | Assignment
+
+
+@dataclass(slots=True, eq=False)
+class Transition(Documented):
+    """`on trigger [guard] / effects -> target`; what is not written is None or empty."""
+
+    internal: bool
+    triggers: list[Trigger]
+    guard: Expression | None
+    effects: list[Effect]
+    target: Ref[Vertex] | None
+
+
+@dataclass(slots=True, eq=False)
+class Entry(Documented):
+    """`entry / effects`."""
+
+    effects: list[Effect]
+
+
+@dataclass(slots=True, eq=False)
+class Exit(Documented):
+    """`exit / effects`."""
+
+    effects: list[Effect]
+
+
+@dataclass(slots=True, eq=False)
+class Initial(Documented):
+    """`initial State`."""
+
+    target: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class FinalState(Documented):
+    """`final Name`."""
+
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class Branch(Documented):
+    """`[guard] / effects -> target` or `else ... -> target` in a choice.
+
+    `otherwise` is the word `else`, or empty.
+    """
+
+    guard: Expression | None
+    otherwise: str
+    effects: list[Effect]
+    target: Ref[Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Choice(Documented):
+    """`choice Name { ... }`."""
+
+    name: Word
+    branches: list[Branch]
+
+
+@dataclass(slots=True, eq=False)
+class State(Documented):
+    """`state Name { ... }` or `state Name = Machine(param = value) { ... }`."""
+
+    name: Word
+    machine: Ref[StateMachine] | None
+    bindings: list[Argument]
+    items: list[Activity | Entry | Exit | Transition | Initial | Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Region(Documented):
+    """`region Name { ... }`."""
+
+    name: Word
+    items: list[Initial | Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class Parallel(Documented):
+    """`parallel state Name { ... }`."""
+
+    name: Word
+    items: list[Region | Entry | Exit | Transition]
+
+
+@dataclass(slots=True, eq=False)
+class StateMachine(TopLevel):
+    """`statemachine Name { ... }`."""
+
+    endless: bool
+    name: Word
+    items: list[Param | Variable | Initial | Vertex]
+
+
+@dataclass(slots=True, eq=False)
+class History(Documented):
+    """`history Name -> target` or `deep history Name -> target`."""
+
+    deep: bool
+    name: Word
+    target: Ref[Vertex]
+
+
+Vertex = State | Parallel | Choice | History | FinalState
+Container = StateMachine | State | Parallel | Region

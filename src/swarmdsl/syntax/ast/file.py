@@ -1,0 +1,80 @@
+"""Nodes of swarm.tx: a whole file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast.architecture import Component, Member
+from swarmdsl.syntax.ast.behaviour import StateMachine
+from swarmdsl.syntax.ast.composition import Environment, Fitness, Swarm
+from swarmdsl.syntax.ast.interfaces import (
+    ActionType,
+    AliasType,
+    Constant,
+    EnumType,
+    Event,
+    Function,
+    MessageType,
+    ServiceType,
+    StructType,
+)
+from swarmdsl.syntax.ast.nodes import Documented, Node
+
+if TYPE_CHECKING:
+    from swarmdsl.syntax.ast.composition import Optimization
+    from swarmdsl.syntax.ast.nodes import Word
+
+
+@dataclass(slots=True, eq=False)
+class Package(Documented):
+    """`package name`."""
+
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportFile(Documented):
+    """`import "file"`."""
+
+    path: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportRos(Documented):
+    """`import ros "folder"`."""
+
+    path: Word
+
+
+@dataclass(slots=True, eq=False)
+class ImportLibrary(Documented):
+    """`import package.Name` or `import package.*`."""
+
+    name: str
+
+
+Import = ImportFile | ImportRos | ImportLibrary
+Interface = StructType | EnumType | AliasType | MessageType | ServiceType | ActionType
+Declaration = (
+    Interface
+    | Constant
+    | Event
+    | Function
+    | Component
+    | Member
+    | StateMachine
+    | Swarm
+    | Environment
+    | Fitness
+)
+
+
+@dataclass(slots=True, eq=False)
+class Model(Node):
+    """A whole file."""
+
+    package: Package | None
+    imports: list[Import]
+    declarations: list[Declaration]
+    optimizations: list[Optimization]

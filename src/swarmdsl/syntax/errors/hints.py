@@ -1,0 +1,78 @@
+"""What a person may have meant who wrote what the grammar does not have."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from swarmdsl.base.suggest import closest
+from swarmdsl.syntax.errors.foreign_tokens import mark
+from swarmdsl.syntax.types import PRIMITIVES
+
+_NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
+SIZES = "write `[]` for any number of elements, `[4]` for as many, `[<=4]` for at most as many"
+_ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
+_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+# How like a keyword a word must be: `Start` is not meant to be `state`.
+_SLIP = 0.85
+_PARAMETER = re.compile(r"[(,]\s*(?:inout|(?:in|out)\s+(?:in|out))$")
+_UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
+
+
+def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str]) -> str | None:
+    """A way out for the token `found`, which stands after `before`; None if none is known."""
+    token, text, at = found[0], found.string, found.start()
+    last = before[0] if before is not None else ""
+    joined = before is not None and before.end() == at
+    for arrow in ("->", "=>"):
+        if f"`{arrow}`" in expected and token in _ARROWS:
+            return f"write `{arrow}`"
+    if "`=`" in expected and text.startswith(_UPDATES, at):
+        return "write a variable, `=` and its new value: `x = x + 1`"
+    if token == "=" and joined and last == "=":
+        return "write one `=` to assign"
+    if token == "=" and "`]`" in expected:
+        return "write `==` to compare"
+    if token == "-" and text.startswith("--", at):
+        return mark("#")
+    if token == "-" and joined and last[0].isalpha():
+        return _NAMES
+    if "a name" in expected and re.fullmatch(r"\w+", token) and not _NAME.fullmatch(token):
+        return _NAMES
+    if before and "`:`" in expected and _PARAMETER.search(text, 0, before.end()):
+        return "a parameter is `in` or `out`: what goes both ways are two parameters"
+    if "`:`" in expected and last in PRIMITIVES and _NAME.fullmatch(token):
+        return f"the name comes first: `{token} : {last}`"
+    if token == "[" and "`[`" in expected:
+        return SIZES
+    if token == "/" and joined:
+        return "the name of a type follows, as in `std_msgs/Empty`"
+    if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:
+        return "the units of time are `us`, `ms`, `s`, `min` and `h`"
+    if token in "})]" and "`struct`" in expected:
+        return "nothing is open here that it could close"
+    if said := mark(token):
+        return said
+    # A keyword with a slip in it was taken for the name of a part or field.
+    slip, meant = (last, keywords()) if "`:`" in expected else (token, _literals(expected))
+    keyword = closest(slip, meant, _SLIP)
+    return f"did you mean `{keyword}`?" if keyword and keyword != slip else None
+
+
+def _literals(expected: set[str]) -> list[str]:
+    return [word.strip("`") for word in expected if re.fullmatch(r"`[a-z]+`", word)]
+
+
+def keywords() -> frozenset[str]:
+    """The reserved words."""
+    from swarmdsl.syntax.parser.generated import RESERVED  # which needs modules that need this one
+
+    return RESERVED
+
+
+def strange_character(character: str) -> str | None:
+    """The name of a character that looks like nothing, or like a space; None for others."""
+    if not character or character in " \t\r\n" or character.isprintable():
+        return None
+    name = unicodedata.name(character, "")
+    return f"U+{ord(character):04X}" + (f" ({name.lower()})" if name else "")

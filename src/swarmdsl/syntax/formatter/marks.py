@@ -1,0 +1,95 @@
+"""What the syntax tree says about tokens that their texts do not say."""
+
+from __future__ import annotations
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.syntax.ast import (
+    ActionType,
+    Activity,
+    Branch,
+    Call,
+    Documented,
+    EnumValue,
+    MessageType,
+    Model,
+    Multiplicity,
+    Node,
+    Operation,
+    OperatorUse,
+    Parameter,
+    Send,
+    ServiceType,
+    State,
+    Transition,
+    TypeRef,
+    walk,
+)
+from swarmdsl.syntax.formatter.tokens import Tokens, tokenize
+
+
+@dataclass(frozen=True)
+class Marks:
+    """Tokens by their offsets: those that begin an item, and those with special spacing.
+
+    Before a `tight` one stands no space; a line is broken before a `clause` rather than
+    anywhere else.
+    """
+
+    items: dict[int, Node] = field(default_factory=dict)
+    tight: set[int] = field(default_factory=set)
+    clauses: set[int] = field(default_factory=set)
+
+
+def mark(model: Model, tokens: Tokens) -> Marks:
+    """Find the marks of a file, given its syntax tree and its tokens."""
+    marks = Marks()
+    for node in walk(model):
+        start = node.span.start
+        if isinstance(node, Documented) and not isinstance(node, Parameter):
+            marks.items[start] = node
+        match node:
+            case TypeRef():
+                _join(marks, tokens, start, f"{node.name}{node.bound}{node.array}")
+            case MessageType() | ServiceType() | ActionType():
+                _join(marks, tokens, node.name.span.start, node.name)
+            case EnumValue(value=str(value)):
+                equals = tokens.code(node.name.span.end)[0]
+                _join(marks, tokens, equals.start + 1, value)
+            case Multiplicity():
+                opener = tokens.before(start)
+                upper = f"..{node.upper}" if node.upper else ""
+                _join(marks, tokens, opener.start, f"[{node.lower}{upper}]")
+                marks.tight.add(opener.start)
+            case OperatorUse(operands=(_,)) if node.operator == "-":
+                marks.tight.add(tokens.code(start, 2)[1].start)
+            case Call() | Operation():
+                name = node.function if isinstance(node, Call) else node.name
+                marks.tight.add(tokens.code(name.span.end)[0].start)
+            case Activity():
+                _mark_list(marks, tokens, node.function.span.start, node.function.name)
+                result = node.results[0].span if node.results else None
+                if node.result_callback is not None:
+                    result = node.result_callback.span
+                if result is not None:
+                    opener = tokens.before(result.start)  # `(` or `by`
+                    marks.clauses.add(tokens.before(opener.start).start)
+            case Send():
+                _mark_list(marks, tokens, node.event.span.start, node.event.name)
+            case State(machine=machine) if machine is not None:
+                _mark_list(marks, tokens, machine.span.start, machine.name)
+            case Transition(effects=[effect, *_]) | Branch(effects=[effect, *_]):
+                marks.clauses.add(tokens.before(effect.span.start).start)
+    return marks
+
+
+def _join(marks: Marks, tokens: Tokens, start: int, text: str) -> None:
+    """Join the tokens from an offset on that make up the text."""
+    parts = tokens.code(start, len(tokenize(text)))
+    marks.tight.update(part.start for part in parts[1:])
+
+
+def _mark_list(marks: Marks, tokens: Tokens, start: int, name: str) -> None:
+    """Join the name to the list in parentheses behind it, if there is one."""
+    behind = tokens.code(start, len(tokenize(name)) + 1)[-1]
+    if behind.text == "(":
+        marks.tight.add(behind.start)

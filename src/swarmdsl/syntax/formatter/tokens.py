@@ -1,0 +1,97 @@
+"""Text to tokens: every character that is not white space is in exactly one of them."""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_left
+from enum import Enum, auto
+
+from swarmdsl.base.records import dataclass
+
+
+class Kind(Enum):
+    """What a token is."""
+
+    WORD = auto()
+    NUMBER = auto()
+    TEXT = auto()
+    SYMBOL = auto()
+    LINE_COMMENT = auto()
+    BLOCK_COMMENT = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A piece of the text; `newlines` counts the line ends between it and the one before."""
+
+    kind: Kind
+    text: str
+    start: int
+    newlines: int
+
+    @property
+    def is_comment(self) -> bool:
+        """Whether the grammar skips it."""
+        return self.kind in _COMMENTS
+
+
+_COMMENTS = (Kind.LINE_COMMENT, Kind.BLOCK_COMMENT)
+
+_TOKEN = re.compile(
+    r"(?P<WORD>[A-Za-z_][A-Za-z0-9_]*)"
+    r"|(?P<NUMBER>\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)"
+    r'|(?P<TEXT>"(?:[^"\\\n]|\\[^\n])*")'
+    r"|(?P<LINE_COMMENT>//[^\n]*)"
+    r"|(?P<BLOCK_COMMENT>/\*(?:[^*]|\*(?!/))*\*/)"
+    r"|(?P<SYMBOL>->|=>|==|!=|<=|>=|\.\.|[^\s])"
+)
+
+
+def tokenize(text: str) -> list[Token]:
+    """The tokens of a text; a character that the language does not have is a symbol."""
+    tokens = []
+    end = 0
+    for found in _TOKEN.finditer(text):
+        start = found.start()
+        assert found.lastgroup is not None
+        kind = Kind[found.lastgroup]
+        written = found[0].rstrip() if kind is Kind.LINE_COMMENT else found[0]
+        tokens.append(Token(kind, written, start, text.count("\n", end, start)))
+        end = found.end()
+    return tokens
+
+
+def essence(tokens: list[Token]) -> list[tuple[str, bool]]:
+    """What formatting must not change: the texts, and which comments document something.
+
+    The lines of a block comment may be indented anew; `///` counts only at the start of a line.
+    """
+    return [
+        (
+            "\n".join(line.strip() for line in token.text.split("\n"))
+            if token.kind is Kind.BLOCK_COMMENT
+            else token.text,
+            token.kind is Kind.LINE_COMMENT
+            and token.text.startswith("///")
+            and (index == 0 or token.newlines > 0),
+        )
+        for index, token in enumerate(tokens)
+    ]
+
+
+class Tokens:
+    """The tokens of a text, found by their place; comments are passed over on demand."""
+
+    def __init__(self, text: str) -> None:
+        self.all = tokenize(text)
+        self._code = [token for token in self.all if not token.is_comment]
+        self._starts = [token.start for token in self._code]
+
+    def code(self, start: int, count: int = 1) -> list[Token]:
+        """The first `count` tokens from an offset on that are no comments."""
+        at = bisect_left(self._starts, start)
+        return self._code[at : at + count]
+
+    def before(self, start: int) -> Token:
+        """The last token before an offset that is no comment."""
+        return self._code[bisect_left(self._starts, start) - 1]

@@ -1,0 +1,366 @@
+"""Expressions to trees, in one go with the file they stand in.
+
+`grammar/expression.lark` says what binds how, and EXPRESSION in `grammar/lexical.tx` where
+an expression ends. Both are followed here at once; tests hold the three against each other.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.ast import (
+    Call,
+    Expression,
+    ExpressionTree,
+    FieldUse,
+    NameUse,
+    Value,
+    Word,
+    depth,
+)
+from swarmdsl.syntax.parser.lexer import MARKS, Tokens
+from swarmdsl.syntax.parser.literals import UNITS, Language, is_too_large, quantity_value, unquoted
+from swarmdsl.syntax.parser.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
+from swarmdsl.syntax.parser.result import NESTING_LIMIT
+
+# The tokens that can begin an operator, as a whole or in part.
+_OPERATORS = frozenset({*BINDING, "=", "!"})
+# Without `/`, which begins the effects of a transition.
+_DELAY_OPERATORS = frozenset({"+", "-", "*"})
+_PARTS_OF_COMPARISONS = frozenset("=!<>")
+_PREFIXES = frozenset({"not", "-"})
+# Before these a number may go on; before those an expression that begins with one or a name.
+_IN_NUMBERS = UNITS.keys() | {"."}
+_GOES_ON = _OPERATORS | _IN_NUMBERS | {"("}
+_SIMPLE_NUMBER = 9  # digits: no such number is too large
+
+# To call the classes takes longer.
+new_node = object.__new__
+new_span = tuple.__new__
+new_word = str.__new__
+
+# A tree, where it begins and ends with the parentheses around it, and the number of the
+# token that follows.
+_Found = tuple[ExpressionTree, int, int, int]
+
+
+class TooDeepError(Exception):
+    """Something is nested deeper than a parser goes."""
+
+
+class ExpressionParser:
+    """Parses the expressions of a file: each method from the token of a number on.
+
+    A method returns an expression and the number of the token that follows; None where there
+    is no expression. One that is wrong has no tree, but its first fault is added to `faults`.
+    Raises TooDeepError for more parentheses in each other than `limit`.
+    """
+
+    __slots__ = (
+        *("faults", "_language", "_not_a_name", "_tokens", "_ends", "_source"),
+        *("_limit", "_level", "_size", "_fault", "_large"),
+    )
+
+    def __init__(self, language: Language, source: Source, tokens: Tokens, limit: int) -> None:
+        self.faults: list[Fault] = []
+        self._language = language
+        self._not_a_name = language.not_a_name
+        self._tokens, self._ends = tokens
+        self._source = source
+        self._limit = limit
+        self._level = 0
+        self._size = 0
+        self._fault: Fault | None = None
+        self._large: Span | None = None
+
+    def expression(self, at: int) -> tuple[Expression, int] | None:
+        """Parse a whole expression."""
+        return self._simple(at) or self._finished(self._binary(at, _OPERATORS))
+
+    def delay(self, at: int) -> tuple[Expression, int] | None:
+        """Parse a delay, which has no division."""
+        return self._finished(self._binary(at, _DELAY_OPERATORS))
+
+    def operand(self, at: int) -> tuple[Expression, int] | None:
+        """Parse what can stand on one side of an operator."""
+        return self._simple(at) or self._finished(self._binary(at, frozenset()))
+
+    def _simple(self, at: int) -> tuple[Expression, int] | None:
+        """Parse what most expressions are: one token, of which nothing behind it is a part."""
+        tokens = self._tokens
+        token = tokens[at]
+        at += 1
+        if tokens[at] in _GOES_ON:
+            return None
+        tree: ExpressionTree
+        if token >= "A":
+            if token in self._not_a_name:
+                return None
+            tree = new_node(NameUse)
+            tree.name = token
+            tree.target = None
+        else:
+            value = _simple_value(token)
+            if value is None:
+                return None
+            tree = new_node(Value)
+            tree.value = value
+            tree.unit = ""
+        end = self._ends[at]
+        made = new_node(Expression)
+        made.span = tree.span = new_span(Span, (self._source, end - len(token), end))
+        made.tree = tree
+        return made, at
+
+    def _finished(self, found: _Found | None) -> tuple[Expression, int] | None:
+        if found is None:
+            self._fault = self._large = None
+            return None
+        tree, start, end, following = found
+        span = tree.span
+        if span[1] != start or span[2] != end:  # else it is the same, which is kept once
+            span = new_span(Span, (self._source, start, end))
+        made = new_node(Expression)
+        made.span = span
+        if self._size:
+            if self._size >= NESTING_LIMIT:
+                self._check_depth(tree, span)
+            self._size = 0
+        if self._fault is None and self._large is not None:
+            self._fault = Fault(
+                self._large, "syntax-error", {"message": "this number is too large"}
+            )
+        if self._fault is None:
+            made.tree = tree
+        else:
+            made.tree = None
+            self.faults.append(self._fault)
+            self._fault = self._large = None
+        return made, following
+
+    def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
+        if self._fault is None and depth(tree) > NESTING_LIMIT:
+            help_ = "each operator is a level: store a part of the value in a variable first"
+            fields = {"limit": NESTING_LIMIT, "help": help_}
+            self._fault = Fault(span, "nested-too-deeply", fields)
+
+    def _binary(self, at: int, operators: frozenset[str]) -> _Found | None:
+        """Operands with operators between them, or one operand."""
+        tokens = self._tokens
+        prefixes: Sequence[Operator] = ()
+        if tokens[at] in _PREFIXES:
+            prefixes, at = self._prefixes(at)
+        first = last = self._primary(at)
+        if last is None or first is None:
+            return None
+        if tokens[last[3]] not in operators and not prefixes:
+            return first
+        operations: list[Operation[_Found]] = []
+        while tokens[last[3]] in operators:
+            operation = self._operation(last[3])
+            if operation is None:
+                break
+            operations.append(operation)
+            last = operation[2]
+        if not operations and not prefixes:
+            return first
+        self._size += len(operations) + len(prefixes)
+        tree, start, end, fault = join(prefixes, first, operations)
+        if fault is not None:
+            self._blame(fault)
+        return tree, start, end, last[3]
+
+    def _operation(self, at: int) -> Operation[_Found] | None:
+        """An operator with its operand; an operator that none follows is not part of it."""
+        tokens = self._tokens
+        token = tokens[at]
+        if token == "-" and self._is_arrow(at):
+            return None
+        at += 1
+        end = self._ends[at]
+        if token in _PARTS_OF_COMPARISONS:
+            if tokens[at] == "=" and self._ends[at + 1] == end + 1:
+                token += "="
+                at += 1
+                end += 1
+            if token not in BINDING:
+                return None
+        before = self._fault, self._large
+        prefixes: Sequence[Operator] = ()
+        if tokens[at] in _PREFIXES:
+            prefixes, at = self._prefixes(at)
+        found = self._primary(at)
+        if found is None:
+            self._fault, self._large = before
+            return None
+        return (BINDING[token], self._word(token, end), False), prefixes, found
+
+    def _prefixes(self, at: int) -> tuple[Sequence[Operator], int]:
+        """Each `not` and each sign, and the number of the token that follows them."""
+        prefixes: list[Operator] = []
+        while (token := self._tokens[at]) in _PREFIXES and not (
+            token == "-" and self._is_arrow(at)
+        ):
+            at += 1
+            word = self._word(token, self._ends[at])
+            prefixes.append((NOT if token == "not" else SIGN, word, True))
+        return prefixes, at
+
+    def _primary(self, at: int) -> _Found | None:
+        """A value, a name, a call, or an expression in parentheses."""
+        tokens = self._tokens
+        token = tokens[at]
+        if token < "A":
+            return self._parenthesised(at) if token == "(" else self._literal(at)
+        if token not in self._not_a_name:
+            following = tokens[at + 1]
+            if following == "(":
+                call = self._call(at)
+                if call is not None:
+                    return call
+            if following == ".":
+                return self._path(at)
+            at += 1
+            end = self._ends[at]
+            start = end - len(token)
+            name = new_node(NameUse)
+            name.span = new_span(Span, (self._source, start, end))
+            name.name = token
+            name.target = None
+            return name, start, end, at
+        match token:
+            case "event":
+                return self._path(at)
+            case "true" | "false":
+                return self._value(at, self._ends[at + 1], token == "true")
+        return None
+
+    def _parenthesised(self, at: int) -> _Found | None:
+        self._descend()
+        found = self._binary(at + 1, _OPERATORS)
+        self._level -= 1
+        if found is None or self._tokens[found[3]] != ")":
+            return None
+        following = found[3] + 1
+        return found[0], self._start(at), self._ends[following], following
+
+    def _call(self, at: int) -> _Found | None:
+        """A call; None where what follows the name are no arguments."""
+        before = self._fault, self._large
+        tokens = self._tokens
+        self._descend()
+        arguments: list[ExpressionTree] = []
+        following = at + 2
+        while tokens[following] != ")" or arguments:
+            if arguments and tokens[following] != ",":
+                break
+            found = self._binary(following + 1 if arguments else following, _OPERATORS)
+            if found is None:
+                break
+            arguments.append(found[0])
+            following = found[3]
+        self._level -= 1
+        if tokens[following] != ")":
+            self._fault, self._large = before
+            return None
+        following += 1
+        end = self._ends[following]
+        self._size += 1
+        function = self._word(tokens[at], self._ends[at + 1])
+        start = function.span[1]
+        return Call(self._span(start, end), function, tuple(arguments)), start, end, following
+
+    def _path(self, at: int) -> _Found:
+        """A name, and fields of what it means."""
+        tokens, start = self._tokens, self._start(at)
+        end = self._ends[at + 1]
+        tree: ExpressionTree = NameUse(self._span(start, end), tokens[at])
+        at += 1
+        while tokens[at] == ".":
+            field = tokens[at + 1]
+            if field < "A" or field in MARKS:
+                break
+            at += 2
+            end = self._ends[at]
+            tree = FieldUse(self._span(start, end), tree, self._word(field, end))
+            self._size += 1
+        return tree, start, end, at
+
+    def _value(self, at: int, end: int, value: bool | float | str, unit: str = "") -> _Found:
+        ends = self._ends
+        start = ends[at + 1] - len(self._tokens[at])
+        made = new_node(Value)
+        made.span = new_span(Span, (self._source, start, end))
+        made.value = value
+        made.unit = unit
+        while ends[at] < end:
+            at += 1
+        return made, start, end, at
+
+    def _literal(self, at: int) -> _Found | None:
+        """A text, a number or a duration."""
+        token, start = self._tokens[at], self._start(at)
+        if token[:1] == '"' or self._tokens[at + 1] not in _IN_NUMBERS:
+            value = _simple_value(token)
+            if value is not None:
+                return self._value(at, self._ends[at + 1], value)
+        number = self._language.quantity(self._source.text, start)
+        return self._quantity(at, number) if number else None
+
+    def _quantity(self, at: int, match: re.Match[str]) -> _Found | None:
+        written, digits, unit = match.group(0, 1, 2)
+        end = match.end()
+        unit = unit or ""
+        is_large = is_too_large(written, digits, unit)
+        found = self._value(at, end, 0 if is_large else quantity_value(digits), unit)
+        if self._ends[found[3]] > end:
+            return None  # what stands behind it is not ASCII
+        if is_large and self._large is None:
+            self._large = self._span(*match.span())
+        return found
+
+    def _is_arrow(self, at: int) -> bool:
+        return self._tokens[at + 1] == ">" and self._ends[at + 2] == self._ends[at + 1] + 1
+
+    def _descend(self) -> None:
+        self._level += 1
+        if self._level > self._limit:
+            raise TooDeepError
+
+    def _blame(self, fault: Fault) -> None:
+        """Keep what is wrong, if nothing before it is."""
+        if self._fault is None or fault.span.start < self._fault.span.start:
+            self._fault = fault
+
+    def _start(self, at: int) -> int:
+        return self._ends[at + 1] - len(self._tokens[at])
+
+    def _word(self, text: str, end: int) -> Word:
+        word = new_word(Word, text)
+        word.span = new_span(Span, (self._source, end - len(text), end))
+        return word
+
+    def _span(self, start: int, end: int) -> Span:
+        return new_span(Span, (self._source, start, end))
+
+
+def _simple_value(token: str) -> int | float | str | None:
+    """The value of a text, or of a number without exponent and unit; None of all else."""
+    if token[:1] == '"':
+        return unquoted(token) if token != '"' else None
+    digits = token.replace(".", "", 1)
+    if not digits.isdigit() or len(digits) > _SIMPLE_NUMBER:
+        return None
+    return int(token) if digits == token else float(token)
+
+
+def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
+    """Report what is wrong with the expression at a span."""
+    tokens = language.tokens.cut(span.source.text, span.start, span.end)
+    parser = ExpressionParser(language, span.source, tokens, NESTING_LIMIT)
+    parser.expression(0)
+    for fault in parser.faults:
+        report.report(fault.name, fault.span, **fault.fields)

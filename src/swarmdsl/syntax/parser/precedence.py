@@ -1,0 +1,109 @@
+"""Operands and operators to a tree, by what binds more: E. W. Dijkstra's shunting-yard."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Span
+from swarmdsl.syntax.ast import ExpressionTree, OperatorUse, Word
+
+_OR, _AND, NOT, _COMPARISON, _SUM, _PRODUCT, SIGN = range(1, 8)
+# As in expression.lark; `not` and the sign have bindings of their own.
+BINDING = {
+    "or": _OR,
+    "and": _AND,
+    **dict.fromkeys(("==", "!=", "<=", ">=", "<", ">"), _COMPARISON),
+    **dict.fromkeys(("+", "-"), _SUM),
+    **dict.fromkeys(("*", "/", "%"), _PRODUCT),
+}
+_new_span = tuple.__new__  # Span itself takes twice as long to make one
+# How an operator binds, its word, and whether it is a prefix.
+Operator = tuple[int, Word, bool]
+# A tree, and where it begins and ends with the parentheses around it; the rest is not asked for.
+Operand = tuple[ExpressionTree, int, int, Any]
+O = TypeVar("O", bound=Operand)  # noqa: E741
+# An operator, the prefixes of the operand behind it, and that operand.
+Operation = tuple[Operator, Sequence[Operator], O]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong with an expression: a diagnostic and its place."""
+
+    span: Span
+    name: str
+    fields: dict[str, Any]
+
+
+def join(
+    prefixes: Sequence[Operator], first: Operand, operations: Sequence[Operation[O]]
+) -> tuple[ExpressionTree, int, int, Fault | None]:
+    """The tree of an operand with its prefixes and of what follows it, with its place.
+
+    A fault is the first operator that cannot stand where it does; the tree is none then.
+    """
+    if len(operations) == 1 and not prefixes and not operations[0][1]:
+        (_, word, _), _, (right, _, end, _) = operations[0]
+        tree, start, _, _ = first
+        return _operation(first[0].span, start, end, word, (tree, right)), start, end, None
+    joining = _Joining()
+    joining.add(prefixes, first)
+    for operator, before, operand in operations:
+        joining.operator(operator)
+        joining.add(before, operand)
+    joining.reduce(0)
+    return *joining.values[0], joining.fault
+
+
+class _Joining:
+    def __init__(self) -> None:
+        self.values: list[tuple[ExpressionTree, int, int]] = []
+        self.fault: Fault | None = None
+        self._waiting: list[Operator] = []
+
+    def add(self, prefixes: Sequence[Operator], operand: Operand) -> None:
+        """Add an operand; prefixes wait for what binds more than they do."""
+        for prefix in prefixes:
+            if prefix[0] == NOT and self._waiting and self._waiting[-1][0] > NOT:
+                self._blame(
+                    prefix[1],
+                    "`not` cannot stand here",
+                    "put parentheses around it and what it negates",
+                )
+            self._waiting.append(prefix)
+        self.values.append(operand[:3])
+
+    def operator(self, operator: Operator) -> None:
+        """Add an operator between two operands."""
+        self.reduce(operator[0])
+        if self._waiting and self._waiting[-1][0] == operator[0] == _COMPARISON:
+            self._blame(
+                operator[1], "comparisons cannot be chained", "join them: `a < b and b < c`"
+            )
+        self._waiting.append(operator)
+
+    def reduce(self, binding: int) -> None:
+        """Join what binds more than what comes next, or as much unless it does not chain."""
+        while self._waiting and self._waiting[-1][0] >= binding:
+            if self._waiting[-1][0] == binding == _COMPARISON:
+                return
+            _, word, is_prefix = self._waiting.pop()
+            right, _, end = self.values.pop()
+            start, operands = word.span.start, (right,)
+            if not is_prefix:
+                left, start, _ = self.values.pop()
+                operands = (left, right)  # type: ignore[assignment]
+            tree = _operation(word.span, start, end, word, operands)
+            self.values.append((tree, start, end))
+
+    def _blame(self, word: Word, message: str, help_: str) -> None:
+        if self.fault is None:
+            self.fault = Fault(word.span, "syntax-error", {"message": message, "help": help_})
+
+
+def _operation(
+    near: Span, start: int, end: int, word: Word, operands: tuple[ExpressionTree, ...]
+) -> OperatorUse:
+    return OperatorUse(_new_span(Span, (near.source, start, end)), word, operands)

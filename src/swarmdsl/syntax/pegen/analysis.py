@@ -1,0 +1,258 @@
+"""What can begin where in a grammar, and whether a parser can be made for it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from string import ascii_letters
+from typing import Any
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.parser.lexer import MARKS
+from swarmdsl.syntax.pegen.grammar import (
+    Assign,
+    Choice,
+    Expression,
+    Grammar,
+    Optional,
+    Repetition,
+    Sequence,
+    Terminal,
+    UnsupportedError,
+    Use,
+    inside,
+    parts,
+)
+
+try:
+    from re import _parser as sre
+except ImportError:  # Python 3.10
+    import sre_parse as sre
+
+_LETTERS = frozenset(ascii_letters + "_")
+
+
+@dataclass(frozen=True, slots=True)
+class First:
+    """The tokens that something can begin with.
+
+    A token is an ASCII word, an ASCII mark, or the empty text for all else. Those in
+    `tokens` can begin it; if `but` is not None, so can any word that is not in it.
+    """
+
+    tokens: frozenset[str] = frozenset()
+    but: frozenset[str] | None = None
+
+    def __or__(self, other: First) -> First:
+        """What either can begin with."""
+        if self.but is None or other.but is None:
+            but = other.but if self.but is None else self.but
+        else:
+            but = self.but & other.but
+        return First(self.tokens | other.tokens, but)
+
+    def has(self, token: str) -> bool:
+        """Whether it can begin with a token."""
+        return token in self.tokens or (
+            self.but is not None and token.isidentifier() and token not in self.but
+        )
+
+    def overlaps(self, other: First) -> bool:
+        """Whether there is a token that both can begin with."""
+        return (
+            (self.but is not None and other.but is not None)
+            or any(map(other.has, self.tokens))
+            or any(map(self.has, other.tokens))
+        )
+
+
+class Analysis:
+    """What is known of a grammar; raises UnsupportedError if no parser can be made for it."""
+
+    def __init__(self, grammar: Grammar) -> None:
+        self.grammar = grammar
+        self._empty: frozenset[str] = frozenset()
+        while (empty := self._matching_nothing()) != self._empty:
+            self._empty = empty
+        self._firsts: dict[str, First] = {}
+        for rule in grammar.rules.values():
+            for expression in inside(rule.body):
+                self._refuse_surprises(rule.name, expression)
+        for name in grammar.rules:
+            if name in self._leading(grammar.rules[name].body, set()):
+                raise UnsupportedError(name, "it begins with itself")
+        uses = {
+            name: {part.rule for part in inside(rule.body) if isinstance(part, Use)}
+            for name, rule in grammar.rules.items()
+        }
+        self.recursive = frozenset(name for name in uses if name in _reachable(name, uses))
+
+    def _matching_nothing(self) -> frozenset[str]:
+        rules = self.grammar.rules.values()
+        return frozenset(rule.name for rule in rules if _nullable(rule.body, self._empty))
+
+    def nullable(self, expression: Expression) -> bool:
+        """Whether nothing is a match too."""
+        return _nullable(expression, self._empty)
+
+    def first(self, expression: Expression) -> First:
+        """The tokens that an expression can begin with, unless it matches nothing."""
+        match expression:
+            case Terminal():
+                return _first_of_terminal(expression)
+            case Use(rule):
+                if rule not in self._firsts:
+                    self._firsts[rule] = self.first(self.grammar.rules[rule].body)
+                return self._firsts[rule]
+            case Choice(alternatives):
+                return _union(map(self.first, alternatives))
+            case Sequence(sequence):
+                return _union(map(self.first, self._heads(sequence)))
+            case Repetition(part) | Optional(part) | Assign(_, _, part):
+                return self.first(part)
+
+    def _heads(self, sequence: tuple[Expression, ...]) -> Iterator[Expression]:
+        """The parts that can come first."""
+        for part in sequence:
+            yield part
+            if not self.nullable(part):
+                return
+
+    def _leading(self, expression: Expression, found: set[str]) -> set[str]:
+        """The rules that an expression can begin with, added to those found."""
+        match expression:
+            case Use(rule):
+                if rule not in found:
+                    found.add(rule)
+                    self._leading(self.grammar.rules[rule].body, found)
+            case Sequence(sequence):
+                for part in self._heads(sequence):
+                    self._leading(part, found)
+            case _:
+                for part in parts(expression):
+                    self._leading(part, found)
+        return found
+
+    def _refuse_surprises(self, rule: str, expression: Expression) -> None:
+        """Refuse where Arpeggio takes a match of nothing for something else."""
+        match expression:
+            case Terminal(literal='"'):
+                raise UnsupportedError(rule, "a quotation mark can only begin a text")
+            case Choice(alternatives):
+                last = alternatives[-1]
+                other = alternatives if not isinstance(last, Repetition) else alternatives[:-1]
+                if any(map(self.nullable, other)):
+                    raise UnsupportedError(rule, "an alternative matches nothing at all")
+            case Repetition(part) if self.nullable(part):
+                raise UnsupportedError(rule, "what is repeated matches nothing at all")
+            case Optional(part) if self.nullable(part):
+                raise UnsupportedError(rule, "what is optional matches nothing at all")
+
+
+def _nullable(expression: Expression, empty: frozenset[str]) -> bool:
+    match expression:
+        case Terminal(regex):
+            return re.match(regex, "") is not None
+        case Use(rule):
+            return rule in empty
+        case Choice(alternatives):
+            return any(_nullable(part, empty) for part in alternatives)
+        case Sequence(sequence):
+            return all(_nullable(part, empty) for part in sequence)
+        case Repetition(part, least):
+            return least == 0 or _nullable(part, empty)
+        case Assign(_, _, part):
+            return _nullable(part, empty)
+    return True
+
+
+def _first_of_terminal(terminal: Terminal) -> First:
+    if terminal.is_word:
+        return First(frozenset({terminal.literal}))
+    if terminal.reserved is not None:
+        return First(but=terminal.reserved)
+    characters, _ = _first_characters(sre.parse(terminal.regex))
+    tokens = characters & MARKS
+    if characters - MARKS:
+        tokens |= {""}  # also where letters go on beyond ASCII
+    return First(frozenset(tokens), frozenset() if characters & _LETTERS else None)
+
+
+# Stands for all characters that are not ASCII.
+_OTHERS = "\N{SNOWMAN}"
+_ALL = frozenset(map(chr, range(128))) | {_OTHERS}
+
+
+def _first_characters(items: Any) -> tuple[frozenset[str], bool]:
+    """What a regular expression can begin with, or more; and whether it can match nothing."""
+    found: frozenset[str] = frozenset()
+    for operator, argument in items:
+        characters, empty = _of_item(str(operator), argument)
+        found |= characters
+        if not empty:
+            return found, False
+    return found, True
+
+
+def _of_item(operator: str, argument: Any) -> tuple[frozenset[str], bool]:
+    match operator:
+        case "LITERAL":
+            return frozenset({chr(argument) if argument < 128 else _OTHERS}), False
+        case "IN":
+            return frozenset(filter(_set(argument), _ALL)), False
+        case "BRANCH":
+            branches = [_first_characters(branch) for branch in argument[1]]
+            return frozenset().union(*(b[0] for b in branches)), any(b[1] for b in branches)
+        case "SUBPATTERN":
+            return _first_characters(argument[3])
+        case "MAX_REPEAT" | "MIN_REPEAT":
+            characters, empty = _first_characters(argument[2])
+            return characters, empty or argument[0] == 0
+        case "AT" | "ASSERT" | "ASSERT_NOT":
+            return frozenset(), True
+    return _ALL, True
+
+
+def _set(members: Any) -> Any:
+    """Whether a character is in a set such as `[^0-9]`; perhaps, if it is not ASCII."""
+    negated = str(members[0][0]) == "NEGATE"
+
+    def has(character: str) -> bool:
+        if character == _OTHERS:
+            return negated or any(str(op) != "LITERAL" or value > 127 for op, value in members)
+        within = any(_in_member(str(op), value, character) for op, value in members)
+        return within != negated
+
+    return has
+
+
+def _in_member(operator: str, value: Any, character: str) -> bool:
+    match operator:
+        case "LITERAL":
+            return character == chr(value)
+        case "RANGE":
+            return bool(value[0] <= ord(character) <= value[1])
+        case "CATEGORY":
+            escape = {"digit": "d", "word": "w", "space": "s"}
+            _, *negated, kind = str(value).lower().split("_")
+            letter = escape[kind].upper() if negated else escape[kind]
+            return re.match(f"\\{letter}", character) is not None
+    return False
+
+
+def _union(firsts: Iterable[First]) -> First:
+    found = First()
+    for first in firsts:
+        found |= first
+    return found
+
+
+def _reachable(name: str, uses: dict[str, set[str]]) -> set[str]:
+    found: set[str] = set()
+    ahead = list(uses[name])
+    while ahead:
+        rule = ahead.pop()
+        if rule not in found:
+            found.add(rule)
+            ahead.extend(uses[rule])
+    return found

@@ -1,0 +1,66 @@
+"""The parser of the language: what its rules become, and what it imports for that."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+from swarmdsl.base.resources import grammar_checksum
+from swarmdsl.syntax.ast import NODES, Documented, Node
+from swarmdsl.syntax.pegen.actions import Target
+from swarmdsl.syntax.pegen.grammar import read
+from swarmdsl.syntax.pegen.module import definitions
+
+PATH = Path(__file__).parents[1] / "parser" / "generated.py"
+
+
+def _values(node: type[Node]) -> dict[str, str]:
+    """Expressions for the fields of a node: what was parsed, its documentation, or the default."""
+    parsed = {part.name: f"{part.name}_" for part in fields(node) if part.init}
+    others = {part.name: repr(part.default) for part in fields(node) if not part.init}
+    if issubclass(node, Documented):
+        others["doc"] = "docs.pop(start) if start in docs else ''"
+    del parsed["span"]
+    return {**parsed, **others}
+
+
+TARGET = Target(
+    nodes={name: _values(node) for name, node in NODES.items()},
+    words={
+        **dict.fromkeys(("Name", "FieldName", "InterfaceName", "PackageName"), "{}"),
+        "Text": "unquoted({})",
+    },
+    written={"Expression": "expression", "Operand": "operand", "Delay": "delay"},
+    begin="""\
+    expressions = ExpressionParser(LANGUAGE, source, (tokens, ends), limit)
+    expression = expressions.expression
+    operand = expressions.operand
+    delay = expressions.delay
+""",
+    result="len(expressions.faults)",
+)
+_HEAD = '''\
+"""Parses .swarm files: made from grammar/*.tx by `make parser`, not to be edited."""
+
+# mypy: ignore-errors
+from __future__ import annotations
+
+import re
+
+from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
+from swarmdsl.syntax.parser.literals import Language, unquoted
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.ast import Ref, Word, {classes}
+from swarmdsl.syntax.parser.lexer import Cutter
+
+GRAMMAR = {checksum}
+{definitions}
+LANGUAGE = Language(TOKENS, RESERVED)
+'''
+
+
+def parser(metamodel: Any) -> str:
+    """The source of the parser for a textX metamodel; raises UnsupportedError."""
+    text, nodes = definitions(read(metamodel), TARGET)
+    return _HEAD.format(checksum=grammar_checksum(), definitions=text, classes=", ".join(nodes))

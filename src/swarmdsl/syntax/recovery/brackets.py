@@ -1,0 +1,253 @@
+"""Brackets without their other half: which they are, and where that half belongs.
+
+Where closers are missing, those that are there do not say whose they are: a parser
+complains of the one at the end of the file, not of the one the writer forgot. So indentation
+is asked as well: a line that stands as far left as the one with the opener, or further, is
+outside of the block. Where that makes for more mistakes than counting, it is not trusted.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from typing import NamedTuple
+
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import Source, Span
+from swarmdsl.syntax.parser.doc_comments import end_before, starts_line
+
+CLOSER = {"{": "}", "(": ")", "[": "]"}
+_OPENER = {closer: opener for opener, closer in CLOSER.items()}
+_TOKEN = re.compile(r"^[ \t]*(?=[^\s})\]])|->|[{}()\[\]]", re.MULTILINE)
+_BRACKET = re.compile(r"[{}()\[\]]")
+_CLOSERS = re.compile(r"[})\]\s]*")
+_INDENTATION = re.compile(r"[ \t]*")
+
+
+class Repair(NamedTuple):
+    """What to put in the place of a piece of text so that what is around it can be read."""
+
+    start: int
+    end: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class BracketFault:
+    """A bracket without its other half.
+
+    `at` is its offset, that of the last word before it for a block without `{`; `before` is
+    the line before which the closer seems to belong, None where it does not matter.
+    """
+
+    kind: str  # unclosed, unopened, extra or wrong
+    at: int
+    repair: Repair
+    opener: int | None = None
+    before: int | None = None
+
+
+def find_faults(code: str) -> list[BracketFault]:
+    """The faulty brackets of a text in which comments and texts are blank, in order."""
+    if _balanced(code):
+        return []
+    counted = _Match(code, trust_indentation=False).faults
+    trusted = _Match(code, trust_indentation=True).faults
+    return sorted(trusted if len(trusted) <= len(counted) else counted, key=lambda fault: fault.at)
+
+
+def outermost(code: str) -> list[tuple[int, int]]:
+    """The pairs of brackets that are in no other, of a text where all have their other half."""
+    pairs: list[tuple[int, int]] = []
+    opened: list[int] = []
+    for bracket in _BRACKET.finditer(code):
+        if bracket[0] in CLOSER:
+            opened.append(bracket.start())
+        elif opened:
+            start = opened.pop()
+            if not opened:
+                pairs.append((start, bracket.start()))
+    return pairs
+
+
+def _balanced(code: str) -> bool:
+    opened: list[str] = []
+    for bracket in _BRACKET.findall(code):
+        if bracket in CLOSER:
+            opened.append(CLOSER[bracket])
+        elif not opened or opened.pop() != bracket:
+            return False
+    return not opened
+
+
+def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> None:
+    """Say what is wrong with a bracket."""
+    at, text = fault.at, source.text
+    place = Span(source, at, at + 1)
+    bracket = text[at]
+    if fault.kind == "unclosed":
+        closer = CLOSER[bracket]
+        related: tuple[Label, ...] = ()
+        if fault.before is not None:
+            end = text.find("\n", fault.before)
+            line = Span(source, fault.before, end if end >= 0 else len(text))
+            message = f"the indentation says that `{closer}` is missing before this"
+            related = (Label(line, message),)
+        help_ = f"write `{closer}` where it ends" if bracket == "{" else None
+        report.report("unclosed-bracket", place, bracket=bracket, related=related, help=help_)
+    elif fault.kind == "wrong" and fault.opener is not None:
+        opener = text[fault.opener]
+        report.report(
+            "syntax-error",
+            place,
+            message=f"expected `{CLOSER[opener]}`, found `{bracket}`",
+            related=(Label(Span(source, fault.opener, fault.opener + 1), "opened here"),),
+            help=f"close `{opener}` with `{CLOSER[opener]}`",
+        )
+    elif fault.kind == "unopened":
+        word = Span(source, at, fault.repair.start)
+        message = f"expected `{{` after `{word.text}`"
+        report.report("syntax-error", word, message=message, help="open the block with `{`")
+    else:
+        report.report(
+            "syntax-error",
+            place,
+            message=f"this `{bracket}` closes nothing",
+            help="nothing is open here that it could close: delete it, or open it before",
+        )
+
+
+class _Match:
+    """One walk over the brackets."""
+
+    def __init__(self, code: str, *, trust_indentation: bool) -> None:
+        self.faults: list[BracketFault] = []
+        self._code = code
+        self._lines = [0, *(found.end() for found in re.finditer("\n", code))]
+        self._trusts = trust_indentation
+        self._open: list[int] = []
+        skip = 0
+        for token in _TOKEN.finditer(code):
+            at = token.end() if token[0] not in ("->", *CLOSER, *_OPENER) else token.start()
+            if at < skip:
+                continue
+            if token[0] in _OPENER:
+                skip = self._close(at)
+            elif token[0] in CLOSER or token[0] == "->":
+                if token[0] in ("{", "->"):
+                    self._end_of_brackets(at)
+                if token[0] in CLOSER:
+                    self._open.append(at)
+            elif at < len(code):
+                self._begin_line(at)
+        while self._open:
+            self._unclosed(len(code), None)
+
+    def _begin_line(self, at: int) -> None:
+        column = self._column(at)
+        while self._open and column <= self._indentation(self._open[-1]):
+            block = self._code[self._open[-1]] == "{"
+            if block and (not self._trusts or self._code[at] == "{"):
+                break
+            self._unclosed(at, at if block else None)
+
+    def _end_of_brackets(self, at: int) -> None:
+        """Nothing in parentheses or square brackets goes on behind what stands here."""
+        while self._open and self._code[self._open[-1]] != "{":
+            self._unclosed(at, None)
+
+    def _close(self, at: int) -> int:
+        """Match a closer; return the offset from which to go on."""
+        code = self._code
+        opener = _OPENER[code[at]]
+        if opener == "{":
+            if self._open and self._is_wrong(at):
+                return self._wrong(at)
+            self._end_of_brackets(at)
+            if self._trusts and starts_line(code, at):
+                column = self._column(at)
+                while len(self._open) > 1 and column < self._indentation(self._open[-1]):
+                    self._unclosed(at, at)
+                if self._open and column > self._indentation(self._open[-1]):
+                    return self._extra(at)
+        else:
+            inside = self._open[self._last_block() + 1 :]
+            if any(code[other] == opener for other in inside):
+                while code[self._open[-1]] != opener:
+                    self._unclosed(at, None)
+            elif inside:
+                return self._wrong(at)
+            else:
+                return self._extra(at)
+        if not self._open:
+            return self._extra(at)
+        self._open.pop()
+        return at + 1
+
+    def _is_wrong(self, at: int) -> bool:
+        """Whether a `}` closes a parenthesis of its line: no block was opened there."""
+        line = self._line(at)
+        block = self._last_block()
+        return self._open[-1] >= line and (block < 0 or self._open[block] < line)
+
+    def _wrong(self, at: int) -> int:
+        opener = self._open.pop()
+        repair = Repair(at, at + 1, CLOSER[self._code[opener]])
+        self.faults.append(BracketFault("wrong", at, repair, opener))
+        return at + 1
+
+    def _last_block(self) -> int:
+        blocks = (i for i in reversed(range(len(self._open))) if self._code[self._open[i]] == "{")
+        return next(blocks, -1)
+
+    def _unclosed(self, end: int, before: int | None) -> None:
+        at = self._open.pop()
+        if before is None and self._code[at] != "{":  # it does not go on on the next line
+            following = bisect_right(self._lines, at)
+            end = min(end, *self._lines[following : following + 1], len(self._code))
+        end = end_before(self._code, end)
+        # A brace gets a line of its own, or a parser would find it where something is missing.
+        closer = "\n}" if self._code[at] == "{" else CLOSER[self._code[at]]
+        repair = Repair(end, end, closer)
+        self.faults.append(BracketFault("unclosed", at, repair, before=before))
+
+    def _extra(self, at: int) -> int:
+        """A closer, and those that follow it at once, are too many, or a block has no opener."""
+        header = self._header(at) if self._trusts and self._code[at] == "}" else None
+        if header is not None:
+            self.faults.append(header)
+            return at + 1
+        found = _CLOSERS.match(self._code, at) if not self._open else None
+        end = found.end() if found else at + 1
+        blank = re.sub(r"\S", " ", self._code[at:end])
+        self.faults.append(BracketFault("extra", at, Repair(at, end, blank)))
+        return end
+
+    def _header(self, at: int) -> BracketFault | None:
+        """The line before an indented block without `{` that the closer at `at` closes."""
+        code = self._code
+        end = end_before(code, at)
+        if not starts_line(code, at) or self._indentation(end) <= self._column(at):
+            return None
+        while end and self._indentation(end) > self._column(at):
+            end = end_before(code, self._line(end))
+        header = code[self._line(end) : end].lstrip()
+        if not header[:1].isalpha() or "{" in header or "}" in header:
+            return None
+        word = end
+        while word and (code[word - 1].isalnum() or code[word - 1] in "_./"):
+            word -= 1
+        return BracketFault("unopened", min(word, end - 1), Repair(end, end, " {"))
+
+    def _indentation(self, at: int) -> int:
+        found = _INDENTATION.match(self._code, self._line(at))
+        return len(found[0].expandtabs(4)) if found else 0
+
+    def _column(self, at: int) -> int:
+        """The column of what begins a line."""
+        return len(self._code[self._line(at) : at].expandtabs(4))
+
+    def _line(self, at: int) -> int:
+        """Where the line of an offset begins."""
+        return self._lines[bisect_right(self._lines, at) - 1]

@@ -1,0 +1,178 @@
+"""Where a statement begins and ends, in a text that the parser does not accept.
+
+A statement stands on a line of its own, goes on on lines that are further to the right or
+begin with what can begin nothing, and ends with its block, if it has one. Some keywords begin
+a statement wherever they stand.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.base.records import dataclass
+
+_TOKEN = re.compile(
+    r'(?P<comment>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))|(?P<text>"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?)'
+    r"|[^\W\d]\w*|\d[\w.]*|->|=>|[=!<>]=|&&|\|\||\.\.|\S"
+)
+
+
+def _words(text: str) -> frozenset[str]:
+    return frozenset(text.split())
+
+
+_STARTS = _words(
+    "do entry exit on after monitor internal initial state parallel choice deep history final "
+    "region var param connect"
+)
+# These begin a statement only at the start of a line, or are the second word of one.
+_NOT_AFTER = {
+    "state": {"parallel"}, "history": {"deep"}, "param": set(), "on": {"internal"},
+    "after": {"internal", "on"}, "monitor": {"internal"}, "done": {"."},
+}  # fmt: skip
+_GOES_ON = _words("-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or extends gives { on")
+# What a keyword cannot begin a statement after: it stands there as a name, or belongs to it.
+_LEAD = _words(
+    "< -> => = : . , ( [ - / swarm endless extends initial do on send by struct enum type const "
+    "message service action event function sensor actuator controller virtual member statemachine "
+    "environment fitness optimize state region choice history final var param connect behavior "
+    "in out inout operation package import"
+)
+_HAS_TOPIC = _words("event swarm in out inout")
+_NEXT = re.compile(r"[ \t]*(\S?)")
+_DECLARES = _words(
+    "struct enum const message service action swarm event function sensor actuator controller "
+    "virtual member endless statemachine environment fitness optimize import package"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """Offsets of a statement: of its start, of the `{` of its block or else its end, its end.
+
+    `inside` is the statement whose block it is in.
+    """
+
+    start: int
+    header: int
+    end: int
+    inside: _Open | None = None
+
+    @property
+    def around(self) -> tuple[tuple[int, int], ...]:
+        """The headers of the blocks that it is in, outermost first."""
+        found = []
+        block = self.inside
+        while block is not None:
+            found.append((block.start, block.brace + 1))
+            block = block.inside
+        return tuple(reversed(found))
+
+
+@dataclass(slots=True)
+class _Open:
+    start: int
+    column: int
+    brace: int = -1
+    brackets: int = 0
+    word: str = ""
+    inside: _Open | None = None
+
+
+def statement_at(text: str, at: int) -> Statement:
+    """The innermost statement that covers an offset, or the last that ends before it."""
+    last: Statement | None = None
+    for one in _statements(text):
+        if one.start <= at < max(one.end, one.start + 1):
+            return one
+        if last is None or one.start <= at:
+            last = one
+        elif not one.around or one.around[0][0] > at:
+            break  # all that follow begin further on
+    return last or Statement(0, len(text), len(text))
+
+
+def statements_at(text: str, places: Iterable[int]) -> Iterator[Statement]:
+    """What `statement_at` finds for many offsets, for all of them at once."""
+    ordered = sorted(_statements(text), key=lambda one: one.start)
+    around: list[Statement] = []
+    begun = 0
+    for at in sorted(places) if ordered else ():
+        while begun < len(ordered) and ordered[begun].start <= at:
+            around.append(ordered[begun])
+            begun += 1
+        while around and max(around[-1].end, around[-1].start + 1) <= at:
+            around.pop()
+        yield around[-1] if around else ordered[max(begun - 1, 0)]
+
+
+def _statements(text: str) -> Iterator[Statement]:
+    """All statements, outer ones after those inside them."""
+    opened: list[_Open] = []  # statements whose block is open
+    current: _Open | None = None
+    last = ""
+    last_end = line_end = 0
+    column = 0
+
+    def finished(current: _Open, end: int) -> Statement:
+        header = current.brace if current.brace >= 0 else end
+        return Statement(current.start, header, end, opened[-1] if opened else None)
+
+    for token in _TOKEN.finditer(text):
+        if token.lastgroup == "comment":
+            continue
+        at, word = token.start(), token[0]
+        first = at >= line_end
+        if first:
+            line = text.rfind("\n", 0, at) + 1
+            column = len(text[line:at].expandtabs(4))
+            line_end = text.find("\n", at)
+            line_end = len(text) if line_end < 0 else line_end
+        if word == "{":
+            if current is None:
+                current = _Open(at, column)
+            current.brace = at
+            current.inside = opened[-1] if opened else None
+            opened.append(current)
+            current = None
+        elif word == "}":
+            if current is not None:
+                yield finished(current, last_end)
+            if opened:
+                yield finished(opened.pop(), at + 1)
+            current = None
+        else:
+            if current is not None and _begins(text, token, word, last, first, column, current):
+                yield finished(current, last_end)
+                current = None
+            if current is None:
+                current = _Open(at, column, word=word)
+            current.brackets += {"(": 1, "[": 1, ")": -1, "]": -1}.get(word, 0)
+        last, last_end = word, token.end()
+    if current is not None:
+        yield finished(current, last_end)
+    end = len(text.rstrip())
+    while opened:
+        yield finished(opened.pop(), end)
+
+
+def _begins(
+    text: str,
+    token: re.Match[str],
+    word: str,
+    last: str,
+    first: bool,
+    column: int,
+    current: _Open,
+) -> bool:
+    """Whether a token begins a statement although one is open."""
+    if word in _STARTS and last not in _NOT_AFTER.get(word, ()):
+        found = _NEXT.match(text, token.end())
+        follows = found[1] if found else ""
+        if not (word == "on" and (follows == '"' or current.word in _HAS_TOPIC) and not first):
+            return first or (follows not in ("", ":", "=", ".", ",", ")") and last not in _LEAD)
+    if not first:
+        declares = word in _DECLARES and current.word in _DECLARES and not current.brackets
+        return declares and column == 0 and last not in _LEAD
+    return current.brackets <= 0 and word not in _GOES_ON and column <= current.column

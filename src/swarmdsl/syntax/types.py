@@ -1,0 +1,56 @@
+"""Types of data: what ROS knows, by name."""
+
+from __future__ import annotations
+
+from swarmdsl.base.records import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Primitive:
+    """`bool`, `int32`, `float64`, `string`, `time`, `duration`, ...
+
+    `bound` is the greatest length of a string, None where there is no limit.
+    """
+
+    name: str
+    bound: int | None = None
+
+    def __str__(self) -> str:
+        return self.name if self.bound is None else f"{self.name}<={self.bound}"
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A message or struct; `package` is that of ROS, or of the model that defines it."""
+
+    package: str
+    name: str
+
+    def __str__(self) -> str:
+        return f"{self.package}/{self.name}"
+
+
+@dataclass(frozen=True, slots=True)
+class Array:
+    """Many of one type: `size` of them, or up to that many if `bounded`; None for any number."""
+
+    element: Type
+    size: int | None = None
+    bounded: bool = False
+
+    def __str__(self) -> str:
+        size = "" if self.size is None else str(self.size)
+        return f"{self.element}[{'<=' if self.bounded else ''}{size}]"
+
+
+Type = Primitive | Named | Array
+
+INTEGERS = tuple(f"{sign}int{bits}" for bits in (8, 16, 32, 64) for sign in ("", "u"))
+FLOATS = ("float32", "float64")
+PRIMITIVES = ("bool", "byte", "char", *INTEGERS, *FLOATS, "string", "wstring", "time", "duration")
+
+BOOL = Primitive("bool")
+STRING = Primitive("string")
+DURATION = Primitive("duration")
+INT = Primitive("int64")
+FLOAT = Primitive("float64")

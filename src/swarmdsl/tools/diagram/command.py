@@ -1,0 +1,106 @@
+"""What `swarmc diagram` does: from files to pictures on disk or to one on standard output."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+from swarmdsl.base.atomic_write import Staging
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.source import COMMAND_LINE, Source, Span
+from swarmdsl.base.suggest import suggest
+from swarmdsl.driver import pipeline
+from swarmdsl.driver.config import find_settings
+from swarmdsl.tools.diagram.formats import FORMATS, SUFFIXES
+from swarmdsl.tools.diagram.graph import KINDS, Diagram
+from swarmdsl.tools.diagram.views import diagrams
+
+_MOST_NAMED = 12
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What came of a run: `text` where it is for standard output, else `written` on disk."""
+
+    report: Diagnostics
+    files: int
+    text: str | None = None
+    written: Sequence[Path] = ()
+
+
+def draw(
+    paths: tuple[Path, ...], kind: str, names: Sequence[str], format_: str, out: Path | None
+) -> Drawn:
+    """Draw what is asked for of the model in these files.
+
+    `kind` is one of `KINDS` or `all`, `names` choose among the diagrams if there are any.
+    Several diagrams go to a folder; one goes to file `out`, or to standard output.
+    """
+    report = Diagnostics()
+    settings = find_settings(paths, report)
+    if report.has_errors:
+        return Drawn(report, 1)
+    checked = pipeline.check(paths or settings.sources, settings)
+    report.include(checked.report)
+    if checked.system is None:
+        return Drawn(report, checked.files)
+    kinds = KINDS if kind == "all" else tuple(each for each in KINDS if each == kind)
+    every = list(diagrams(checked.system, kinds))
+    chosen = _chosen(every, names, report)
+    if not every:
+        report.report(
+            "nothing-to-draw", what="any diagram" if kind == "all" else f"{kind} diagrams"
+        )
+    write = FORMATS[format_]
+    if report.has_errors:
+        return Drawn(report, checked.files)
+    suffix = SUFFIXES[format_]
+    to_file = out is not None and not out.is_dir() and (out.suffix == suffix or out.exists())
+    if len(chosen) > 1 and (out is None or to_file):
+        where = f"file `{out}`" if out is not None else "standard output"
+        help_ = _choices(chosen)
+        report.report("unclear-diagram", count=len(chosen), where=where, help=help_)
+        return Drawn(report, checked.files)
+    if out is None:
+        return Drawn(report, checked.files, write(chosen[0]))
+    is_folder = out.is_dir() or len(chosen) > 1 or (not out.suffix and not out.exists())
+    texts = {
+        out / f"{each.stem}{suffix}" if is_folder else out: write(each).encode() for each in chosen
+    }
+    return Drawn(report, checked.files, written=_write(texts, report))
+
+
+def _chosen(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics) -> list[Diagram]:
+    """The diagrams of these names, or all where none is given."""
+    known = {each.name for each in every}
+    for name in names:
+        if name not in known and known:
+            source = Source(COMMAND_LINE, f"--name {name}")
+            place = Span(source, len(source.text) - len(name), len(source.text))
+            help_ = suggest(name, sorted(known), "diagrams")
+            report.report("unresolved-name", place, kind="diagram", name=name, help=help_)
+    return [each for each in every if not names or each.name in names]
+
+
+def _choices(chosen: Sequence[Diagram]) -> str:
+    names = list(dict.fromkeys(f"--name {each.name}" for each in chosen))
+    return f"name a folder for them with `-o`, or choose: {listed(names[:_MOST_NAMED])}"
+
+
+def _write(texts: dict[Path, bytes], report: Diagnostics) -> list[Path]:
+    """Write all files, or none where one cannot be written."""
+    try:
+        with Staging() as staging:
+            for path, content in texts.items():
+                # A link stays one: the file that it leads to is replaced.
+                staging.add(Path(os.path.realpath(path)), content)
+            for _ in staging.move_in_place():
+                pass
+    except OSError as error:
+        reason = error.strerror or str(error)
+        path = error.filename or next(iter(texts))
+        report.report("cannot-write", path=path, reason=reason[:1].lower() + reason[1:])
+        return []
+    return list(texts)

@@ -1,0 +1,181 @@
+"""A swarm as a diagram: its members, what they say to each other, and what is around them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import Literal
+
+from swarmdsl import ir
+from swarmdsl.codegen.swarm_printer.expressions import expression
+from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.tools.diagram.labels import param_line, type_name
+
+
+def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
+    """Draw a swarm: a box for each role, with what such a member does."""
+    members = {member.name: member for member in system.members}
+    machines = {machine.name: machine for machine in system.machines}
+    roles = [
+        _Role(role, members[role.member], machines.get(members[role.member].behavior or ""), system)
+        for role in swarm.roles
+    ]
+    head = Node(
+        "swarm",
+        "swarm",
+        swarm.name,
+        "swarm",
+        tuple(_optimizations(swarm, system)),
+        doc=swarm.doc,
+        origin=swarm.origin,
+    )
+    around = [*_environment(swarm, system), *_fitness(swarm, system)]
+    frame = Node(
+        "",
+        "frame",
+        swarm.name,
+        "composition",
+        nodes=(head, *(role.node() for role in roles), *(node for node, _ in around)),
+        doc=swarm.doc,
+        origin=swarm.origin,
+    )
+    edges = (
+        *(role.edge() for role in roles),
+        *(edge for _, edge in around),
+        *_flows(roles, system),
+    )
+    return Diagram("composition", swarm.name, frame, edges)
+
+
+class _Role:
+    """Members of one type in the swarm, and what their behaviour uses."""
+
+    def __init__(
+        self, role: ir.Role, member: ir.Member, machine: ir.StateMachine | None, system: ir.System
+    ) -> None:
+        self.role, self.member, self.machine = role, member, machine
+        states = list(machine.walk()) if machine is not None else []
+        effects = [
+            effect
+            for state in states
+            for effect in (
+                *state.entry,
+                *state.exit,
+                *(each for transition in state.transitions for each in transition.effects),
+            )
+        ]
+        self.sent = {each.event for each in effects if isinstance(each, ir.Send)}
+        self.heard = {
+            trigger.event
+            for state in states
+            for transition in state.transitions
+            for trigger in transition.triggers
+            if isinstance(trigger, ir.EventTrigger)
+        }
+        used = {state.activity.function for state in states if state.activity is not None}
+        self.functions = [each for each in system.functions if each.name in used]
+
+    @property
+    def id(self) -> str:
+        return f"role.{self.role.name}"
+
+    def node(self) -> Node:
+        member = self.member
+        groups: list[tuple[str, ...]] = []
+        if member.behavior is not None:
+            groups.append((f"behavior {member.behavior}",))
+        groups.append(tuple(map(param_line, member.params)))
+        groups.append(tuple(f"{part.name} : {part.component}" for part in member.parts))
+        groups.append(tuple(f"«{each.category}» {each.name}" for each in self.functions))
+        return Node(
+            self.id,
+            "member",
+            member.name,
+            "member",
+            tuple(filter(None, groups)),
+            doc=member.doc,
+            origin=member.origin,
+        )
+
+    def edge(self) -> Edge:
+        role = self.role
+        return Edge(
+            f"{self.id}.composition",
+            "composition",
+            "swarm",
+            self.id,
+            (f"{role.name} [{role.multiplicity}]",),
+            doc=role.doc,
+            origin=role.origin,
+        )
+
+
+def _flows(roles: list[_Role], system: ir.System) -> Iterator[Edge]:
+    """The swarm events that members send and members wait for."""
+    for sender in roles:
+        for receiver in roles:
+            events = [
+                event.name
+                for event in system.events
+                if event.swarm and event.name in sender.sent and event.name in receiver.heard
+            ]
+            alone = sender is receiver and sender.role.multiplicity.upper == 1
+            if events and not alone:
+                *others, last = events
+                label = (*(f"{each}," for each in others), last)
+                yield Edge(f"{sender.id}=>{receiver.id}", "flow", sender.id, receiver.id, label)
+
+
+def _environment(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
+    for each in system.environments:
+        if each.name == swarm.environment:
+            lines = [f'world "{each.world}"'] if each.world is not None else []
+            if each.size is not None:
+                lines.append("size " + " x ".join(f"{side:g} m" for side in each.size))
+            yield _around(swarm, "environment", each, _groups(lines))
+
+
+def _fitness(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[Node, Edge]]:
+    for each in system.fitness:
+        if each.name == swarm.fitness:
+            data = [f"in {field.name} : {type_name(field.type)}" for field in each.inputs]
+            data += map(param_line, each.params)
+            goal = f"{each.goal} {expression(each.value)}"
+            yield _around(swarm, "fitness", each, _groups(data, [goal]))
+
+
+def _around(
+    swarm: ir.Swarm,
+    kind: Literal["environment", "fitness"],
+    thing: ir.Environment | ir.Fitness,
+    compartments: tuple[tuple[str, ...], ...],
+) -> tuple[Node, Edge]:
+    node = Node(
+        kind,
+        kind,
+        thing.name,
+        kind,
+        compartments,
+        doc=thing.doc,
+        origin=thing.origin,
+    )
+    return node, Edge(f"swarm.{kind}", "association", "swarm", kind, origin=swarm.origin)
+
+
+def _optimizations(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[str, ...]]:
+    """What may be changed to make the swarm better."""
+    for each in system.optimizations:
+        if each.swarm != swarm.name:
+            continue
+        lines = [f"{name} {expression(value)}" for name, value in each.settings]
+        for param in each.params:
+            step = f" step {expression(param.step)}" if param.step is not None else ""
+            span = f"{expression(param.lower)} .. {expression(param.upper)}"
+            lines.append(f"{param.role}.{param.param} in {span}{step}")
+        for count in each.counts:
+            span = f"{expression(count.lower)} .. {expression(count.upper)}"
+            lines.append(f"count of {count.role} in {span}")
+        yield ("«optimize»", *lines)
+
+
+def _groups(*groups: Iterable[str]) -> tuple[tuple[str, ...], ...]:
+    return tuple(lines for group in groups if (lines := tuple(group)))

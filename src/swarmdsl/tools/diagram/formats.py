@@ -1,0 +1,12 @@
+"""What diagrams are written as."""
+
+from __future__ import annotations
+
+from swarmdsl.tools.diagram.dot import dot
+from swarmdsl.tools.diagram.mermaid import mermaid
+from swarmdsl.tools.diagram.plantuml import plantuml
+from swarmdsl.tools.diagram.svg import svg
+
+FORMATS = {"svg": svg, "dot": dot, "mermaid": mermaid, "plantuml": plantuml}
+"""What writes a diagram, by the name of the format."""
+SUFFIXES = {"svg": ".svg", "dot": ".dot", "mermaid": ".mmd", "plantuml": ".puml"}

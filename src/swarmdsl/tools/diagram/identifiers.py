@@ -1,0 +1,37 @@
+"""Names for nodes and ports that every notation takes: letters, digits and `_`."""
+
+from __future__ import annotations
+
+import re
+
+from swarmdsl.tools.diagram.graph import Diagram
+
+# Words that mean something at the start of a line of DOT, Mermaid or PlantUML.
+_RESERVED = """
+abstract accdescr acctitle actor agent artifact as boundary call card choice circle class
+classdef click cloud collections component control database default digraph direction edge else
+end entity enum file flowchart folder footer fork frame graph header hexagon hide href interface
+interpolate join legend linkstyle mainframe namespace newpage node note object package page
+participant port portin portout queue rectangle remove scale set show skinparam stack start
+state storage strict style subgraph title together usecase
+"""
+
+
+def identifiers(diagram: Diagram) -> dict[str, str]:
+    """A name for each node and port, from its id; none means two things."""
+    ids = [
+        each
+        for node in diagram.frame.walk()
+        for each in (node.id, *(port.id for port in node.ports))
+    ]
+    names: dict[str, str] = {}
+    taken = set(_RESERVED.split())
+    for each in ids:
+        name = wanted = re.sub(r"[^A-Za-z0-9]+", "_", each).strip("_") or diagram.kind
+        number = 2
+        while name.lower() in taken:
+            name = f"{wanted}_{number}"
+            number += 1
+        taken.add(name.lower())
+        names[each] = name
+    return names

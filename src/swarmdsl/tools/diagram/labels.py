@@ -1,0 +1,109 @@
+"""What is written in diagrams: triggers, guards, effects and activities as the model has them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.codegen.swarm_printer.actions import activity_text, effect_text
+from swarmdsl.codegen.swarm_printer.expressions import default, delay, expression
+from swarmdsl.ir import (
+    Array,
+    DoneTrigger,
+    Effect,
+    EventTrigger,
+    Expression,
+    Named,
+    OutcomeTrigger,
+    Param,
+    State,
+    TimeTrigger,
+    Transition,
+    Trigger,
+    Type,
+    Variable,
+)
+
+
+def transition_label(transition: Transition, owner: State) -> tuple[str, ...]:
+    """`trigger [guard] / effects` in pieces; a branch of a choice has no trigger."""
+    pieces = []
+    if transition.triggers:
+        pieces.append(", ".join(_trigger(each, owner) for each in transition.triggers))
+    if transition.guard is not None:
+        pieces.append(f"[{expression(transition.guard)}]")
+    return (*pieces, *effects_label(transition.effects))
+
+
+def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
+    """`/ x = 1, send Found`, an effect a piece."""
+    if not effects:
+        return ()
+    *others, last = map(effect_text, effects)
+    first, *rest = (*(f"{each}," for each in others), last)
+    return (f"/ {first}", *rest)
+
+
+def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
+    """What a state does on entry, while it is active, and on exit; and what it stays for."""
+    lines = []
+    if entry:
+        lines.append(f"entry {' '.join(effects_label(entry))}")
+    if state.activity is not None:
+        lines.append(f"do / {activity_text(state.activity, state.activity.function)}")
+    if state.exit:
+        lines.append(f"exit {' '.join(effects_label(state.exit))}")
+    for _, each in internal_transitions(state):
+        lines.append(" ".join(transition_label(each, state)))
+    return tuple(lines)
+
+
+def internal_transitions(state: State) -> Iterator[tuple[str, Transition]]:
+    """The transitions that a state stays for, by the ids that traces have for them."""
+    for number, each in enumerate(state.transitions):
+        if each.target is None:
+            yield f"{state.id}->{number}", each
+
+
+def param_line(param: Param) -> str:
+    """A param with its type and default."""
+    return f"param {param.name} : {type_name(param.type)}{default(param.default)}"
+
+
+def variable_line(variable: Variable) -> str:
+    """A variable with its type and first value."""
+    return f"var {variable.name} : {type_name(variable.type)}{default(variable.initial)}"
+
+
+def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
+    """Values that are set, one a line."""
+    return tuple(f"{name} = {expression(value)}" for name, value in values)
+
+
+def type_name(type_: Type) -> str:
+    """A type without its package: the picture is to be read from a distance."""
+    match type_:
+        case Array(element=element):
+            return type_name(element) + str(type_).removeprefix(str(element))
+        case Named(name=name):
+            return name
+    return str(type_)
+
+
+def _trigger(trigger: Trigger, owner: State) -> str:
+    match trigger:
+        case EventTrigger(event=event):
+            return event
+        case TimeTrigger(delay=time):
+            return f"after {delay(time)}"
+        case OutcomeTrigger(state=state, outcome=outcome):
+            return _of(state, owner, outcome)
+        case DoneTrigger(state=state, final=final):
+            done = "done" if final is None else f"done.{final.removeprefix(f'{state}.')}"
+            return _of(state, owner, done)
+
+
+def _of(state: str, owner: State, what: str) -> str:
+    """What happens to a state, with the name of the state where it is not the owner."""
+    if state == owner.id:
+        return what
+    return f"{state.removeprefix(f'{owner.id}.')}.{what}"

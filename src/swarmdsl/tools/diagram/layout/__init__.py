@@ -1,0 +1,197 @@
+"""Where everything in a diagram is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import log, sqrt
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.tools.diagram.content import Block
+from swarmdsl.tools.diagram.graph import Diagram, Edge, Node, Port
+from swarmdsl.tools.diagram.layout.compound import Compound
+from swarmdsl.tools.diagram.layout.routing import simplified
+from swarmdsl.tools.diagram.measure import width
+from swarmdsl.tools.diagram.shapes import PORT, PSEUDO_STATES, Direction, port_text
+
+_ASPECT = 1.6
+"""Width to height that pages and screens have room for."""
+_MOST_TRIED = 150
+"""Nodes up to which both directions are tried."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A node in its place; `core` is what of it edges end on, the rest is its name.
+
+    `divider` is the line between a region and the one before it: a path from its corner, empty
+    for the first. A region without one has a border of its own.
+    """
+
+    node: Node
+    x: int
+    y: int
+    width: int
+    height: int
+    core: tuple[int, int, int, int]
+    block: Block
+    divider: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Pin:
+    """A port: its centre and, where that is not in a box, the place of its name above it."""
+
+    port: Port
+    x: int
+    y: int
+    name_x: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """An edge from source to target, with right angles, and its label."""
+
+    edge: Edge
+    points: tuple[tuple[int, int], ...]
+    label: Block | None
+    label_x: int = 0
+    label_y: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """A diagram laid out: boxes from the outside in, lines, and ports."""
+
+    diagram: Diagram
+    width: int
+    height: int
+    boxes: tuple[Box, ...]
+    lines: tuple[Line, ...]
+    pins: tuple[Pin, ...]
+
+
+def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
+    """Lay out a diagram in the direction that its kind has, or that fits a page better."""
+    if direction is not None:
+        return _picture(Compound(diagram, direction))
+    if diagram.kind == "internal":
+        return lay_out(diagram, "right")
+    if diagram.kind == "composition":
+        return lay_out(diagram, "down")
+    if sum(1 for _ in diagram.frame.walk()) > _MOST_TRIED:
+        return lay_out(diagram, "right")
+    pictures = [lay_out(diagram, "down"), lay_out(diagram, "right")]
+    return min(pictures, key=_badness)
+
+
+def _badness(picture: Picture) -> float:
+    """How large a picture is on a page that it must fit."""
+    return max(picture.width / _ASPECT, picture.height) + 0.2 * abs(
+        log(picture.width / picture.height / _ASPECT)
+    )
+
+
+def _picture(compound: Compound) -> Picture:
+    frame = compound.diagram.frame
+    boxes: list[Box] = []
+    pins: list[Pin] = []
+    corners: dict[str, tuple[int, int]] = {}
+    for node, x, y in _places(compound, frame, 0, 0):
+        inside = compound.inside[node.id]
+        corners[node.id] = x, y
+        wide, high = _xy(compound, inside.length, inside.breadth)
+        core_x, core_y, core_wide, core_high = inside.shape.core
+        if node.kind not in PSEUDO_STATES:
+            core_x, core_y, core_wide, core_high = 0, 0, wide, high
+        core = (x + core_x, y + core_y, core_wide, core_high)
+        divider = None
+        if node is not frame and compound.inside[compound.passages.parents[node.id]].regions:
+            is_first = node is compound.passages.nodes[compound.passages.parents[node.id]].nodes[0]
+            divider = f"v{high}" if compound.direction == "down" else f"h{wide}"
+            divider = "" if is_first else divider
+        boxes.append(Box(node, x, y, wide, high, core, inside.shape.block, divider))
+        centres = {id_: (port_x, port_y) for id_, port_x, port_y in inside.shape.ports}
+        for port in node.ports:
+            if port.id in centres:
+                dx, dy = centres[port.id]
+                pins.append(Pin(port, x + dx, y + dy))
+            else:
+                dx, dy = _xy(compound, *inside.ports[port.id])
+                name_x = 9 if not dx else dx - 9 - width(port_text(port), "line")
+                pins.append(Pin(port, x + dx, y + dy, x + name_x))
+    cores = {box.node.id: box for box in boxes}
+    lines = [
+        _line(compound, number, edge, corners, cores)
+        for number, edge in enumerate(compound.diagram.edges)
+    ]
+    outer = compound.inside[frame.id]
+    wide, high = _xy(compound, outer.length, outer.breadth)
+    return Picture(compound.diagram, wide, high, tuple(boxes), tuple(lines), tuple(pins))
+
+
+def _xy(compound: Compound, along: int, across: int) -> tuple[int, int]:
+    return (across, along) if compound.direction == "down" else (along, across)
+
+
+def _places(compound: Compound, node: Node, x: int, y: int) -> Iterator[tuple[Node, int, int]]:
+    yield node, x, y
+    for child in node.nodes:
+        dx, dy = _xy(compound, *compound.inside[node.id].children[child.id])
+        yield from _places(compound, child, x + dx, y + dy)
+
+
+def _line(
+    compound: Compound,
+    number: int,
+    edge: Edge,
+    corners: dict[str, tuple[int, int]],
+    boxes: dict[str, Box],
+) -> Line:
+    label = compound.labels.get(number)
+    if number not in compound.passages.routes:
+        x, y = corners[edge.source]
+        loops = compound.inside[edge.source].own_loops
+        loop = next(each for each in loops if each.edge == number)
+        points = tuple((x + dx, y + dy) for dx, dy in loop.points)
+        at = loop.label or (0, 0)
+        return Line(edge, points, label, x + at[0], y + at[1])
+    way: list[tuple[int, int]] = []
+    label_at = (0, 0)
+    for container, _, _ in compound.passages.routes[number].legs:
+        inside, (x, y) = compound.inside[container], corners[container]
+        for place in inside.pieces[number]:
+            dx, dy = _xy(compound, *place)
+            way.append((x + dx, y + dy))
+        if number in inside.labels:
+            dx, dy = _xy(compound, *inside.labels[number])
+            label_at = (x + dx, y + dy)
+    way = simplified(way)
+    for end, then, node in ((0, 1, edge.source), (-1, -2, edge.target)):
+        if edge.source_port is not None:
+            way[end] = _beside_port(way[end], way[then])
+        else:
+            way[end] = _on_border(way[end], way[then], boxes[node])
+    return Line(edge, tuple(simplified(way)), label, *label_at)
+
+
+def _beside_port(end: tuple[int, int], before: tuple[int, int]) -> tuple[int, int]:
+    """Where a line meets the square of a port; it comes from the left or the right."""
+    return end[0] + (PORT // 2 if before[0] > end[0] else -(PORT // 2)), end[1]
+
+
+def _on_border(end: tuple[int, int], before: tuple[int, int], box: Box) -> tuple[int, int]:
+    """Where a line meets a pseudo-state, which does not fill the room that it has."""
+    if box.node.kind not in PSEUDO_STATES:
+        return end
+    x, y, wide, _ = box.core
+    radius = wide // 2
+    middle_x, middle_y = x + radius, y + radius
+    upright = end[0] == before[0]
+    off = abs(end[0] - middle_x) if upright else abs(end[1] - middle_y)
+    if box.node.kind == "choice":
+        reach = radius - off
+    else:
+        reach = round(sqrt(max(0, radius * radius - off * off)))
+    if upright:
+        return end[0], middle_y + (reach if before[1] > middle_y else -reach)
+    return middle_x + (reach if before[0] > middle_x else -reach), end[1]

@@ -1,0 +1,117 @@
+"""How edges go through containers, before anything has a place."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.tools.diagram.layout.cycles import backward
+from swarmdsl.tools.diagram.layout.level import Side
+
+
+@dataclass
+class Route:
+    """How an edge goes: the containers that it leaves, the one it is in, those it enters.
+
+    Each container comes with the nodes in it between which the edge goes, None for its border.
+    """
+
+    edge: Edge
+    legs: list[tuple[str, str | None, str | None]]
+    main: int
+    flipped: bool = False
+
+    def entry(self, leg: int) -> Side:
+        """The side on which it comes in; from the container itself, as from before."""
+        return "last" if self.flipped and leg != self.main else "first"
+
+    def exit(self, leg: int) -> Side:
+        """The side on which it goes out; to the container itself, as to after."""
+        return "first" if self.flipped and leg != self.main else "last"
+
+
+class Passages:
+    """The routes of all edges, by their number, and what follows from them.
+
+    `inner` are the numbers of the edges that pass a container, and which leg of their route
+    does; `loops` the edges from a node to itself; `ends` how many edges are on a side of a
+    node; `right_ports` the ports at the right of their box.
+    """
+
+    def __init__(self, diagram: Diagram) -> None:
+        self.diagram = diagram
+        self.nodes = {node.id: node for node in diagram.frame.walk()}
+        self.parents = {child.id: node.id for node in diagram.frame.walk() for child in node.nodes}
+        self.right_ports = self._right_ports()
+        self.loops: dict[str, list[int]] = defaultdict(list)
+        self.routes: dict[int, Route] = {}
+        self.inner: dict[str, list[tuple[int, int]]] = defaultdict(list)
+        for number, edge in enumerate(diagram.edges):
+            if edge.source == edge.target and edge.source_port is None:
+                self.loops[edge.source].append(number)
+                continue
+            self.routes[number] = self._route(edge)
+            for leg, (container, _, _) in enumerate(self.routes[number].legs):
+                self.inner[container].append((number, leg))
+        for node in diagram.frame.walk():
+            self._flip(node)
+        self.ends: dict[tuple[str, Side], int] = defaultdict(int)
+        self._count_ends()
+
+    def _right_ports(self) -> set[str]:
+        """Ports from which data go out, by their direction or, if that is both, by their use."""
+        sources = {edge.source_port for edge in self.diagram.edges}
+        targets = {edge.target_port for edge in self.diagram.edges}
+        found = set()
+        for node in self.nodes.values():
+            # At the border of the frame, what comes out of it is at the right as well.
+            inner = (targets, sources) if node.kind == "frame" else (sources, targets)
+            for port in node.ports:
+                both = port.id in inner[0] and port.id not in inner[1]
+                if port.direction == "out" or (port.direction == "inout" and both):
+                    found.add(port.id)
+        return found
+
+    def _above(self, node: str) -> list[str]:
+        """A node and the containers that it is in, to the frame."""
+        found = [node]
+        while found[-1] in self.parents:
+            found.append(self.parents[found[-1]])
+        return found
+
+    def _route(self, edge: Edge) -> Route:
+        above_source, above_target = self._above(edge.source), self._above(edge.target)
+        common = next(
+            each for each in above_source if each in above_target and self.nodes[each].nodes
+        )
+        out = above_source[: above_source.index(common)]
+        into = above_target[: above_target.index(common)]
+        legs: list[tuple[str, str | None, str | None]] = [
+            (self.parents[node], node, None) for node in out[:-1]
+        ]
+        main = len(legs)
+        legs.append((common, out[-1] if out else None, into[-1] if into else None))
+        legs += ((self.parents[node], None, node) for node in reversed(into[:-1]))
+        return Route(edge, legs, main)
+
+    def _flip(self, node: Node) -> None:
+        """Decide which edges in a container point backwards."""
+        index = {child.id: at for at, child in enumerate(node.nodes)}
+        found = []
+        for number, leg in self.inner[node.id]:
+            route = self.routes[number]
+            _, source, target = route.legs[leg]
+            if leg == route.main and source is not None and target is not None:
+                found.append((route, index[source], index[target]))
+        edges = [(source, target) for _, source, target in found]
+        for at in backward(len(index), edges, ()):
+            found[at][0].flipped = True
+
+    def _count_ends(self) -> None:
+        """Count edges on each side of each node, which has to be wide enough for them."""
+        for route in self.routes.values():
+            out: Side = "first" if route.flipped else "last"
+            into: Side = "last" if route.flipped else "first"
+            self.ends[route.edge.source, out] += 1
+            self.ends[route.edge.target, into] += 1

@@ -1,0 +1,293 @@
+"""Places across: of the vertices in each layer, and of the ends of edges on them.
+
+The parts of a link that pass layers are one straight line wherever they can be. Where lines
+and cells are is then the cheapest answer to the wish that edges are straight: Gansner et al.
+1993, section 4, with the links' inner parts as one number each, as in Sander: Layout of
+Compound Directed Graphs (1996), section 6.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Sequence
+from heapq import heappop, heappush
+from itertools import pairwise
+from statistics import median_low
+
+from swarmdsl.tools.diagram.layout.level import Cell, End, Layers, Link, Segment, Vertex
+from swarmdsl.tools.diagram.layout.simplex import Constraint, minimized
+
+NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 14
+END_GAP = 12
+"""Between two ends on one side of a cell, if there is room."""
+_CORNER = 7
+_NARROW = 20
+"""Room in which ends cannot be moved so that it helps."""
+
+
+def place(
+    layers: Layers, cells: Sequence[Cell], links: Sequence[Link], pitch: int, before: bool
+) -> None:
+    """Set where vertices and ends are across.
+
+    `before` says on which side of its line the label of a single edge is, else of the one in
+    the middle.
+    """
+    sides = _sides(layers, cells)
+    _put_labels(sides, layers, links, pitch, before)
+    for ends in sides:
+        ends.spread()
+    lines = _lines(layers)
+    fixed = {id(end) for side in sides for end in side.fixed()}
+    _minimize(layers, lines, fixed)
+    _put_lanes(layers)
+    for _ in range(2):
+        # The second time, ends follow those of other cells that have moved.
+        for ends in sides:
+            ends.slide()
+
+
+def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]) -> None:
+    """Place all lines so that edges are as straight as may be; the least place is 0."""
+    number = {id(vertex): at for at, line in enumerate(lines) for vertex in line}
+    constraints: list[Constraint] = []
+    for layer in layers.layers:
+        for one, other in pairwise(layer):
+            room = one.breadth - one.line + other.line + _gap(one, other)
+            constraints.append((number[id(one)], number[id(other)], room, 0))
+    count = len(lines)
+    for segment in layers.segments:
+        start, end = segment.start, segment.end
+        if segment.is_aside:
+            continue
+        if number[id(start.vertex)] == number[id(end.vertex)]:
+            continue
+        offset = _of_line(end) - _of_line(start)
+        weight = _weight(segment, fixed)
+        constraints.append((count, number[id(start.vertex)], max(0, offset), weight))
+        constraints.append((count, number[id(end.vertex)], max(0, -offset), weight))
+        count += 1
+    places = minimized(count, constraints)
+    for at, line in enumerate(lines):
+        for vertex in line:
+            vertex.across = places[at] - vertex.line
+    least = min((v.across for layer in layers.layers for v in layer), default=0)
+    for layer in layers.layers:
+        for vertex in layer:
+            vertex.across -= least
+
+
+def _put_lanes(layers: Layers) -> None:
+    """Place the lanes beside all else, two at one place where they are far from each other."""
+    across = max((v.across + v.breadth for layer in layers.layers for v in layer), default=0)
+    taken: list[tuple[int, int]] = []  # a heap of the layers up to which places are, and these
+    free: list[int] = []
+    places = 0
+    for lane in sorted(layers.lanes, key=lambda each: (each.layer, each.beyond)):
+        # What leads to one and from another is in gaps of their own.
+        while taken and taken[0][0] + 1 < lane.layer:
+            heappush(free, heappop(taken)[1])
+        places += not free
+        place = heappop(free) if free else places
+        heappush(taken, (lane.layer_at("last"), place))
+        lane.across = across + place * LINE_GAP
+
+
+def _of_line(end: End) -> int:
+    """Where an end is from the number that stands for its vertex."""
+    assert end.at is not None
+    return end.at - end.vertex.line
+
+
+def _gap(one: Vertex, other: Vertex) -> int:
+    nodes = _is_node(one) + _is_node(other)
+    if nodes == 2:
+        return NODE_GAP
+    return LABEL_GAP if nodes or one.is_label or other.is_label else LINE_GAP
+
+
+def _is_node(vertex: Vertex) -> bool:
+    """Whether it is a cell that takes room: where an edge goes on at the border is none."""
+    return vertex.cell is not None and vertex.breadth > 0
+
+
+def _weight(segment: Segment, fixed: set[int]) -> int:
+    """How much it costs that a segment is not straight.
+
+    Less at a cell on which its end can still be moved, and least at the link's target: where
+    it must bend, it does so once, and away from its label.
+    """
+    if segment.turns:
+        return 1  # it cannot be straight
+    start, end = _is_node(segment.start.vertex), _is_node(segment.end.vertex)
+    if start and end:
+        return 12
+    if not (start or end):
+        return 32
+    if id(segment.start if start else segment.end) in fixed:
+        return 12
+    return 9 if start else 8
+
+
+def _lines(layers: Layers) -> list[list[Vertex]]:
+    """Vertices that are at one place across: each cell alone, the inner part of a link together.
+
+    Where the inner parts of links cross, one is interrupted.
+    """
+    line_of: dict[int, list[Vertex]] = {
+        id(vertex): [vertex] for layer in layers.layers for vertex in layer
+    }
+    gaps: dict[int, list[tuple[Vertex, Vertex]]] = {}
+    for segment in layers.segments:
+        upper, lower = segment.start.vertex, segment.end.vertex
+        if segment.turns or upper.cell is not None or lower.cell is not None or segment.is_aside:
+            continue
+        if upper.layer > lower.layer:
+            upper, lower = lower, upper
+        gaps.setdefault(segment.gap, []).append((upper, lower))
+    for gap in sorted(gaps):
+        pairs = sorted(gaps[gap], key=lambda pair: pair[0].order)
+        for at in _rising([lower.order for _, lower in pairs]):
+            upper, lower = pairs[at]
+            line = line_of[id(upper)]
+            line += line_of[id(lower)]
+            line_of[id(lower)] = line
+    found: dict[int, list[Vertex]] = {}
+    for layer in layers.layers:
+        for vertex in layer:
+            line = line_of[id(vertex)]
+            found[id(line)] = line
+    return list(found.values())
+
+
+def _rising(numbers: Sequence[int]) -> list[int]:
+    """The places of a longest rising part of a sequence."""
+    ends: list[int] = []
+    at_end: list[int] = []
+    before: list[int] = []
+    for at, number in enumerate(numbers):
+        size = bisect_left(ends, number)
+        before.append(at_end[size - 1] if size else -1)
+        if size == len(ends):
+            ends.append(number)
+            at_end.append(at)
+        else:
+            ends[size], at_end[size] = number, at
+    found = []
+    at = at_end[-1] if at_end else -1
+    while at >= 0:
+        found.append(at)
+        at = before[at]
+    return found[::-1]
+
+
+def _put_labels(
+    sides: Sequence[_Ends], layers: Layers, links: Sequence[Link], pitch: int, before: bool
+) -> None:
+    """Choose the side of the line for each label: away from the other edges of the source."""
+    labels = {vertex.link: vertex for layer in layers.layers for vertex in layer if vertex.is_label}
+    for side in sides:
+        with_label = [
+            labels[number]
+            for end, number in zip(side.ends, side.links, strict=True)
+            if number in labels and links[number].source == end.vertex.cell
+        ]
+        count = len(with_label)
+        for at, vertex in enumerate(with_label):
+            if at < count // 2 or (before and count % 2 and at == count // 2):
+                vertex.line = vertex.breadth
+    for segment in layers.segments:
+        for end in (segment.start, segment.end):
+            if end.vertex.is_label:
+                end.at = end.vertex.line
+
+
+class _Ends:
+    """The ends of links on one side of a cell, in order, and where they may be."""
+
+    def __init__(self, cell: Cell, found: Sequence[tuple[End, End, int]]) -> None:
+        fixed = [each for each in found if each[0].at is not None]
+        fixed.sort(key=lambda each: each[0].at or 0)
+        free = [each for each in found if each[0].at is None]
+        free.sort(key=lambda each: _order(each[1]))
+        merged = list(fixed)
+        for each in free:
+            # Between the fixed ones that it does not cross.
+            at = sum(_order(other) < _order(each[1]) for _, other, _ in fixed)
+            at += sum(end.at is None for end, _, _ in merged[:])
+            merged.insert(min(at, len(merged)), each)
+        self.ends = [end for end, _, _ in merged]
+        self.others = [other for _, other, _ in merged]
+        self.links = [link for _, _, link in merged]
+        self.movable = [end.at is None for end in self.ends]
+        self.cell = cell
+
+    def fixed(self) -> list[End]:
+        """The ends that are where they are."""
+        narrow = self.cell.high - self.cell.low < _NARROW
+        return [
+            end for end, moves in zip(self.ends, self.movable, strict=True) if narrow or not moves
+        ]
+
+    def runs(self) -> list[tuple[range, int, int]]:
+        """Ends beside each other that can be moved, and between what."""
+        low, high = self.cell.low, self.cell.high
+        found = []
+        start = 0
+        bottom = low
+        for at in range(len(self.ends) + 1):
+            if at < len(self.ends) and self.movable[at]:
+                continue
+            top = high if at == len(self.ends) else (self.ends[at].at or 0)
+            if start < at:
+                found.append((range(start, at), bottom, max(top, bottom)))
+            start = at + 1
+            bottom = max(top, bottom)
+        return found
+
+    def spread(self) -> None:
+        """Put the ends at equal distances."""
+        for run, bottom, top in self.runs():
+            for number, at in enumerate(run, 1):
+                self.ends[at].at = bottom + (top - bottom) * number // (len(run) + 1)
+
+    def slide(self) -> None:
+        """Put the ends where their edges are straight, as far as there is room."""
+        across = self.ends[0].vertex.across if self.ends else 0
+        for run, bottom, top in self.runs():
+            room = top - bottom
+            gap = min(END_GAP, room // (len(run) + 1))
+            corner = min(_CORNER, room // (len(run) + 1))
+            low, high = bottom + corner, top - corner - gap * (len(run) - 1)
+            wished = [
+                min(max(self.others[at].across - across - gap * number, low), high)
+                for number, at in enumerate(run)
+            ]
+            for number, (at, value) in enumerate(zip(run, _monotone(wished), strict=True)):
+                self.ends[at].at = value + gap * number
+
+
+def _order(end: End) -> tuple[int, int]:
+    return end.vertex.order, end.at or 0
+
+
+def _monotone(values: Sequence[int]) -> list[int]:
+    """The numbers nearest to these that do not fall: pool adjacent violators, with medians."""
+    pools: list[list[int]] = []
+    for value in values:
+        pools.append([value])
+        while len(pools) > 1 and median_low(pools[-2]) > median_low(pools[-1]):
+            last = pools.pop()
+            pools[-1] = sorted(pools[-1] + last)
+    return [median_low(pool) for pool in pools for _ in pool]
+
+
+def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_Ends]:
+    """The ends of links on each side of each cell."""
+    found: dict[tuple[int, str], list[tuple[End, End, int]]] = {}
+    for segment in layers.segments:
+        for end, other in ((segment.start, segment.end), (segment.end, segment.start)):
+            if end.vertex.cell is not None:
+                key = (end.vertex.cell, end.side)
+                found.setdefault(key, []).append((end, other, segment.link))
+    return [_Ends(cells[cell], ends) for (cell, _), ends in found.items()]

@@ -1,0 +1,75 @@
+"""Diagrams in the README of a generated package, as Mermaid: GitHub and GitLab draw them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.ir import State, StateMachine, System
+from swarmdsl.tools.diagram.composition import composition
+from swarmdsl.tools.diagram.graph import Diagram
+from swarmdsl.tools.diagram.internal import internal
+from swarmdsl.tools.diagram.mermaid import mermaid
+from swarmdsl.tools.diagram.statechart import statechart
+
+# What Mermaid draws at most, unless somebody has told it otherwise (`maxTextSize`, `maxEdges`).
+_MOST_TEXT, _MOST_EDGES = 50_000, 500
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A diagram as a block of Markdown, and whose it is."""
+
+    title: str
+    block: str
+
+
+def pictures(system: System, machines: Sequence[StateMachine]) -> tuple[Picture, ...]:
+    """The swarms with members that run these machines, and the machines themselves.
+
+    What is too large for Mermaid is left out.
+    """
+    return tuple(_drawn(system, machines))
+
+
+def insides(system: System, members: Sequence[str]) -> tuple[Picture, ...]:
+    """Some members, each with its parts and what connects them.
+
+    What is too large for Mermaid is left out.
+    """
+    components = {component.name: component for component in system.components}
+    shown = (member for member in system.members if member.name in members)
+    return tuple(
+        picture
+        for member in shown
+        for picture in _picture(f"Member `{member.name}`", internal(member, components))
+    )
+
+
+def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture]:
+    names = {machine.name for machine in machines}
+    running = {member.name for member in system.members if member.behavior in names}
+    for swarm in system.swarms:
+        if any(role.member in running for role in swarm.roles):
+            yield from _picture(f"Swarm `{swarm.name}`", composition(swarm, system))
+    known = {machine.name: machine for machine in system.machines}
+    for machine in machines:
+        # To draw it takes much longer than to see that it is too large.
+        if _fewest_edges(machine.states) <= _MOST_EDGES:
+            yield from _picture(f"State machine `{machine.name}`", statechart(machine, known))
+
+
+def _fewest_edges(states: Iterable[State]) -> int:
+    """How many transitions are drawn at least: what is in a reused machine may not be."""
+    return sum(
+        sum(transition.target is not None for transition in state.transitions)
+        + (_fewest_edges(state.states) if state.submachine is None else 0)
+        for state in states
+    )
+
+
+def _picture(title: str, diagram: Diagram) -> Iterator[Picture]:
+    text = mermaid(diagram) if len(diagram.edges) <= _MOST_EDGES else None
+    if text is not None and len(text) <= _MOST_TEXT:
+        # Mermaid's own text has no backquote: it would be an entity.
+        yield Picture(title, f"```mermaid\n{text}```")

@@ -1,0 +1,30 @@
+"""Which diagrams a model has."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+
+from swarmdsl.ir import System
+from swarmdsl.tools.diagram.composition import composition
+from swarmdsl.tools.diagram.graph import KINDS, Diagram, Kind
+from swarmdsl.tools.diagram.internal import internal
+from swarmdsl.tools.diagram.statechart import statechart
+
+
+def diagrams(system: System, kinds: Collection[Kind] = KINDS) -> Iterator[Diagram]:
+    """Yield the diagrams of a system, in the order of the model.
+
+    A member without parts has no inside to show.
+    """
+    if "composition" in kinds:
+        for swarm in system.swarms:
+            yield composition(swarm, system)
+    if "internal" in kinds:
+        components = {component.name: component for component in system.components}
+        for member in system.members:
+            if member.parts:
+                yield internal(member, components)
+    if "statechart" in kinds:
+        machines = {machine.name: machine for machine in system.machines}
+        for machine in system.machines:
+            yield statechart(machine, machines)

@@ -1,0 +1,88 @@
+"""A page as HTML: one file that needs nothing from elsewhere, and runs only its own script."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from collections.abc import Mapping
+from hashlib import sha256
+from pathlib import Path
+from urllib.parse import quote
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup, escape
+
+from swarmdsl.base.xml_writer import legal
+from swarmdsl.tools.diagram.svg import style
+from swarmdsl.tools.document.page import Cell, Code, Figure, Inline, Page
+from swarmdsl.tools.document.page import Prose as Documentation
+from swarmdsl.tools.document.prose import Prose
+
+_BREAK = re.compile(r"(?<=[a-z])([./_])(?=\w)")
+_FILES = Path(__file__).resolve().parent / "files"
+
+
+def html(page: Page, anchors: Mapping[str, str]) -> str:
+    """The text of the page; `anchors` are those of elements, by their paths."""
+    prose = Prose(anchors)
+    environment = Environment(
+        loader=FileSystemLoader(_FILES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=StrictUndefined,
+    )
+    environment.filters |= {
+        "prose": prose.html,
+        "cell": _Inline(prose).cell,
+        "code": code,
+        "href": href,
+        "breakable": breakable,
+    }
+    environment.tests["figure"] = lambda value: isinstance(value, Figure)
+    script = (_FILES / "page.js").read_text(encoding="utf-8")
+    text = environment.get_template("page.html.jinja").render(
+        page=page,
+        script=Markup(script),
+        script_hash=b64encode(sha256(script.encode()).digest()).decode(),
+        styles=Markup(style() + (_FILES / "page.css").read_text(encoding="utf-8")),
+    )
+    return legal(text)
+
+
+class _Inline:
+    """What stands in a line as HTML. There is much of it: it is put together without templates."""
+
+    def __init__(self, prose: Prose) -> None:
+        self._prose = prose
+
+    def cell(self, cell: Cell) -> Markup:
+        """Words, code and documentation one after the other."""
+        return Markup("".join(map(self._one, cell)))
+
+    def _one(self, part: Inline) -> str:
+        match part:
+            case Code():
+                return str(code(part))
+            case Documentation():
+                return f'<span class="doc">{self._prose.html(part.text)}</span>'
+        return str(escape(part))
+
+
+def code(it: Code) -> Markup:
+    """Text of the model, with its links."""
+    parts = (
+        f'<a href="{href(anchor)}">{breakable(text)}</a>' if anchor else breakable(text)
+        for text, anchor in it.pieces
+    )
+    return Markup(f"<code>{''.join(parts)}</code>")
+
+
+def href(anchor: str) -> str:
+    """The address of an element, with nothing in it that HTML would read."""
+    return f"#{quote(anchor)}"
+
+
+def breakable(name: str) -> Markup:
+    """A name that may go on in the next line where a word of it ends."""
+    return Markup(_BREAK.sub(r"\1<wbr>", str(escape(name))))

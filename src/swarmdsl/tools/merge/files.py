@@ -1,0 +1,78 @@
+"""Three files to one: by what they declare, or line by line where one has syntax errors."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.records import dataclass
+from swarmdsl.project.read_source import decoded, read_bytes
+from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.tools.merge.outline import Item, outline
+from swarmdsl.tools.merge.three_way import merge
+
+_BOM = b"\xef\xbb\xbf"
+_LINE_END = re.compile(rb"\r\n|\n|\r")
+
+
+@dataclass(frozen=True)
+class Result:
+    """The content, and in how many places the two sides do not agree.
+
+    `by_lines` says that git has merged lines, since a file has syntax errors.
+    """
+
+    content: bytes
+    conflicts: int
+    by_lines: bool = False
+
+
+def merge_files(base: Path, ours: Path, theirs: Path, report: Diagnostics) -> Result | None:
+    """Merge what two sides have made of a file; None where a file cannot be read.
+
+    Line ends and byte order mark are those of `ours`.
+    """
+    paths = (base, ours, theirs)
+    contents = [read_bytes(path, None, report) for path in paths]
+    outlines = [
+        _outline(path, content, report) if content is not None else None
+        for path, content in zip(paths, contents, strict=True)
+    ]
+    before, here, there = outlines
+    if before is not None and here is not None and there is not None:
+        merged = merge(before, here, there)
+        return Result(_as_in(contents[1] or b"", merged.text), merged.conflicts)
+    if any(found.name in ("not-text", "file-not-found", "unreadable-file") for found in report):
+        return None
+    return _by_lines(*paths) if None not in contents else None
+
+
+def _outline(path: Path, content: bytes, report: Diagnostics) -> Item | None:
+    source = decoded(path, content, None, report)
+    if source is None:
+        return None
+    found = Diagnostics()
+    parsed = parse(source, found)
+    report.include(found)
+    return None if found.has_errors else outline(source, parsed.model)
+
+
+def _as_in(content: bytes, text: str) -> bytes:
+    made = text.encode()
+    first = _LINE_END.search(content)
+    if first is not None and first[0] == b"\r\n":
+        made = made.replace(b"\n", b"\r\n")
+    return _BOM + made if content.startswith(_BOM) else made
+
+
+def _by_lines(base: Path, ours: Path, theirs: Path) -> Result | None:
+    names = ("-L", "ours", "-L", "base", "-L", "theirs")
+    command = ["git", "merge-file", "--stdout", "--quiet", *names, str(ours), str(base)]
+    try:
+        done = subprocess.run([*command, str(theirs)], capture_output=True, check=False)
+    except FileNotFoundError:
+        return None
+    # The exit code is the number of conflicts; more is said of what went wrong.
+    return Result(done.stdout, done.returncode, by_lines=True) if done.returncode < 128 else None

@@ -1,0 +1,109 @@
+"""Three-way merge of outlines: what one side changed is taken, what both did is a conflict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from swarmdsl.base.records import dataclass
+from swarmdsl.tools.merge.outline import Item, Key, keys
+
+OURS, THEIRS = "<<<<<<< ours\n", ">>>>>>> theirs\n"
+BETWEEN = "=======\n"
+
+
+@dataclass(frozen=True)
+class Merged:
+    """The text of both, and in how many places the two do not agree."""
+
+    text: str
+    conflicts: int
+
+
+def merge(base: Item, ours: Item, theirs: Item) -> Merged:
+    """Merge three files."""
+    return _merge_block(base, ours, theirs)
+
+
+def _merge_block(base: Item, ours: Item, theirs: Item) -> Merged:
+    """Merge what a block has around its items, and each of these."""
+    parts = [
+        _merge_text(base.lead, ours.lead, theirs.lead),
+        _merge_text(base.head, ours.head, theirs.head),
+        *_merge_items(base.inner, ours.inner, theirs.inner),
+        _merge_text(base.tail, ours.tail, theirs.tail),
+    ]
+    text = ""
+    for part in parts:
+        # Only at its end a file may lack the end of a line.
+        text += "\n" if text and part.text and not text.endswith("\n") else ""
+        text += part.text
+    return Merged(text, sum(part.conflicts for part in parts))
+
+
+def _merge_items(
+    base: Sequence[Item], ours: Sequence[Item], theirs: Sequence[Item]
+) -> list[Merged]:
+    before, here, there = ({item.key: item for item in items} for items in (base, ours, theirs))
+    merged = (
+        _merge_item(before.get(key), here.get(key), there.get(key))
+        for key in _order(keys(base), keys(ours), keys(theirs))
+    )
+    return [each for each in merged if each is not None]
+
+
+def _merge_item(base: Item | None, ours: Item | None, theirs: Item | None) -> Merged | None:
+    """Merge one item; None where it is gone."""
+    if ours is None or theirs is None:
+        left = ours or theirs
+        if left is None:
+            return None
+        if base is None:
+            return Merged(left.text, 0)
+        if base.text == left.text:
+            return None
+        return _conflict(ours.text if ours else "", theirs.text if theirs else "")
+    if ours.text == theirs.text:
+        return Merged(ours.text, 0)
+    if base is not None and base.text in (ours.text, theirs.text):
+        return Merged(theirs.text if base.text == ours.text else ours.text, 0)
+    if ours.inner and theirs.inner:
+        return _merge_block(base if base is not None else Item(ours.key, "", ""), ours, theirs)
+    if base is None or base.inner or ours.inner or theirs.inner:
+        return _conflict(ours.text, theirs.text)
+    return _merge_block(base, ours, theirs)
+
+
+def _merge_text(base: str, ours: str, theirs: str) -> Merged:
+    if ours in (base, theirs):
+        return Merged(theirs, 0)
+    if theirs == base:
+        return Merged(ours, 0)
+    return _conflict(ours, theirs)
+
+
+def _conflict(ours: str, theirs: str) -> Merged:
+    return Merged("".join((OURS, _whole(ours), BETWEEN, _whole(theirs), THEIRS)), 1)
+
+
+def _whole(text: str) -> str:
+    return text if text.endswith("\n") or not text else f"{text}\n"
+
+
+def _order(base: list[Key], ours: list[Key], theirs: list[Key]) -> list[Key]:
+    """All keys in the order of the side that changed it.
+
+    What only the other side has comes behind what it is behind there.
+    """
+    common = set(base) & set(ours) & set(theirs)
+    was, now = ([key for key in side if key in common] for side in (base, ours))
+    first, second = (theirs, ours) if was == now else (ours, theirs)
+    made = list(first)
+    known = set(first)
+    place = 0
+    for key in second:
+        if key in known:
+            place = made.index(key) + 1
+        else:
+            made.insert(place, key)
+            place += 1
+    return made

@@ -1,0 +1,150 @@
+"""Where in a file something new belongs, and how it is laid out there."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.rewriting import Change
+from swarmdsl.base.source import Source
+from swarmdsl.base.text_edits import Edits
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import (
+    ActionType,
+    AliasType,
+    Component,
+    Constant,
+    Declaration,
+    EnumType,
+    Environment,
+    Event,
+    FinalState,
+    Fitness,
+    Function,
+    Member,
+    MessageType,
+    Node,
+    Region,
+    ServiceType,
+    State,
+    StateMachine,
+    StructType,
+    Swarm,
+    Vertex,
+)
+from swarmdsl.syntax.formatter import formatted
+
+# The order in which declarations usually stand in a file.
+_ORDER: Sequence[tuple[type, ...]] = (
+    (MessageType, ServiceType, ActionType, StructType, EnumType, AliasType, Constant),
+    (Event,),
+    (Function,),
+    (Component,),
+    (Member,),
+    (StateMachine,),
+    (Swarm,),
+    (Environment, Fitness),
+)
+CONTAINERS = (StateMachine, State, Region)
+Container = StateMachine | State | Region
+
+
+def rank(kind: type) -> int:
+    """Where declarations of a kind usually stand."""
+    return next(place for place, kinds in enumerate(_ORDER) if kind in kinds)
+
+
+def best_file(files: Sequence[File], kind: type) -> File:
+    """The file that has most of a kind, else of what stands beside it; else the first."""
+
+    def fit(file: File) -> tuple[int, ...]:
+        counts = [0] * len(_ORDER)
+        for declared in file.model.declarations:
+            counts[rank(type(declared))] += 1
+        near = sorted(range(len(_ORDER)), key=lambda each: abs(each - rank(kind)))
+        return tuple(counts[each] for each in near)
+
+    return max(files, key=fit)
+
+
+def declaration(file: File, kind: type, text: str) -> Change:
+    """A declaration below the last of its kind in a file, or of what usually stands before it."""
+    laid_out = formatted(Source("new", text), Diagnostics())
+    assert laid_out is not None  # it has been parsed before
+    lines = laid_out.strip("\n")
+    declared: Sequence[Declaration] = file.model.declarations
+    before = [each for each in declared if rank(type(each)) <= rank(kind)]
+    same = [each for each in before if rank(type(each)) == rank(kind)]
+    beside = same or before
+    if beside:
+        last = max(beside, key=lambda each: each.span.absolute.start)
+        return _below(file, last.span.absolute.end, f"\n{lines}")
+    model = file.model
+    top = [*([model.package] if model.package is not None else []), *model.imports]
+    if top:
+        return _below(file, max(each.span.absolute.end for each in top), f"\n{lines}")
+    if declared:
+        first = min(each.span.absolute.start for each in declared)
+        return _above(file, first, f"{lines}\n")
+    return _below(file, len(file.source.text), lines)
+
+
+def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change:
+    """A line below the last of some items in a block, or first in it."""
+    indent = _indent(file, owner.span.absolute.start) + "  "
+    lines = textwrap.indent(text, indent)
+    if items:
+        return _below(file, max(each.span.absolute.end for each in items), lines)
+    return _below(file, _brace(file, owner) + 1, lines)
+
+
+def state(file: File, container: Container, name: str, text: str) -> Change:
+    """A state below the last of a container and above its final states, a final one below them."""
+    indent = _indent(file, container.span.absolute.start) + "  "
+    alone = f"statemachine M {{\n  initial S\n\n{text}\n}}\n"
+    laid_out = formatted(Source("new", alone), Diagnostics())
+    assert laid_out is not None  # it has been parsed before
+    inner = textwrap.dedent(laid_out.partition("\n\n")[2].rpartition("\n}")[0])
+    vertices = [each for each in container.items if isinstance(each, Vertex)]
+    finals = [each for each in vertices if isinstance(each, FinalState)]
+    states = [each for each in vertices if each not in finals]
+    if not vertices:
+        inner = f"initial {name}\n{inner}"
+    is_final = inner.splitlines()[-1].startswith("final ")
+    beside: Sequence[Node] = (finals if is_final and finals else states) or container.items
+    apart = "\n" if beside is states and _is_apart(file, states) else ""
+    lines = apart + textwrap.indent(inner.strip("\n"), indent, lambda line: line.strip() != "")
+    if beside:
+        return _below(file, max(each.span.absolute.end for each in beside), lines)
+    return _below(file, _brace(file, container) + 1, lines)
+
+
+def _is_apart(file: File, states: Sequence[Node]) -> bool:
+    """Whether the last of the states has a blank line above."""
+    start = file.source.text.rfind("\n", 0, states[-1].span.absolute.start)
+    return file.source.text[:start].endswith("\n")
+
+
+def _brace(file: File, node: Node) -> int:
+    return file.source.text.index("{", node.span.absolute.start)
+
+
+def _indent(file: File, at: int) -> str:
+    text = file.source.text
+    line = text[text.rfind("\n", 0, at) + 1 :]
+    return line[: len(line) - len(line.lstrip(" \t"))]
+
+
+def _below(file: File, at: int, lines: str) -> Change:
+    edits = Edits(file.source)
+    edits.below(at, lines)
+    (change,) = edits.changes()
+    return change
+
+
+def _above(file: File, at: int, lines: str) -> Change:
+    edits = Edits(file.source)
+    edits.above(at, lines)
+    (change,) = edits.changes()
+    return change
