@@ -5,7 +5,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
-# More for pytest: make test ARGS="-x tests/front"
+# More for pytest: make test ARGS="-x tests/syntax"
 ARGS :=
 MUTANTS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
@@ -44,11 +44,11 @@ test-ros2: $(READY) ## Run generated nodes on ROS 2, which comes from wheels to 
 	SWARMDSL_ROS2=$(ROS2) $(BIN)/pytest tests/ros2 tests/skeleton/test_ros2_run.py tests/docs/test_tutorial.py $(ARGS)
 
 test-editor: vscode $(EXTENSION_READY) ## Run the tests of the editor support, in VS Code too.
-	$(BIN)/pytest tests/editor $(ARGS)
+	$(BIN)/pytest tests/editors $(ARGS)
 
 # Where it cannot be had, the tests in it are skipped, and say so.
 vscode: $(VENV)/.editor ## Install what the tests in VS Code need: it, from npm, and what drives a browser.
-	-$(BIN)/python tests/editor/vscode/environment.py .vscode-host
+	-$(BIN)/python tests/editors/vscode/environment.py .vscode-host
 
 check: $(READY) ## Check format, style and types.
 	$(BIN)/ruff format --check
@@ -70,8 +70,8 @@ bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/perfo
 	$(BIN)/python benchmarks/bench.py $(BENCH)
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
-	$(BIN)/pytest -q tests/front/test_mutations.py tests/front/test_pieces.py tests/peg tests/workspace --mutants $(MUTANTS)
-	$(BIN)/pytest -q tests/printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
+	$(BIN)/pytest -q tests/syntax/test_mutations.py tests/syntax/test_segments.py tests/pegen tests/workspace --mutants $(MUTANTS)
+	$(BIN)/pytest -q tests/swarm_printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
 		--hypothesis-profile chance
 
 parser: $(READY) ## Make the parser from the grammar.

@@ -1,13 +1,18 @@
-"""What all tests share: `--bless`, the examples, models from text."""
+"""Fixtures of all tests: `--bless`, the examples, models from text, `swarmc` in a folder."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from swarmdsl.analysis.resolve.linker import link
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.cli import run
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
+from swarmdsl.project.loader import Project, load
 
 ROOT = Path(__file__).resolve().parents[1]
 # What targets make has tests of its own, which are for ROS.
@@ -60,6 +65,47 @@ def compiled(tmp_path: Path) -> Callable[[str], System]:
         return result.system
 
     return compile_text
+
+
+@pytest.fixture
+def linked(tmp_path: Path) -> Callable[..., Project]:
+    """Link files that are given as texts: the first one, and what it imports by name."""
+
+    def link_texts(main: str, **others: str) -> Project:
+        for name, text in {"main": main, **others}.items():
+            (tmp_path / f"{name}.swarm").write_text(text, encoding="utf-8")
+        report = Diagnostics()
+        project = load([tmp_path / "main.swarm"], report)
+        link(project, report)
+        assert [found.message for found in report] == []
+        return project
+
+    return link_texts
+
+
+@dataclass
+class Ran:
+    code: int
+    out: str
+    err: str
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def swarmc(folder: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., Ran]:
+    """Run a command line in that folder, in this process."""
+
+    def swarmc(*arguments: object) -> Ran:
+        code = run([str(argument) for argument in arguments])
+        captured = capsys.readouterr()
+        return Ran(code, captured.out, captured.err)
+
+    return swarmc
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -12,11 +12,11 @@ from swarmdsl.codegen.source_map import MappedText
 from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
 
-from ..following import render as following
 from ..ros2 import render as ros2
 from ..ros2.imports import Imports
 from ..ros2.options import Options
 from ..ros2.view import PackageView
+from ..ros2_outcomes import render as shared
 from .library import YASMIN
 from .view import FsmView, fsm_view
 
@@ -32,15 +32,15 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
         ]
         return _behavior(package, views, options)
 
-    return following.emit(system, options, report, YASMIN, behavior)
+    return shared.emit(system, options, report, YASMIN, behavior)
 
 
 def _behavior(package: PackageView, views: list[FsmView], options: Options) -> Iterator[OutputFile]:
     root = package.name
-    head = following.header(package, options)
+    head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
     readme, states = _fill("README.md", **values), _fill("package/states.py")
-    yield from following.shared_files(package, options, YASMIN, readme, states)
+    yield from shared.shared_files(package, options, YASMIN, readme, states)
     yield OutputFile(f"{root}/{root}/library.py", _fill("package/library.py", **values))
     imports = _imports_of_test(package, views)
     text = _fill("test/test_yasmin.py", imports=imports, **values)
@@ -48,7 +48,7 @@ def _behavior(package: PackageView, views: list[FsmView], options: Options) -> I
     for fsm, machine in zip(views, package.machines, strict=True):
         head = f"{ros2.legal_head(options)}# {machine.header}"
         text = _fill("package/fsm.py", fsm=fsm, header=head)
-        yield following.module_file(machine, package, YASMIN, text)
+        yield shared.module_file(machine, package, YASMIN, text)
         path = f"{root}/state_machines/{fsm.chart}.xml"
         yield OutputFile(path, fsm.xml, origin=fsm.origin)
 

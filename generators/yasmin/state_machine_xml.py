@@ -12,7 +12,7 @@ from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.exchange.xml import document as written
 from swarmdsl.ir import StateMachine
 
-from ..following.structure import Kind, Node
+from ..ros2_outcomes.structure import Kind, Node
 from .library import YASMIN
 
 

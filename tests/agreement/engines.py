@@ -23,7 +23,7 @@ from swarmdsl.codegen.exchange.scxml.portable import SEND_TYPE
 from swarmdsl.execution.engine import Event, Instance, Machine, Run
 from swarmdsl.execution.scxml import read
 
-from ..runtime.world import StillWorld
+from ..engine.world import StillWorld
 
 try:
     from PySide6.QtCore import QBuffer, QByteArray, QCoreApplication, QIODevice

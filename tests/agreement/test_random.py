@@ -13,7 +13,7 @@ from swarmdsl.codegen.exchange import scxml
 from swarmdsl.execution.engine import LoopError
 from swarmdsl.ir import System
 
-from ..printer.systems import systems
+from ..swarm_printer.systems import systems
 from .engines import ENGINES, with_values
 from .known import expected
 from .replay import difference, installed

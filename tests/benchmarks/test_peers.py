@@ -28,7 +28,7 @@ def _beside_the_benchmarks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def models() -> Iterator[tuple[Path, bool]]:
     """Models of the project, and whether they are free of syntax errors."""
-    for folder in ("examples", "tests/golden", "tests/diagnostics", "tests/format", "editors"):
+    for folder in ("examples", "tests/golden", "tests/diagnostics", "tests/formatter", "editors"):
         for file in sorted((ROOT / folder).rglob("*.swarm")):
             if "node_modules" in file.parts or file.name in _CHAINED:
                 continue

@@ -16,7 +16,7 @@ from swarmdsl.tools.compare.comparison import compare
 from swarmdsl.tools.compare.report import breaking, differences
 from swarmdsl.tools.compare.rules import RULES
 
-from ..printer.systems import systems
+from ..swarm_printer.systems import systems
 
 MODEL = """package lab
 

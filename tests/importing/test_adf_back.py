@@ -22,8 +22,8 @@ from swarmdsl.ir import Action, Array, Function, Literal, Message, Param, Primit
 from swarmdsl.project.rosidl.standard import lookup
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING, Type
 
-from ..printer.round_trip import printed_and_compiled
-from ..printer.systems import systems
+from ..swarm_printer.round_trip import printed_and_compiled
+from ..swarm_printer.systems import systems
 from .test_portable import told_in_whole_milliseconds
 
 ROOT = Path(__file__).resolve().parents[2]

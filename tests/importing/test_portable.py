@@ -39,8 +39,8 @@ from swarmdsl.ir import (
 from swarmdsl.ir.expression_printer import Dialect, translate
 from swarmdsl.syntax.types import BOOL, DURATION, INT
 
-from ..printer.round_trip import printed_and_compiled
-from ..printer.systems import systems
+from ..swarm_printer.round_trip import printed_and_compiled
+from ..swarm_printer.systems import systems
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [

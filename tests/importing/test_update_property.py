@@ -35,8 +35,8 @@ from swarmdsl.syntax.formatter import formatted
 from swarmdsl.syntax.formatter.tokens import tokenize
 from swarmdsl.syntax.types import FLOAT, INT, STRING
 
-from ..printer.expressions import literals
-from ..printer.systems import systems
+from ..swarm_printer.expressions import literals
+from ..swarm_printer.systems import systems
 
 T = TypeVar("T")
 PLAIN = [FLOAT, INT, STRING]

@@ -13,7 +13,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.execution.engine import Event, Instance
 from swarmdsl.execution.scxml import read
 
-from ..runtime.world import StillWorld
+from ..engine.world import StillWorld
 
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))

@@ -16,8 +16,8 @@ from swarmdsl.execution.scxml.ecmascript import Unreadable, read
 from swarmdsl.execution.scxml.values import text as text_of
 from swarmdsl.ir.expression_printer import translate
 
+from ..engine.world import StillWorld
 from ..exchange.test_expressions import ECMASCRIPT, EXPRESSIONS, defined_value
-from ..runtime.world import StillWorld
 
 QUICK = settings(max_examples=200)
 DATA: dict[str, Any] = {

@@ -21,7 +21,7 @@ from swarmdsl.execution.scxml import read
 from swarmdsl.execution.simulate.table import first_data, table
 from swarmdsl.ir import Action, Array, Primitive, Service, System
 
-from ..runtime.world import StillWorld
+from ..engine.world import StillWorld
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [

@@ -15,7 +15,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.execution.engine import Event, Instance, Machine
 from swarmdsl.execution.scxml import read
 
-from ..runtime.world import StillWorld, Trace, after
+from ..engine.world import StillWorld, Trace, after
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript">'
 

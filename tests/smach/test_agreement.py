@@ -33,7 +33,7 @@ from swarmdsl.syntax.types import DURATION
 
 from ..agreement.engines import Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
-from ..printer.systems import systems
+from ..swarm_printer.systems import systems
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = [

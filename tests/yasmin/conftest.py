@@ -22,8 +22,8 @@ from swarmdsl.codegen.options import parse_options
 from swarmdsl.codegen.registry import load
 from swarmdsl.ir import System
 
-from ..following.fixtures import Emit, generate, reported
-from ..following.generated import Builder, forget
+from ..ros2_outcomes.fixtures import Emit, generate, reported
+from ..ros2_outcomes.generated import Builder, forget
 
 __all__ = ["generate", "reported"]  # fixtures
 

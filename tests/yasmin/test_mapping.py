@@ -6,7 +6,7 @@ import pytest
 
 from swarmdsl.codegen.registry import load
 
-from ..following.table import HEADER, MODELS, Generate, Reported, check_row
+from ..ros2_outcomes.table import HEADER, MODELS, Generate, Reported, check_row
 
 TABLE = load("yasmin").mapping
 OWN = {"state called `canceled`": "state A { on Go -> canceled } state canceled { on Go -> End }"}

@@ -15,8 +15,8 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
-from ..following.agreement import ROOT
 from ..ros2.test_output import BARE, FORMAT, LINTERS, ruff
+from ..ros2_outcomes.agreement import ROOT
 
 MODEL = """package lab
 message Note { level : int32 }

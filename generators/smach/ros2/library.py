@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ...following.library import Library
 from ...ros2.view import Variant
+from ...ros2_outcomes.library import Library
 from ..module import PREEMPTED, TARGET
 
 SMACH = Library(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from swarmdsl.codegen.api import Mapped, Support
 
-from ...following.mapping import mapping
+from ...ros2_outcomes.mapping import mapping
 
 _KEYS = "would be no key: `keys`, `_n` (SW0905)"
 

@@ -13,11 +13,11 @@ from swarmdsl.codegen.source_map import MappedText
 from swarmdsl.codegen.templates import Templates
 from swarmdsl.ir import System
 
-from ...following import render as following
 from ...ros2 import render as ros2
 from ...ros2.imports import Imports
 from ...ros2.options import Options as RosOptions
 from ...ros2.view import PackageView
+from ...ros2_outcomes import render as shared
 from ..names import check_keys
 from ..options import Options
 from .library import SMACH
@@ -38,17 +38,17 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
         ]
         return _behavior(package, views, chosen)
 
-    return following.emit(system, chosen, report, SMACH, behavior)
+    return shared.emit(system, chosen, report, SMACH, behavior)
 
 
 def _behavior(
     package: PackageView, views: list[SmachView], options: RosOptions
 ) -> Iterator[OutputFile]:
     root = package.name
-    head = following.header(package, options)
+    head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
     readme, states = _fill("README.md", **values), _fill("states.py")
-    yield from following.shared_files(package, options, SMACH, readme, states)
+    yield from shared.shared_files(package, options, SMACH, readme, states)
     yield OutputFile(f"{root}/{root}/library.py", _fill("library.py", **values))
     imports = Imports({})
     imports.module("pytest")
@@ -60,7 +60,7 @@ def _behavior(
     for view, machine in zip(views, package.machines, strict=True):
         head = f"{ros2.legal_head(options)}# {machine.header}"
         text = _fill("machine.py", machine=view, header=head)
-        yield following.module_file(machine, package, SMACH, text)
+        yield shared.module_file(machine, package, SMACH, text)
 
 
 def _fill(template: str, **values: object) -> MappedText:

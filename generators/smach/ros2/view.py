@@ -10,8 +10,9 @@ from swarmdsl.base.source import Span
 from swarmdsl.codegen.python import Call, Source, comments, layout
 from swarmdsl.ir import StateMachine, System
 
-from ...following.structure import Kind, Node, Structure
-from ...following.view import (
+from ...ros2.imports import WIDTH
+from ...ros2_outcomes.structure import Kind, Node, Structure
+from ...ros2_outcomes.view import (
     STEP,
     ChartView,
     ContainerView,
@@ -21,7 +22,6 @@ from ...following.view import (
     containers,
     imports_of,
 )
-from ...ros2.imports import WIDTH
 from .library import SMACH
 
 

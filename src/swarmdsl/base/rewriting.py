@@ -1,17 +1,36 @@
-"""Changes of places in files that leave every other byte as it is."""
+"""Rewritten files: edits of spans that leave every other byte as it is."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
 
-from swarmdsl.driver.format_files import Layout
+from swarmdsl.base.records import dataclass
+from swarmdsl.base.unified_diff import unified_diff
 
 _LINE_END = re.compile(r"\r\n|\n|\r")
 _MARK = "\ufeff"
 
 Change = tuple[int, int, str]
 """From where to where in the text of a file, as it is read, and what comes there."""
+
+
+@dataclass(frozen=True)
+class Layout:
+    """The content of a file, as it is and as it should be."""
+
+    name: str
+    before: bytes
+    after: bytes
+
+    @property
+    def changed(self) -> bool:
+        """Whether it is not as it should be."""
+        return self.before != self.after
+
+    def diff(self) -> str:
+        """What would change, as a unified diff."""
+        return unified_diff(self.before, self.after, self.name, self.name)
 
 
 def rewritten(name: str, content: bytes, changes: Iterable[Change]) -> Layout:

@@ -11,7 +11,8 @@ import click
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import counted
 from swarmdsl.base.records import dataclass
-from swarmdsl.driver.format_files import STDIN, Layout, layout_of, layouts_of, write
+from swarmdsl.base.rewriting import Layout
+from swarmdsl.driver.format_files import STDIN, layout_of, layouts_of, write
 
 
 @dataclass(frozen=True)

@@ -10,32 +10,13 @@ from pathlib import Path
 
 from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.unified_diff import unified_diff
+from swarmdsl.base.rewriting import Layout
 from swarmdsl.project.loader import expanded
 from swarmdsl.project.read_source import decoded, read_bytes
 from swarmdsl.syntax.formatter import formatted
 
 STDIN = "<stdin>"
 _LINE_END = re.compile(rb"\r\n|\n|\r")
-
-
-@dataclass(frozen=True)
-class Layout:
-    """The content of a file, as it is and as it should be."""
-
-    name: str
-    before: bytes
-    after: bytes
-
-    @property
-    def changed(self) -> bool:
-        """Whether it is not as it should be."""
-        return self.before != self.after
-
-    def diff(self) -> str:
-        """What would change, as a unified diff."""
-        return unified_diff(self.before, self.after, self.name, self.name)
 
 
 def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:

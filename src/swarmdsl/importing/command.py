@@ -10,7 +10,7 @@ from typing import Literal
 from swarmdsl.base.atomic_write import Staging
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
-from swarmdsl.driver.format_files import Layout
+from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver.format_files import write as write_layouts
 from swarmdsl.importing.files import package_of, read_files
 from swarmdsl.importing.ros import import_ros, library_functions

@@ -13,8 +13,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.ir import System
 
-from ...following.fixtures import Emit, generate, reported
-from ...following.generated import Builder, forget
+from ...ros2_outcomes.fixtures import Emit, generate, reported
+from ...ros2_outcomes.generated import Builder, forget
 from ..conftest import emit as emit_for
 
 __all__ = ["generate", "reported"]  # fixtures

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from ...following.agreement import MODELS, Build, Twin, check_model, check_models_made_by_chance
+from ...ros2_outcomes.agreement import MODELS, Build, Twin, check_model, check_models_made_by_chance
 from ..active import running
 
 SYSTEMS = 6

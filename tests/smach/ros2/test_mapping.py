@@ -6,7 +6,7 @@ import pytest
 
 from swarmdsl.codegen.registry import load
 
-from ...following.table import MODELS, Generate, Reported, check_row
+from ...ros2_outcomes.table import MODELS, Generate, Reported, check_row
 
 TABLE = load("smach").mapping_with["ros=2"]
 OWN = {

@@ -14,7 +14,7 @@ from swarmdsl.execution.engine import Event
 from swarmdsl.ir import System
 
 from ...agreement.scripts import Subject
-from ...following.agreement import PATIENCE, Host
+from ...ros2_outcomes.agreement import PATIENCE, Host
 
 MODEL = """package lab
 message Note { level : int32 }

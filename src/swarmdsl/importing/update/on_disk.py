@@ -11,10 +11,11 @@ from pathlib import Path
 from swarmdsl.analysis.checks import validate
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
 from swarmdsl.base.records import dataclass
+from swarmdsl.base.rewriting import Layout
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.settings import Settings
-from swarmdsl.driver.format_files import Layout, layout_of
+from swarmdsl.driver.format_files import layout_of
 from swarmdsl.importing.update import Guess, Key, Model, read_model, update
 from swarmdsl.ir import Communication, Function, Named, System
 from swarmdsl.project.read_source import read_bytes

@@ -9,10 +9,10 @@ from pathlib import Path
 from swarmdsl.analysis.resolve.scopes import kind_of
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Level, Severity
 from swarmdsl.base.records import dataclass, replace
-from swarmdsl.base.rewriting import Change, rewritten
+from swarmdsl.base.rewriting import Change, Layout, rewritten
 from swarmdsl.base.source import Source
 from swarmdsl.driver.config import find_settings
-from swarmdsl.driver.format_files import Layout, write
+from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.find_files import files_below
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.rewriting import Change, rewritten
+from swarmdsl.base.rewriting import Change, Layout, rewritten
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config import find_file, find_settings
-from swarmdsl.driver.format_files import Layout, write
+from swarmdsl.driver.format_files import write
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.renaming import RefusedError, replaced
 from swarmdsl.driver.workspace.renaming import rename as places_of

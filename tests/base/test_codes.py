@@ -18,9 +18,9 @@ from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.settings import Settings
 
-from .docs.pages import Block, Page
+from ..docs.pages import Block, Page
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "src" / "swarmdsl"
 NAMES = {entry.code: name for name, entry in CODES.items()}
 PAGES = {code: Page(page_path(code)) for code in NAMES}

@@ -17,7 +17,7 @@ from swarmdsl.base.diagnostics.render import render
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config.settings import Settings
 
-FOLDER = Path(__file__).parent / "diagnostics"
+FOLDER = Path(__file__).parents[1] / "diagnostics"
 NAMES = {entry.code: name for name, entry in CODES.items()}
 CASES = sorted(path.name for path in FOLDER.glob("SW*") if path.is_dir() or path.suffix != ".txt")
 

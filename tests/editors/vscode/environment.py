@@ -1,6 +1,6 @@
 """Visual Studio Code as `code-server` has it, which a browser shows.
 
-`python tests/editor/vscode/environment.py FOLDER` installs it there, once, from npm. Nothing is
+`python tests/editors/vscode/environment.py FOLDER` installs it there, once, from npm. Nothing is
 compiled: what its install scripts would build serves features that the tests do not use.
 """
 

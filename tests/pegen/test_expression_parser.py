@@ -17,7 +17,7 @@ from swarmdsl.syntax.parser.expressions import ExpressionParser, report_fault
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 from swarmdsl.syntax.pegen.grammar import read
 
-from ..front.test_mutations import MUTATIONS
+from ..syntax.test_mutations import MUTATIONS
 from . import oracle
 from .sentences import Sentences
 

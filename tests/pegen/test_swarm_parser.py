@@ -24,7 +24,7 @@ from swarmdsl.syntax.pegen.grammar import Use, inside, read
 from swarmdsl.syntax.pegen.swarm_actions import PATH, TARGET, parser
 
 from ..docs.pages import blocks
-from ..front.test_mutations import MUTATIONS
+from ..syntax.test_mutations import MUTATIONS
 from . import oracle
 from .sentences import Sentences, reachable
 

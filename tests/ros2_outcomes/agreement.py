@@ -27,8 +27,8 @@ from swarmdsl.ir import Named, StateKind, System
 
 from ..agreement.engines import Ours, Step
 from ..agreement.scripts import WALKS, Model, Subject, Watch
-from ..printer.systems import systems
 from ..smach.test_agreement import apart, for_ros
+from ..swarm_printer.systems import systems
 
 ROOT = Path(__file__).resolve().parents[2]
 SMALL = (
