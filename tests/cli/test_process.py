@@ -168,11 +168,11 @@ def test_a_disk_that_fills_up_leaves_the_output_as_it_was(good, tmp_path):
     made = tmp_path / "made"
     code = (
         "import resource, sys\nfrom swarmdsl.cli import run\n"
-        "from swarmdsl import plugins\nfrom swarmdsl.codegen.api import Generator, OutputFile\n"
+        "from swarmdsl.codegen import registry\nfrom swarmdsl.codegen.api import Generator, OutputFile\n"
         "limited = lambda system, options, report: [\n"
         "    OutputFile('small', 'x'), OutputFile('large', 'x' * 100_000)]\n"
         "generator = Generator('t', '', limited)\n"
-        "plugins.BUILT_IN['t'] = '__main__:generator'\n"
+        "registry.BUILT_IN['t'] = '__main__:generator'\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, 50_000))\n"
         f"sys.exit(run(['build', {str(good)!r}, '-t', 't', '-o', {str(made)!r}]))"
     )

@@ -108,8 +108,8 @@ def test_the_built_in_targets_work():
 
 def test_a_built_in_target_is_found_without_the_list_of_packages():
     code = (
-        "import sys\nfrom swarmdsl import plugins\n"
-        "plugins.BUILT_IN['x'] = 'builtins:int'\nplugins.load('x')\n"
+        "import sys\nfrom swarmdsl.codegen import registry\n"
+        "registry.BUILT_IN['x'] = 'builtins:int'\nregistry.load('x')\n"
         "sys.exit('importlib.metadata' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

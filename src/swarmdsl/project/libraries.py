@@ -16,7 +16,7 @@ from swarmdsl.base.suggest import closest, did_you_mean
 from swarmdsl.syntax.ast import Import, ImportLibrary
 
 SUFFIX = ".swarm"
-GROUP = "swarmdsl.project.libraries"
+GROUP = "swarmdsl.libraries"
 """The entry points of packages that bring models: the module in whose folder they lie."""
 
 
