@@ -1,1 +1,1 @@
-"""TODO."""
+"""Name resolution, types and checks."""

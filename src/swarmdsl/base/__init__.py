@@ -1,1 +1,1 @@
-"""TODO."""
+"""Values and services that know nothing of the language."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""SDK for generators, registry of targets, writers of exchange formats."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""The pipeline, the project file, and incremental checking."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""The engine, and what runs models on it."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Language server, live preview, highlighting."""

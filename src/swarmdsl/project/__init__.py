@@ -1,1 +1,1 @@
-"""TODO."""
+"""Files of a model and what they import."""

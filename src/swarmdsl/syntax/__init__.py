@@ -1,1 +1,1 @@
-"""TODO."""
+"""Syntax: trees, parser, recovery, errors, formatter."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Commands about models beside the pipeline."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Resolve names across files."""

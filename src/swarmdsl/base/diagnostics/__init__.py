@@ -1,1 +1,1 @@
-"""TODO."""
+"""Diagnostics: catalogue, collector, explanations, renderers."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Packages and interfaces of ROS."""

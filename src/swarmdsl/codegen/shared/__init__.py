@@ -1,1 +1,1 @@
-"""TODO."""
+"""Views of the IR that several targets share."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Syntax errors and their hints."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Parser: tokens, expressions, documentation comments, syntax trees."""

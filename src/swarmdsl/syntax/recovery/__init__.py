@@ -1,1 +1,1 @@
-"""TODO."""
+"""Recovery from syntax errors."""

@@ -1,1 +1,1 @@
-"""TODO."""
+"""Handlers of requests, grouped by the imports that they need."""
