@@ -1,3 +1,3 @@
 """Text-first compiler for swarms of robots."""
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
