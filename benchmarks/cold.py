@@ -47,21 +47,21 @@ def section(folder: Path) -> Section:
     # The first round compiles the modules of Python.
     processor = interleaved({name: partial(run, name) for name in commands}, ROUNDS, warm_up=1)
     found = Section(
-        f"Milliseconds of whole processes, {ROUNDS} rounds (least / middle / greatest).",
-        ["command", "processor, ms", "clock, ms"],
+        f"Milliseconds of whole processes, {ROUNDS} rounds (minimum / median / maximum).",
+        ["command", "CPU, ms", "wall clock, ms"],
     )
     for name, times in processor.items():
         walls = spread([cost.wall for cost in costs[name][1:]], scale=1e3)
         found.rows.append([name, spread(times, scale=1e3), walls])
     python, _, check, build = (median(times) * 1e3 for times in processor.values())
     found.goal(
-        f"a check, in ms, against twice `python -c pass` ({python:.0f}) and 60",
+        f"a check, in ms, where the goal is twice `python -c pass` ({python:.0f}) plus 60",
         check,
         2 * python + 60,
         "{:.0f}",
     )
     found.goal(
-        f"a build, as a share of the {JAVA} s that the original generator in Java took from cold",
+        f"a build, relative to the {JAVA} s of a cold run of the original generator in Java",
         build / (JAVA * 1e3),
         SHARE,
         "{:.3f}",

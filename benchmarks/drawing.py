@@ -66,9 +66,9 @@ def section(folder: Path) -> Section:
     # The first round compiles the modules of Python.
     processor = interleaved({name: partial(run, name) for name in commands}, ROUNDS, warm_up=1)
     found = Section(
-        f"`swarmc diagram` of a machine of {STATES:,} states, in milliseconds of processor of "
-        f"whole processes (least / middle / greatest of {ROUNDS} rounds).",
-        ["states", "processor, ms"],
+        f"`swarmc diagram` of a state machine with {STATES:,} states, CPU time of whole processes "
+        f"in milliseconds (minimum / median / maximum of {ROUNDS} rounds).",
+        ["states", "CPU, ms"],
     )
     for name, times in processor.items():
         found.rows.append([name, spread(times, scale=1e3)])

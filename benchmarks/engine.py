@@ -198,10 +198,10 @@ def section(folder: Path) -> Section:
     )
     present, absent = peers.divide(engines)
     found = Section(
-        "Thousands of events a second that an engine takes, the active states looked at after "
-        f"each, by time of the processor (least / middle / greatest of {RUNS} rounds). All read "
-        "the same documents of SCXML.",
-        ["machine", *(peers.title(each.name, each.peer) for each in present)],
+        "Thousands of events a second of CPU time, with the active states read after each event "
+        f"(minimum / median / maximum of {RUNS} rounds). All engines read the same SCXML "
+        "documents.",
+        ["state machine", *(peers.title(each.name, each.peer) for each in present)],
     )
     for name, (text, names) in CASES.items():
         speeds = interleaved(

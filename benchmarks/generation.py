@@ -39,15 +39,15 @@ def section(folder: Path) -> Section:
     # The first round compiles the modules of Python.
     times = interleaved({name: partial(run, name) for name in commands}, ROUNDS, warm_up=1)
     found = Section(
-        "Milliseconds of processor of whole processes, `swarmc build --target smach`, "
-        f"{ROUNDS} rounds (least / middle / greatest).",
+        "CPU time of whole processes in milliseconds, `swarmc build --target smach`, "
+        f"{ROUNDS} rounds (minimum / median / maximum).",
         ["state machine", "swarmc, ms", "original generator, ms"],
     )
     for (name, taken), java in zip(times.items(), JAVA.values(), strict=True):
         found.rows.append([name, spread(taken, scale=1e3), f"{java * 1e3:.0f}"])
     for (name, taken), java in zip(times.items(), JAVA.values(), strict=True):
         found.goal(
-            f"{name}: share of the {java} s that the original generator in Java took from cold",
+            f"{name}: relative to the {java} s of a cold run of the original generator in Java",
             median(taken) / java,
             SHARE,
             "{:.3f}",

@@ -52,8 +52,8 @@ def section(folder: Path) -> Section:
 
     found = Section(
         f"{len(files)} files with {lines:,} lines that import each other, in milliseconds "
-        f"(least / middle / greatest of {ROUNDS} rounds).",
-        ["what", "processor, ms", "clock, ms"],
+        f"(minimum / median / maximum of {ROUNDS} rounds).",
+        ["measurement", "CPU, ms", "wall clock, ms"],
     )
     found.rows.append(
         ["`swarmc check`", spread(times["check"], scale=1e3), spread(walls[1:], scale=1e3)]
@@ -66,15 +66,15 @@ def section(folder: Path) -> Section:
         ("one of these files", again),
         (f"a file of {LINES_OF_A_FILE:,} lines", keys),
     ):
-        found.rows.append([f"checked again after a key in {where}", _figures(seconds), ""])
-    found.goal("a check, in seconds by the clock", median(walls[1:]), 2, "{:.2f}")
-    found.goal("the peak of its memory, in MB", max(memory) / 1e6, 250, "{:.0f}")
+        found.rows.append([f"check again after a keystroke in {where}", _figures(seconds), ""])
+    found.goal("a check, in seconds of wall clock", median(walls[1:]), 2, "{:.2f}")
+    found.goal("its peak memory, in MB", max(memory) / 1e6, 250, "{:.0f}")
     if PROTOC in present:
         ratio = median(times["swarmdsl"]) / median(times["protoc"])
-        found.goal("time to parse a line, as a share of that of protoc", ratio, 1, "{:.2f}")
-    slow = "the slowest twentieth left out"
-    found.goal(f"checked again after a key, in seconds, {slow}", _high(again), 0.3, "{:.3f}")
-    found.goal(f"a key in the large file, in ms, {slow}", _high(keys) * 1e3, 25, "{:.1f}")
+        found.goal("time to parse a line, relative to protoc", ratio, 1, "{:.2f}")
+    slow = "95th percentile"
+    found.goal(f"check again after a keystroke, in seconds, {slow}", _high(again), 0.3, "{:.3f}")
+    found.goal(f"a keystroke in the large file, in ms, {slow}", _high(keys) * 1e3, 25, "{:.1f}")
     found.notes += absent
     return found
 
@@ -84,5 +84,5 @@ def _figures(seconds: list[float]) -> str:
 
 
 def _high(seconds: list[float]) -> float:
-    """What 19 of 20 stay below."""
+    """95th percentile."""
     return quantiles(seconds, n=20)[-1]

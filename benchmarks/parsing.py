@@ -75,11 +75,11 @@ def section(folder: Path) -> Section:
         times[lines] = interleaved(runs, rounds)
 
     found = Section(
-        "Thousands of lines a second, by time of the processor (least / middle / greatest), and "
-        "the peak of the memory of the process with the largest file. All are warm: a file of "
-        f"{warm_up:,} lines was parsed five times before. What reads other languages has other "
-        "things on a line, so that only orders of magnitude compare.",
-        ["parser", *(f"{lines:,} lines" for lines in SIZES), "times as long", "MB"],
+        "Thousands of lines a second of CPU time (minimum / median / maximum), and the peak memory "
+        "of the process with the largest file. All parsers are warm: each parsed a file of "
+        f"{warm_up:,} lines five times before. Lines of different languages differ in content, so "
+        "only orders of magnitude compare.",
+        ["parser", *(f"{lines:,} lines" for lines in SIZES), "relative time", "MB"],
     )
     for each in present:
         speeds = [
@@ -92,7 +92,7 @@ def section(folder: Path) -> Section:
     for name, least in (("textX", 20.0), ("Langium", 3.0)):
         if name in times[LARGEST]:
             ratio = _ratio(times[LARGEST], name)
-            what = f"times as fast as {name} on {LARGEST:,} lines"
+            what = f"speed relative to {name} on {LARGEST:,} lines"
             found.goal(what, ratio, least, "{:.1f}", least=True)
     found.notes += absent
     return found

@@ -36,9 +36,9 @@ def section(folder: Path) -> Section:
     """Tell nodes to go and to stop, and look when they do."""
     found = Section(
         "A node on rospy that answers a message with another one and calls an action, which the "
-        f"next message cancels; milliseconds of {ROUNDS} rounds (least / middle / greatest), "
-        "through the middleware and back. The server looks every 10 ms whether it is cancelled.",
-        ["node", "message to message", "message to the cancelled action"],
+        f"next message cancels; milliseconds of {ROUNDS} rounds (minimum / median / maximum), "
+        "through the middleware and back. The server polls for cancellation every 10 ms.",
+        ["node", "message to message", "message to cancelled action"],
     )
     sys.path.insert(0, str(TESTS))
     import conftest
@@ -73,9 +73,9 @@ def section(folder: Path) -> Section:
             found.rows.append([name, spread(sending, "{:.1f}"), spread(leaving, "{:.1f}")])
     finally:
         graph.stop()
-    found.notes.append(f"on {'the real SMACH' if named else 'the stand-in for SMACH of the tests'}")
-    for what, times in (("another one", sending), ("the cancelled action", leaving)):
-        sentence = f"from a message to {what}, of the generated node, in ms"
+    found.notes.append(f"with {'the real SMACH' if named else 'the SMACH stub of the tests'}")
+    for what, times in (("message", sending), ("cancelled action", leaving)):
+        sentence = f"generated node, message to {what}, in ms"
         found.goal(sentence, median(times), MOST, "{:.1f}")
     return found
 

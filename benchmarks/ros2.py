@@ -43,7 +43,7 @@ endless statemachine Echo {
 """
 
 BY_HAND = "by hand"
-TELLING = "by hand, telling what it does"
+TELLING = "by hand, with reports"
 GENERATED = "generated"
 
 
@@ -51,17 +51,16 @@ def section(folder: Path) -> Section:
     """Start nodes, let them answer, leave them alone, and look at what they take."""
     found = Section(
         "A node that answers a message with another one, on rclpy; "
-        f"{ROUNDS} rounds (least / middle / greatest). Time from a message to the answer is of "
-        f"{PINGS} messages, one after the other, through the middleware and back, in a round the "
-        f"least of {BATCHES} times so many. The node that "
-        "tells what it does publishes its state, each transition and, once a second, diagnostics, "
-        "and logs what it does, as generated nodes do.",
+        f"{ROUNDS} rounds (minimum / median / maximum). Messages are sent one after the other, "
+        "through the middleware and back; a round takes the minimum of "
+        f"{BATCHES} batches of {PINGS} messages. The node with reports publishes its state, each "
+        "transition and, once a second, diagnostics, and logs what it does, as generated nodes do.",
         [
             "node",
-            "start, ms of processor",
+            "start, CPU ms",
             "message to answer, µs",
-            "of these of processor, µs",
-            f"processor in {IDLE:.0f} s idle, ms",
+            "message to answer, CPU µs",
+            f"{IDLE:.0f} s idle, CPU ms",
             "memory, MB",
         ],
     )
@@ -70,7 +69,7 @@ def section(folder: Path) -> Section:
         _nodes(folder, found)
     else:
         found.notes.append(
-            "nodes were not measured: `make test-ros2` installs ROS 2, here it is not"
+            "nodes were not measured: ROS 2 is not installed; `make test-ros2` installs it"
         )
     model = folder / "long.swarm"
     model.write_text(generation.machine(STATES), encoding="utf-8")
@@ -82,7 +81,7 @@ def section(folder: Path) -> Section:
 
     times = interleaved({"build": build}, ROUNDS, warm_up=1)["build"]
     found.goal(
-        f"`swarmc build --target ros2` of {STATES} states, in seconds of the processor, at least",
+        f"`swarmc build --target ros2` of {STATES} states, minimum CPU seconds",
         min(times),
         0.5,
         "{:.2f}",
@@ -119,7 +118,7 @@ def _nodes(folder: Path, found: Section) -> None:
             # What else the machine does only adds to the least.
             least = {name: min(value[index] for value in rounds) for name, rounds in taken.items()}
             value = least[GENERATED] / least[TELLING]
-            beside = "beside the node by hand that tells what it does"
+            beside = f"relative to the node {TELLING}"
             found.goal(f"{what}, {beside}", value, limit, "{:.2f}")
         _many(ros, commands, found)
     finally:
@@ -127,10 +126,10 @@ def _nodes(folder: Path, found: Section) -> None:
 
 
 _COLUMNS = (
-    ("processor to start", "{:.0f}", 1e3, 1.2),
+    ("CPU time of the start", "{:.0f}", 1e3, 1.2),
     ("time from a message to the answer", "{:.0f}", 1e6, 1.2),
-    ("processor for an answer", "{:.0f}", 1e6, 1.2),
-    ("processor of an idle node", "{:.1f}", 1e3, 1.5),
+    ("CPU time of an answer", "{:.0f}", 1e6, 1.2),
+    ("CPU time of an idle node", "{:.1f}", 1e3, 1.5),
     ("memory", "{:.1f}", 1e-6, 1.2),
 )
 """What is measured of a node, how it is written, and how much more a generated one may take."""
@@ -175,9 +174,9 @@ def _many(ros: Any, commands: dict[str, list[str]], found: Section) -> None:
             for node in nodes:
                 _end(node)
         found.notes.append(
-            f"{MANY} nodes, {name}: all answer {start:.1f} s after their start, a message to all "
-            f"is answered by all after {median(answers) * 1e3:.1f} ms, idle they take "
-            f"{idle / IDLE * 100:.1f} % of one processor, {memory / 1e6:.0f} MB in all"
+            f"{MANY} nodes, {name}: all answer {start:.1f} s after their start, all answer a "
+            f"message to all within {median(answers) * 1e3:.1f} ms; together they take "
+            f"{idle / IDLE * 100:.1f} % of one CPU when idle, and {memory / 1e6:.0f} MB"
         )
 
 
