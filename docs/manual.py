@@ -20,29 +20,29 @@ HERE = Path(__file__).resolve().parent
 TEXTS = {
     "EXIT STATUS": (
         ("0", "No errors."),
-        ("1", "Errors, or what a check, a test or a comparison has found."),
-        ("2", "A wrong command line; of `diff` and `merge` also what cannot be read."),
+        ("1", "Errors, or findings of a check, a test or a comparison."),
+        ("2", "A wrong command line; for `diff` and `merge` also unreadable input."),
         ("3", "A bug in swarmc."),
         ("130", "Ctrl-C, or the signal SIGINT."),
         ("143", "The signal SIGTERM."),
     ),
     "ENVIRONMENT": (
-        ("NO_COLOR", "No colours, whatever the output is."),
-        ("FORCE_COLOR", "Colours, also where the output is no terminal."),
-        ("XDG_CACHE_HOME", "Where compiled templates are kept, in swarmdsl/. Default: ~/.cache."),
-        ("PYTHONDONTWRITEBYTECODE", "Compiled templates are not kept."),
+        ("NO_COLOR", "Never print colours."),
+        ("FORCE_COLOR", "Print colours even if the output is not a terminal."),
+        ("XDG_CACHE_HOME", "Folder of compiled templates, in swarmdsl/. Default: ~/.cache."),
+        ("PYTHONDONTWRITEBYTECODE", "Do not store compiled templates."),
         (
             "AMENT_PREFIX_PATH, COLCON_PREFIX_PATH, ROS_PACKAGE_PATH",
-            "Folders of ROS that `swarmc lsp` may read, as a sourced workspace sets them.",
+            "ROS folders that `swarmc lsp` may read, as set by a sourced workspace.",
         ),
-        ("ROS_DISTRO", "Told by `swarmc --version --verbose` and `swarmc doctor`."),
+        ("ROS_DISTRO", "Shown by `swarmc --version --verbose` and `swarmc doctor`."),
     ),
     "FILES": (
-        ("swarm.toml", "The project: what is compiled, and to what. Looked for upwards."),
+        ("swarm.toml", "The project: sources, targets and options. Searched upwards."),
         ("*.swarm", "Models."),
         ("*.swarmtest.toml", "Behaviour tests, beside the model."),
-        ("out/.swarmdsl.json", "What a build has generated, with the places it comes from."),
-        ("out/.swarmdsl.texts", "The texts of the last builds, to merge edits with."),
+        ("out/.swarmdsl.json", "The generated files of a build, with their origins in the model."),
+        ("out/.swarmdsl.texts", "The content of the last builds, to merge edits with."),
     ),
 }
 _SAYS = "compile swarms of robots"
@@ -102,8 +102,8 @@ def man_page() -> str:
         *(".SH SYNOPSIS", ".B swarmc", _roff(top.usage.removeprefix("swarmc "))),
         *(".SH DESCRIPTION", *_paragraphs(top.text)),
         ".PP",
-        "Without a file or folder, most commands take what the project file names, or the current",
-        "folder. What was asked for goes to standard output, all about the run to standard error.",
+        "Without a file or folder, most commands use the sources of the project file, or the",
+        "current folder. Results go to standard output, messages about the run to standard error.",
         *(".SH OPTIONS", *_options(top.options)),
         ".SH COMMANDS",
     ]
@@ -124,7 +124,7 @@ def markdown() -> str:
     lines += [
         "# Every command",
         "",
-        "What `swarmc COMMAND --help` says; the man page `swarmc(1)` has the same.",
+        "The output of `swarmc COMMAND --help`, also in the man page `swarmc(1)`.",
     ]
     for page in pages():
         lines += ["", f"## {page.name}", "", "```text", page.usage, "```"]
