@@ -1,7 +1,7 @@
-"""Writes what the command line says of itself as pages: `python docs/manual.py`.
+"""Write the man page and the handbook page of the commands: `python docs/manual.py`.
 
-`docs/swarmc.1` is the man page, which the wheel installs; `docs/commands.md` is the same for the
-handbook. One page has all commands: who looks for an option finds it with `/`.
+Both come from the help of the command line. The wheel installs the man page `docs/swarmc.1`;
+`docs/commands.md` has the same content. One page has all commands, so `/` finds any option.
 """
 
 from __future__ import annotations
@@ -46,14 +46,14 @@ TEXTS = {
     ),
 }
 _SAYS = "compile swarms of robots"
-# Options of all commands, which are told once.
+# Options of all commands, which are listed once.
 _EVERYWHERE = ("-h, --help", "--debug")
 _SEE_ALSO = "git(1), roslaunch(1)"
 
 
 @dataclass(frozen=True)
 class Page:
-    """What is said of a command: its name after those above it, how it is called, its options."""
+    """Help of a command: full name, usage, text, options and example."""
 
     name: str
     usage: str
@@ -63,7 +63,7 @@ class Page:
 
 
 def pages(command: click.Command = cli, above: click.Context | None = None) -> Iterator[Page]:
-    """The command and all below it, in the order of the help."""
+    """Yield the pages of a command and its subcommands, in the order of the help."""
     context = click.Context(
         command,
         info_name=command.name if above else "swarmc",
@@ -93,7 +93,7 @@ def pages(command: click.Command = cli, above: click.Context | None = None) -> I
 
 
 def man_page() -> str:
-    """The page as roff with the macros of man(7)."""
+    """Return the man page, as roff with the macros of man(7)."""
     top, *others = pages()
     lines = [
         '.\\" Written by docs/manual.py.',
@@ -119,7 +119,7 @@ def man_page() -> str:
 
 
 def markdown() -> str:
-    """The page of the handbook."""
+    """Return the handbook page."""
     lines = ["<!-- Written by docs/manual.py: change the help of the command. -->", ""]
     lines += [
         "# Every command",
@@ -156,7 +156,7 @@ def _options(entries: Iterable[tuple[str, str]]) -> Iterator[str]:
 
 
 def _roff(text: str) -> str:
-    """Text in which nothing is a request or an escape; `code` is bold."""
+    """Escape requests and escapes of roff; print `code` in bold."""
     text = text.replace("\\", "\\e").replace("-", "\\-").replace('"', "\\(dq")
     text = re.sub(r"`([^`]+)`", r"\\fB\1\\fR", text)
     return f"\\&{text}" if text.startswith((".", "'")) else text
@@ -167,7 +167,7 @@ def _quoted(text: str) -> str:
 
 
 def _plain(text: str) -> str:
-    """Text without marks of Markdown outside of code."""
+    """Escape Markdown outside of code."""
     parts = text.split("`")
     parts[::2] = (re.sub(r"([*_<>\[\]])", r"\\\1", part) for part in parts[::2])
     return "`".join(parts)

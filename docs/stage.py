@@ -1,7 +1,7 @@
-"""Puts what the handbook shows into `build/handbook`: `python docs/stage.py`.
+"""Copy the sources of the handbook to `build/handbook`: `python docs/stage.py`.
 
-The pages lie all over the project and keep their places, so that their links lead where they
-lead on a forge. What stands behind the language of a code block is for the tests.
+The pages keep their paths in the project, so that their links work as on a forge. Attributes
+after the language of a code block are for the tests, and are removed.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ _SHOWN = (
     "generators/**/*.md",
     "editors/*/README.md",
 )
-# Files of code that pages link to.
+# Source files that pages link to.
 _LINKED = ("src/swarmdsl/driver/pipeline.py",)
 _FENCE = re.compile(r"^(`{3,}\w+) [^\n]*$", re.MULTILINE)
 
 
 def shown() -> Iterator[Path]:
-    """The files that belong to it."""
+    """Yield the files of the handbook."""
     for pattern in (*_SHOWN, *_LINKED):
         for path in sorted(ROOT.glob(pattern)):
             if path.is_file() and "node_modules" not in path.parts:
@@ -35,7 +35,7 @@ def shown() -> Iterator[Path]:
 
 
 def stage(folder: Path = STAGE) -> None:
-    """Make the folder anew."""
+    """Recreate the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     for path in shown():
         _copy(path, folder / path.relative_to(ROOT))
