@@ -1,4 +1,4 @@
-"""Lets `python -m swarmdsl` do what `swarmc` does."""
+"""Run `swarmc` as `python -m swarmdsl`."""
 
 from swarmdsl.cli import main
 

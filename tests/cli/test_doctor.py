@@ -109,7 +109,7 @@ def test_a_version_with_all_that_a_report_needs(capsys: pytest.CaptureFixture[st
     assert first.startswith("swarmc, version ")
     assert [line.partition(":")[0] for line in rest][:3] == ["swarmdsl", "Python", "system"]
     assert run(["--verbose"]) == 2
-    assert "goes with `--version`" in capsys.readouterr().err
+    assert "needs `--version`" in capsys.readouterr().err
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="no bash here")

@@ -74,4 +74,4 @@ def test_wrong_usage_is_told_by_click(swarmc, good):
     ran = swarmc("build", good, "--watch", "--dump-ir")
     assert (ran.code, ran.out) == (2, "")
     assert ran.err.startswith("Usage: swarmc build [OPTIONS] [FILE|FOLDER]...\n")
-    assert ran.err.endswith("`--watch` and `--dump-ir` do not go together: it prints once\n")
+    assert ran.err.endswith("`--watch` and `--dump-ir` conflict: it prints once\n")

@@ -168,7 +168,8 @@ def test_a_disk_that_fills_up_leaves_the_output_as_it_was(good, tmp_path):
     made = tmp_path / "made"
     code = (
         "import resource, sys\nfrom swarmdsl.cli import run\n"
-        "from swarmdsl.codegen import registry\nfrom swarmdsl.codegen.api import Generator, OutputFile\n"
+        "from swarmdsl.codegen import registry\n"
+        "from swarmdsl.codegen.api import Generator, OutputFile\n"
         "limited = lambda system, options, report: [\n"
         "    OutputFile('small', 'x'), OutputFile('large', 'x' * 100_000)]\n"
         "generator = Generator('t', '', limited)\n"

@@ -68,7 +68,7 @@ def test_a_new_file_is_named(
     model = tmp_path / "door.swarm"
     assert run(["import", "scxml", str(door), "-o", str(model)]) == 0
     out, err = capsys.readouterr()
-    assert (out, err.splitlines()[-2:]) == ("", ["1 warning in 1 file", f"{model} is written"])
+    assert (out, err.splitlines()[-2:]) == ("", ["1 warning in 1 file", f"{model} was written"])
     assert run(["import", "scxml", str(door), "-o", str(model)]) == 0
     assert capsys.readouterr().err.endswith(f"{model} is up to date\n")
     assert run(["import", "scxml", str(door), "-o", str(tmp_path / "b.swarm"), "--dry-run"]) == 1

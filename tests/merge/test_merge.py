@@ -234,7 +234,7 @@ def test_what_cannot_be_parsed_is_merged_by_lines(
     assert run(["merge", *versions]) == 0
     printed = capfdbinary.readouterr()
     assert printed.out.decode() == changed(ONE_MORE).replace("final C", "final")
-    assert b"merged line by line" in printed.err
+    assert b"merged by lines" in printed.err
 
 
 def test_as_a_driver_of_git(tmp_path: Path) -> None:

@@ -277,7 +277,7 @@ def test_what_would_be_a_mistake_is_not_added(arguments, code, said, swarmc, mod
     assert (ran.code, ran.out) == (1, ""), ran.out
     assert code in ran.err
     assert said in ran.err
-    assert ran.err.endswith("nothing is added\n")
+    assert ran.err.endswith("nothing was added\n")
     assert model.read_text() == MODEL
 
 

@@ -191,7 +191,7 @@ def test_options_that_do_not_go_together(replay: Replay) -> None:
     code, err = replay(START, arguments=("--trace", "json"))
 
     assert code == 2
-    assert "`--replay` and `--trace` are not given together" in err
+    assert "`--replay` and `--trace` conflict" in err
 
 
 @pytest.mark.parametrize(

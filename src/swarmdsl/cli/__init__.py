@@ -1,8 +1,7 @@
 """The command line: `swarmc`, one module a command.
 
-What was asked for goes to stdout, all about the run to stderr. Whatever a command needs
-is imported when it runs, and the command itself when it is named or `--help` lists it, so
-that a small check is quick.
+Results go to stdout, everything about the run to stderr. A command is imported when it is named
+or listed by `--help`, and its dependencies when it runs, so that a small check is quick.
 """
 
 from __future__ import annotations
@@ -18,63 +17,39 @@ from importlib import import_module
 from io import TextIOWrapper
 from typing import NoReturn
 
+from swarmdsl.cli.command_names import COMMANDS, PLAIN
 from swarmdsl.cli.exit_code import ERRORS, INTERNAL, INTERRUPTED, TERMINATED
 
-# The names of the commands are those of their modules, and of the functions in them; a keyword of
-# Python has a `_` there.
-COMMANDS = (
-    "add",
-    "build",
-    "check",
-    "codegen",
-    "completion",
-    "diagram",
-    "diff",
-    "doc",
-    "doctor",
-    "explain",
-    "fmt",
-    "import",
-    "lsp",
-    "merge",
-    "new",
-    "preview",
-    "rename",
-    "simulate",
-    "targets",
-    "test",
-    "trace",
-)
-# Those whose options are plain data: a command line in the plainest form is read without Click.
-PLAIN = ("build", "check")
-# As editors start the server.
+__all__ = ["COMMANDS", "PLAIN", "main", "run"]
+
+# Arguments with which editors start the server.
 _SERVER = (["lsp"], ["lsp", "--stdio"])
 
 
 def main() -> None:
     """Run `swarmc` in its own process."""
     for stream in (sys.stdout, sys.stderr):
-        # A name of a file or of a model may have what the terminal's encoding lacks.
+        # Names may have characters that the terminal's encoding lacks.
         if isinstance(stream, TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     if hasattr(signal, "SIGPIPE"):
         # `swarmc targets | head -1` ends quietly, as other programs do.
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)
-    # As an exception, so that files that are being written are cleaned up.
+    # As an exception, so that temporary files are removed.
     signal.signal(signal.SIGTERM, lambda _signal, _frame: sys.exit(TERMINATED))
-    # What a compiler makes is needed until it is done: looking for garbage costs a tenth of
-    # its time. A server must turn it on.
+    # A compiler keeps its data until it ends: garbage collection costs a tenth of the time.
+    # Commands that run for long turn it on.
     gc.disable()
     _leave(run(sys.argv[1:]))
 
 
 def _leave(code: int) -> NoReturn:
-    """End the process at once: to give back its memory piece by piece takes as long as to link."""
+    """End the process at once: freeing all memory takes as long as resolving names."""
     atexit._run_exitfuncs()
     try:
         sys.stdout.flush()
         sys.stderr.flush()
-    except (OSError, ValueError):  # the interpreter says what is wrong
+    except (OSError, ValueError):  # the interpreter reports it
         sys.exit(code)
     os._exit(code)
 
@@ -106,7 +81,7 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _run_plainly(arguments: Sequence[str]) -> int | None:
-    """Run a command that needs no Click; None where it is needed, for help or for complaints."""
+    """Run a command without Click; None where Click is needed, for help or for errors."""
     if list(arguments) in _SERVER:
         from swarmdsl.ide.server.start import serve_on_standard_streams
 
@@ -123,15 +98,15 @@ def _run_plainly(arguments: Sequence[str]) -> int | None:
         return None
     try:
         code: int = getattr(module, name)(**values)
-    except UsageError:  # nothing was done; Click complains, and tells the usage
+    except UsageError:  # nothing was done; Click reports it with the usage
         return None
     return code
 
 
-# All other input and output of swarmc turns its errors into diagnostics.
+# Errors of all other input and output are diagnostics.
 _STDOUT_FAULTS = frozenset({errno.ENOSPC, errno.EIO, errno.EBADF})
 
 
 def _close_stdout() -> None:
-    """Spare the interpreter a second attempt to write what cannot be written."""
+    """Keep the interpreter from writing to stdout again when it exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -14,48 +14,50 @@ from swarmdsl.cli.suggestions import Choice, Group
 
 _FILE = click.Path(path_type=Path)
 _name = click.argument("name")
-_doc = click.option("--doc", metavar="TEXT", default="", help="What it is: its documentation.")
+_doc = click.option("--doc", metavar="TEXT", default="", help="Its documentation.")
 _file = click.option(
     "--file",
     "file",
     metavar="FILE",
     type=_FILE,
-    help="Where it goes.  [default: where it fits best]",
+    help="The file to add it to.  [default: where it fits best]",
 )
 _param = click.option(
     "--param",
     "params",
     metavar="NAME:TYPE[=VALUE]",
     multiple=True,
-    help="A param of it; may be repeated.",
+    help="A param; may be repeated.",
 )
 _in = click.option(
     "--in",
     "incoming",
     metavar="NAME:TYPE[@TOPIC]",
     multiple=True,
-    help="A port that it listens to; may be repeated.",
+    help="An input port; may be repeated.",
 )
 _out = click.option(
     "--out",
     "outgoing",
     metavar="NAME:TYPE[@TOPIC]",
     multiple=True,
-    help="A port that it sends on; may be repeated.",
+    help="An output port; may be repeated.",
 )
 _inout = click.option(
     "--inout",
     "both",
     metavar="NAME:TYPE[@TOPIC]",
     multiple=True,
-    help="A port for both; may be repeated.",
+    help="A port for both directions; may be repeated.",
 )
-_extends = click.option("--extends", metavar="NAME", default="", help="What it has all of.")
+_extends = click.option(
+    "--extends", metavar="NAME", default="", help="The declaration that it inherits from."
+)
 _behavior = click.option(
     "--behavior",
     metavar="MACHINE",
     default="",
-    help="The state machine that it runs; made if there is none of this name.",
+    help="The state machine that it runs; added if it does not exist.",
 )
 
 
@@ -63,7 +65,7 @@ def _common(command: Callable[..., Any]) -> Callable[..., Any]:
     for each in (
         options.debug,
         options.diagnostics_format,
-        click.option("--dry-run", is_flag=True, help="Show what would change, write nothing."),
+        click.option("--dry-run", is_flag=True, help="Show the changes; write nothing."),
         click.option(
             "--model",
             "paths",
@@ -84,10 +86,10 @@ def _common(command: Callable[..., Any]) -> Callable[..., Any]:
 )
 @options.debug
 def add() -> None:
-    """Add something to a model, where it belongs in its files.
+    """Add an element to a model, where it belongs in its files.
 
-    All that is there stays as it is, byte for byte. What would be a mistake is told, and
-    not added.
+    Everything else stays as it is, byte for byte. An element that would be an error is
+    reported, and not added.
     """
 
 
@@ -100,7 +102,7 @@ def add() -> None:
     type=Choice(("sensor", "actuator", "controller", "virtual")),
     default="sensor",
     show_default=True,
-    help="What it is.",
+    help="Its kind.",
 )
 @_extends
 @_in
@@ -112,17 +114,15 @@ def add() -> None:
     "operations",
     metavar="NAME(in|out PARAMETER:TYPE, ...)",
     multiple=True,
-    help="What others can ask it to do; may be repeated.",
+    help="An operation that others can call; may be repeated.",
 )
 @_behavior
-@click.option(
-    "--to", metavar="MEMBER[.PART]", default="", help="Make it a part of this member too."
-)
+@click.option("--to", metavar="MEMBER[.PART]", default="", help="Make it a part of this member.")
 @_doc
 @_file
 @_common
 def component(**given: Any) -> int:
-    """A sensor, actuator, controller or virtual component."""
+    """Add a sensor, actuator, controller or virtual component."""
     return _run("component", given)
 
 
@@ -135,7 +135,7 @@ def component(**given: Any) -> int:
     "parts",
     metavar="NAME:COMPONENT",
     multiple=True,
-    help="What it is made of; may be repeated.",
+    help="A part; may be repeated.",
 )
 @click.option(
     "--connect",
@@ -148,14 +148,12 @@ def component(**given: Any) -> int:
 @_out
 @_inout
 @_param
-@click.option(
-    "--to", metavar="SWARM[=NUMBER]", default="", help="Make it a role of this swarm too."
-)
+@click.option("--to", metavar="SWARM[=NUMBER]", default="", help="Make it a role of this swarm.")
 @_doc
 @_file
 @_common
 def member(**given: Any) -> int:
-    """A type of robot."""
+    """Add a type of robot."""
     return _run("member", given)
 
 
@@ -166,30 +164,30 @@ def member(**given: Any) -> int:
     type=Choice(("abstraction", "swarm")),
     default="abstraction",
     show_default=True,
-    help="What it is about: the robot, or the swarm.",
+    help="Subject of the function: the robot, or the swarm.",
 )
-@click.option("--action", metavar="SERVER:TYPE", help="It is called as this action.")
-@click.option("--service", metavar="SERVER:TYPE", help="It is called as this service.")
+@click.option("--action", metavar="SERVER:TYPE", help="The action that calls it.")
+@click.option("--service", metavar="SERVER:TYPE", help="The service that calls it.")
 @click.option(
     "--in",
     "incoming",
     metavar="TOPIC:TYPE",
     multiple=True,
-    help="A topic that it listens to; may be repeated.",
+    help="A topic that it subscribes to; may be repeated.",
 )
 @click.option(
     "--out",
     "outgoing",
     metavar="TOPIC:TYPE",
     multiple=True,
-    help="A topic that it sends on; may be repeated.",
+    help="A topic that it publishes on; may be repeated.",
 )
 @_param
 @_doc
 @_file
 @_common
 def function(**given: Any) -> int:
-    """Something that a robot can do."""
+    """Add a function: something that a robot can do."""
     return _run("function", given)
 
 
@@ -198,13 +196,13 @@ def function(**given: Any) -> int:
 )
 @_name
 @click.argument("type_", metavar="TYPE")
-@click.option("--swarm", is_flag=True, help="It travels between the members of the swarm.")
-@click.option("--on", "topic", metavar="TOPIC", default="", help="The topic of it.")
+@click.option("--swarm", is_flag=True, help="An event between members of the swarm.")
+@click.option("--on", "topic", metavar="TOPIC", default="", help="Its topic.")
 @_doc
 @_file
 @_common
 def event(**given: Any) -> int:
-    """Something that state machines react to."""
+    """Add an event that state machines react to."""
     return _run("event", given)
 
 
@@ -216,15 +214,15 @@ def event(**given: Any) -> int:
     metavar="[ROLE:]MEMBER[=NUMBER]",
     multiple=True,
     required=True,
-    help="Robots of it, and how many: `Uav`, `scout:Uav=2..4`; may be repeated.",
+    help="A member with its multiplicity: `Uav`, `scout:Uav=2..4`; may be repeated.",
 )
-@click.option("--environment", metavar="NAME", default="", help="Where it is.")
-@click.option("--fitness", metavar="NAME", default="", help="What makes it a good one.")
+@click.option("--environment", metavar="NAME", default="", help="Its environment.")
+@click.option("--fitness", metavar="NAME", default="", help="Its fitness.")
 @_doc
 @_file
 @_common
 def swarm(**given: Any) -> int:
-    """Robots that work together."""
+    """Add a swarm: robots that work together."""
     return _run("swarm", given)
 
 
@@ -237,35 +235,37 @@ def swarm(**given: Any) -> int:
     "activity",
     metavar="CALL",
     default="",
-    help="What it does: `land`, `climb(height = 2.0)`.",
+    help="Its activity: `land`, `climb(height = 2.0)`.",
 )
-@click.option("--runs", metavar="MACHINE[(...)]", default="", help="The machine that it reuses.")
+@click.option(
+    "--runs", metavar="MACHINE[(...)]", default="", help="The state machine that it reuses."
+)
 @click.option(
     "--on",
     "transitions",
     metavar='"TRIGGER -> STATE"',
     multiple=True,
-    help="A way out of it: `MissionAbort -> Home`, `succeeded, aborted -> Done`.",
+    help="A transition: `MissionAbort -> Home`, `succeeded, aborted -> Done`.",
 )
 @click.option(
     "--after",
     "delays",
     metavar='"DELAY -> STATE"',
     multiple=True,
-    help="A way out of it when time is over: `5 s -> Idle`.",
+    help="A transition after a delay: `5 s -> Idle`.",
 )
 @click.option(
     "--from",
     "ways_in",
     metavar='"STATE: TRIGGER"',
     multiple=True,
-    help="A way that leads to it: `Idle: MissionStart`, `Busy: after 5 s`.",
+    help="A transition to it: `Idle: MissionStart`, `Busy: after 5 s`.",
 )
-@click.option("--final", is_flag=True, help="It is an end.")
+@click.option("--final", is_flag=True, help="Make it a final state.")
 @_doc
 @_common
 def state(**given: Any) -> int:
-    """A state of a state machine, of a region or of another state."""
+    """Add a state to a state machine, a region or another state."""
     return _run("state", given)
 
 
@@ -285,5 +285,5 @@ def _run(kind: str, given: dict[str, Any]) -> int:
     for layout in done.layouts:
         click.echo(layout.diff() if given["dry_run"] else layout.name, nl=not given["dry_run"])
     if done.report.has_errors:
-        click.echo("nothing is added", err=True)
+        click.echo("nothing was added", err=True)
     return exit_code(done.report)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.cli.exit_code import briefly, conclude
-from swarmdsl.cli.output_options import OPTIONS as OF_WRITING
+from swarmdsl.cli.output_options import OPTIONS as WRITING_OPTIONS
 from swarmdsl.cli.parameters import FORMAT, LEVELS, WATCH, Option
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ OPTIONS = (
     Option(
         "targets",
         ("--target", "-t"),
-        "What to make; may be repeated. Without it: the targets of swarm.toml, or all that "
-        "can express the model and need not be asked for.",
+        "The target; may be repeated. Default: the targets of swarm.toml, or all that can "
+        "express the model and are not on request.",
         kind=str,
         metavar="TARGET",
         repeated=True,
@@ -28,25 +28,25 @@ OPTIONS = (
     Option(
         "out",
         ("--out", "-o"),
-        "The output folder; each target has a folder in it.  [default: that of swarm.toml, "
+        "The output folder, with a folder for each target.  [default: that of swarm.toml, "
         "or `out`]",
         kind=Path,
     ),
     Option(
         "given",
         ("--option",),
-        "An option of a target; see `swarmc targets TARGET`.",
+        "Set an option of a target; see `swarmc targets TARGET`.",
         kind=str,
         metavar="TARGET.NAME=VALUE",
         repeated=True,
     ),
-    *OF_WRITING,
+    *WRITING_OPTIONS,
     Option(
         "clean",
         ("--clean",),
-        "Remove what was generated and not edited, of the targets named or of all; build nothing.",
+        "Remove generated files without edits, of the given targets or of all; build nothing.",
     ),
-    Option("dump_ir", ("--dump-ir",), "Print the intermediate representation and write nothing."),
+    Option("dump_ir", ("--dump-ir",), "Print the intermediate representation; write nothing."),
     WATCH,
     *LEVELS,
     FORMAT,
@@ -71,12 +71,11 @@ def build(
     deny: tuple[str, ...],
     format_: str,
 ) -> int:
-    """Check models and generate what the targets make of them.
+    """Check models and generate the output of targets.
 
-    Files that are up to date are not touched, and what an earlier build made and this one does
-    not is removed. What you write stays: files to fill in are left as they are, what was edited
-    elsewhere is merged with what is new, and code for what the model does not have any more is
-    put aside.
+    Files that are up to date are not touched; files of an earlier build that are no longer
+    generated are removed. Your code stays: files to fill in are left as they are, edits of
+    other files are merged, and code for elements that are gone is set aside.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics, Level
     from swarmdsl.base.records import replace
@@ -127,7 +126,7 @@ def build(
 
 
 def _repeated(targets: tuple[str, ...], given: tuple[str, ...], out: Path | None) -> list[object]:
-    """Options of a command line to be repeated."""
+    """Options to repeat on a command line."""
     words: list[object] = []
     for flag, values in (("--target", targets), ("--option", given)):
         words += (word for value in values for word in (flag, value))

@@ -20,10 +20,10 @@ def check(
     deny: tuple[str, ...],
     format_: str,
 ) -> int:
-    """Find mistakes in models.
+    """Check models.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
-    names, or for the current folder.
+    A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
+    the current folder.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics, Level
     from swarmdsl.driver import pipeline

@@ -23,12 +23,14 @@ _FILE = options.PLACE
     type=Choice(["ROS"], case_sensitive=False),
     default="ROS",
     show_default=True,
-    help="What the packages are for.",
+    help="Target environment.",
 )
 @click.option(
     "--scxml", "--src", type=_FILE, required=True, metavar="FILE", help="The state machine."
 )
-@click.option("--adf", type=_FILE, metavar="FILE", help="Describes the functions that it calls.")
+@click.option(
+    "--adf", type=_FILE, metavar="FILE", help="Description of the functions that it calls."
+)
 @click.option(
     "--output",
     "-o",
@@ -78,9 +80,9 @@ def codegen(
     deny: tuple[str, ...],
     format_: str,
 ) -> int:
-    """Generate ROS packages from SCXML and ADF files, as the CPSwarm code generator does.
+    """Generate ROS packages from SCXML and ADF files, like the CPSwarm code generator.
 
-    To keep the model that is made of them on the way, use `swarmc import scxml`.
+    To keep the model in between, use `swarmc import scxml`.
     """
     from swarmdsl.tools.codegen_command import codegen as generate
 

@@ -1,4 +1,4 @@
-"""The commands as Click reads them: all that can stand on a command line, and help."""
+"""The command line as Click parses it, with help."""
 
 from __future__ import annotations
 
@@ -12,13 +12,14 @@ import click
 
 from swarmdsl import __version__
 from swarmdsl.base.usage_error import UsageError
-from swarmdsl.cli import COMMANDS, PLAIN, options
+from swarmdsl.cli import options
+from swarmdsl.cli.command_names import COMMANDS, PLAIN
 from swarmdsl.cli.exit_code import INTERRUPTED, OK
 from swarmdsl.cli.suggestions import Group, unknown_option
 
 
 class _Commands(Group):
-    """The commands, each imported when it is asked for."""
+    """Group of the commands, each imported on demand."""
 
     def list_commands(self, _context: click.Context) -> list[str]:
         return list(COMMANDS)
@@ -34,11 +35,11 @@ class _Commands(Group):
 
 
 def _of_click(module: ModuleType, name: str) -> click.Command:
-    """A command that is a plain function, and whose options are plain data."""
+    """Make a Click command of a plain function and its options as plain data."""
     function = getattr(module, name)
 
     @wraps(function)
-    def told_by_click(*arguments: object, **named: object) -> object:
+    def called_by_click(*arguments: object, **named: object) -> object:
         try:
             return function(*arguments, **named)
         except UsageError as error:
@@ -46,7 +47,7 @@ def _of_click(module: ModuleType, name: str) -> click.Command:
 
     decorators = [options.files, *map(options.option, module.OPTIONS), options.debug]
     decorated = reduce(
-        lambda inner, decorator: decorator(inner), reversed(decorators), told_by_click
+        lambda inner, decorator: decorator(inner), reversed(decorators), called_by_click
     )
     return click.command(epilog=module.EPILOG)(decorated)
 
@@ -59,13 +60,13 @@ def _of_click(module: ModuleType, name: str) -> click.Command:
     no_args_is_help=True,
 )
 @click.option("--version", is_flag=True, help="Show the version.")
-@click.option("--verbose", is_flag=True, help="With --version: all that a report needs.")
+@click.option("--verbose", is_flag=True, help="With --version: everything that a bug report needs.")
 @options.debug
 @click.pass_context
 def cli(context: click.Context, version: bool, verbose: bool) -> None:
-    """Compile swarms of robots: .swarm models to exchange formats and ROS packages."""
+    """Compile .swarm models of robot swarms to exchange formats and ROS packages."""
     if verbose and not version:
-        raise click.UsageError("`--verbose` goes with `--version`")
+        raise click.UsageError("`--verbose` needs `--version`")
     if version:
         click.echo(f"swarmc, version {__version__}")
         if verbose:

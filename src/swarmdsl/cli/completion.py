@@ -13,10 +13,10 @@ from swarmdsl.cli.suggestions import Choice
 @click.argument("shell", type=Choice(("bash", "zsh", "fish")))
 @options.debug
 def completion(shell: str) -> int:
-    """Print what makes a shell complete commands, options and files.
+    """Print a script with which a shell completes commands, options and files.
 
-    In ~/.bashrc or ~/.zshrc: eval "$(swarmc completion bash)". For fish, write what is printed
-    to ~/.config/fish/completions/swarmc.fish.
+    In ~/.bashrc or ~/.zshrc: eval "$(swarmc completion bash)". For fish, write the output to
+    ~/.config/fish/completions/swarmc.fish.
     """
     from click.shell_completion import get_completion_class
 

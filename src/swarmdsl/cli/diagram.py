@@ -21,7 +21,8 @@ from swarmdsl.cli.suggestions import Choice
     type=Choice(("composition", "internal", "statechart", "all")),
     default="all",
     show_default=True,
-    help="Swarms with their members; members with their parts and connectors; state machines.",
+    help="composition: swarms with their members; internal: members with parts and connectors; "
+    "statechart: state machines.",
 )
 @click.option(
     "--name",
@@ -36,7 +37,7 @@ from swarmdsl.cli.suggestions import Choice
     type=Choice(("svg", "mermaid", "dot", "plantuml")),
     default="svg",
     show_default=True,
-    help="What is written.",
+    help="Output format.",
 )
 @click.option(
     "-o",
@@ -44,16 +45,16 @@ from swarmdsl.cli.suggestions import Choice
     "out",
     metavar="FILE|FOLDER",
     type=click.Path(path_type=Path),
-    help="Write there; several diagrams need a folder.  [default: standard output]",
+    help="The output; several diagrams need a folder.  [default: standard output]",
 )
 @options.debug
 def diagram(
     paths: tuple[Path, ...], kind: str, names: tuple[str, ...], format_: str, out: Path | None
 ) -> int:
-    """Draw a model.
+    """Draw diagrams of a model.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
-    names, or for the current folder. Nothing is drawn of a model with errors.
+    A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
+    the current folder. A model with errors is not drawn.
     """
     from swarmdsl.base.diagnostics.render import render, summary
     from swarmdsl.tools.diagram.command import draw

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from swarmdsl.ir import System
     from swarmdsl.tools.compare.revisions import Revision
 
-# As diff(1) has it: 1 for a difference, 2 where it cannot be told.
+# As of diff(1): 1 for a difference, 2 for trouble.
 DIFFERENT, TROUBLE = 1, 2
 
 
 def _rule(word: str) -> str:
-    """A rule by its name, in which small letters count as capital ones."""
+    """Return the rule of this name, in any case."""
     rule = word.upper()
     if rule not in RULES:
         from swarmdsl.base.suggest import did_you_mean
@@ -48,15 +48,15 @@ def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -
 @click.option(
     "--against",
     metavar="REVISION",
-    help="Compare with what git has: `main`, `v1.0`, `HEAD~2`, `.git#branch=main`.",
+    help="Compare with a revision of git: `main`, `v1.0`, `HEAD~2`, `.git#branch=main`.",
 )
-@click.option("--breaking", is_flag=True, help="Only what breaks what others build on the model.")
+@click.option("--breaking", is_flag=True, help="Show only changes that break users of the model.")
 @click.option(
     "--allow",
     metavar="RULE",
     multiple=True,
     callback=lambda _context, _param, words: tuple(map(_rule, words)),
-    help="With --breaking: a rule that does not count; may be repeated.",
+    help="With --breaking: ignore this rule; may be repeated.",
 )
 @click.option(
     "--rules",
@@ -64,7 +64,7 @@ def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -
     is_eager=True,
     expose_value=False,
     callback=_show_rules,
-    help="List the rules of --breaking, and end.",
+    help="List the rules of --breaking and exit.",
 )
 @click.option(
     "--format",
@@ -72,7 +72,7 @@ def _show_rules(context: click.Context, _param: click.Parameter, wanted: bool) -
     type=Choice(("text", "markdown", "json")),
     default="text",
     show_default=True,
-    help="How differences are printed; JSON is a line for each.",
+    help="Output format; JSON is one line per difference.",
 )
 @options.debug
 def diff(
@@ -82,12 +82,11 @@ def diff(
     allow: tuple[str, ...],
     format_: str,
 ) -> int:
-    """Show in words of the model what is different.
+    """Show the differences between two models, in terms of the model.
 
     A model is a file, a folder or, as git writes it, REVISION:PATH; with --against alone it is
-    the current folder. The exit code is 0 where
-    nothing is different (with --breaking: nothing breaks), 1 where something is, and 2 where a
-    model cannot be read.
+    the current folder. The exit code is 0 without differences (with --breaking: without
+    breaking ones), 1 with differences, and 2 if a model cannot be read.
     """
     from swarmdsl.tools.compare import report
     from swarmdsl.tools.compare.comparison import compare
@@ -99,11 +98,11 @@ def diff(
     if len(models) != (1 if against is not None else 2):
         raise click.UsageError("give two models, or one and `--against`")
     if allow and not breaking:
-        raise click.UsageError("`--allow` goes with `--breaking`")
+        raise click.UsageError("`--allow` needs `--breaking`")
     first, last = models[0], Path(models[-1])
     if against is None and not Path(first).exists() and is_revision(first, last):
         way = f"write `swarmc diff --against {first} {last}`"
-        raise click.UsageError(f"`{first}` is no file but a revision of git: {way}")
+        raise click.UsageError(f"`{first}` is not a file but a revision of git: {way}")
     after = named(models[-1])
     before = named(models[0]) if against is None else revision(against, Path(models[0]))
     with ExitStack() as stack:
@@ -127,7 +126,7 @@ def diff(
 
 
 class _Shown:
-    """How files are called that are in a folder for the time being."""
+    """Names to show for files in temporary folders."""
 
     def __init__(self) -> None:
         self._revisions: dict[str, str] = {}
@@ -146,7 +145,7 @@ class _Shown:
 
 
 def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System | None:
-    """The model; None, and told, where it has errors."""
+    """Return the checked model; None if it has errors, which are printed."""
     from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
     from swarmdsl.base.diagnostics.render import render
     from swarmdsl.driver import pipeline

@@ -19,20 +19,21 @@ from swarmdsl.cli.exit_code import exit_code
     "out",
     metavar="FILE|FOLDER",
     type=click.Path(path_type=Path),
-    help="Write there.  [default: the name of the model, with .html, in the current folder]",
+    help="The output.  [default: the name of the model with .html, in the current folder]",
 )
 @click.option(
-    "--libraries", is_flag=True, help="All that libraries declare, not only what the model uses."
+    "--libraries",
+    is_flag=True,
+    help="Include everything in libraries, not only what the model uses.",
 )
 @options.diagnostics_format
 @options.debug
 def doc(paths: tuple[Path, ...], out: Path | None, libraries: bool, format_: str) -> int:
-    """Write a page of documentation about a model.
+    """Write a documentation page about a model.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
-    names, or for the current folder. The page is one file that needs nothing else: all elements
-    with what is said of them, diagrams, tables, links wherever something is named, and a search.
-    Nothing is written of a model with errors.
+    A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
+    the current folder. The page is one self-contained file with all elements and their
+    comments, diagrams, tables, links and a search. A model with errors is not documented.
     """
     from swarmdsl.base.diagnostics.render import render, summary
     from swarmdsl.tools.document.command import run

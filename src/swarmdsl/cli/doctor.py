@@ -17,13 +17,13 @@ from swarmdsl.cli.suggestions import Choice
     type=Choice(("text", "json")),
     default="text",
     show_default=True,
-    help="How the answer is printed.",
+    help="Output format.",
 )
 @options.debug
 def doctor(purposes: tuple[str, ...], format_: str) -> int:
-    """Say which tools are there, and how to get the rest.
+    """List the tools that are installed, and how to install the others.
 
-    A PURPOSE is `git`, `ros1`, `ros2` or `skeleton`. Where one is named, the exit code is 1 if a
+    A PURPOSE is `git`, `ros1`, `ros2` or `skeleton`. With a PURPOSE, the exit code is 1 if a
     tool for it is missing.
     """
     from swarmdsl.base.suggest import did_you_mean

@@ -1,4 +1,4 @@
-"""What becomes of a run: its exit code, and what is printed in the end."""
+"""Exit codes, and the last lines of output."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ if TYPE_CHECKING:
     from swarmdsl.driver.pipeline import Result
 
 OK, ERRORS, USAGE, INTERNAL = range(4)
-# As a shell reports it for a program that a signal ended.
+# As shells report a program that a signal ended.
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 
-# Mistakes on the command line that only the pipeline can find.
+# Errors on the command line that only the pipeline can find.
 _USAGE_FAULTS = frozenset({"unknown-target", "bad-option"})
 
 
 def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool = True) -> int:
-    """Print what came of a run, and of the files that it wrote; return the exit code."""
+    """Print diagnostics, written files and a summary; return the exit code."""
     render(result.report, format_, stream)
     if result.written is not None and about_files:
         from swarmdsl.output.report_written import render_written
@@ -33,7 +33,7 @@ def conclude(result: Result, format_: str, stream: TextIO, *, about_files: bool 
 
 
 def briefly(result: Result, format_: str, stream: TextIO) -> str:
-    """Print what is wrong, and return in one line what came of a run."""
+    """Print the diagnostics; return a summary in one line."""
     render(result.report, format_, stream)
     said = summary(result.report, result.files)
     if result.written is None:
@@ -44,7 +44,7 @@ def briefly(result: Result, format_: str, stream: TextIO) -> str:
 
 
 def exit_code(report: Diagnostics) -> int:
-    """0 without errors, 2 where all of them are on the command line, 1 for others."""
+    """Return 0 without errors, 2 if all errors are on the command line, else 1."""
     from swarmdsl.base.diagnostics.collector import Severity
 
     errors = [found for found in report if found.severity is Severity.ERROR]
@@ -54,6 +54,6 @@ def exit_code(report: Diagnostics) -> int:
 
 
 def _is_usage_fault(found: Diagnostic) -> bool:
-    # In a file it is the project file that has them.
+    # With a place in a file they are in swarm.toml.
     in_file = found.primary is not None and not found.primary.span.on_command_line
     return found.name in _USAGE_FAULTS and not in_file

@@ -12,14 +12,14 @@ from swarmdsl.cli.exit_code import OK
 @click.command(epilog="Example: swarmc explain SW0202")
 @click.argument("word", metavar="[CODE|NAME]", required=False)
 def explain(word: str | None) -> int:
-    """Explain a diagnostic, or list all there are."""
+    """Explain a diagnostic, or list all diagnostics."""
     from swarmdsl.base.diagnostics import explain as pages
     from swarmdsl.base.diagnostics.catalog import CODES
 
     if word is None:
         width = max(map(len, CODES))
         for name, entry in CODES.items():
-            silent = " (if asked for)" if entry.silent else ""
+            silent = " (on request)" if entry.silent else ""
             click.echo(f"{entry.code}  {name:<{width}}  {entry.severity}{silent}")
         return OK
     code = pages.find_code(word)

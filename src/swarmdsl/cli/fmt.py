@@ -14,22 +14,24 @@ from swarmdsl.cli.exit_code import ERRORS, OK, exit_code
 
 @click.command(epilog="Example: swarmc fmt examples --diff")
 @options.files
-@click.option("--check", "check_only", is_flag=True, help="List what would change, write nothing.")
-@click.option("--diff", is_flag=True, help="Show what would change, write nothing.")
+@click.option(
+    "--check", "check_only", is_flag=True, help="List the files that would change; write nothing."
+)
+@click.option("--diff", is_flag=True, help="Show the changes; write nothing.")
 @options.diagnostics_format
 @options.debug
 def fmt(paths: tuple[Path, ...], check_only: bool, diff: bool, format_: str) -> int:
-    """Bring files into the canonical layout.
+    """Format models.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the current folder; `-`, for
-    standard input, whose layout goes to standard output. A file with syntax errors is left
-    as it is. With `--check` and `--diff`, the exit code is 1 when there is something to change.
+    A FOLDER means all .swarm files below it; without arguments, those below the current folder.
+    `-` formats standard input to standard output. A file with syntax errors is left as it is.
+    With `--check` and `--diff`, the exit code is 1 if a file would change.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.cli import format_command
 
     if Path("-") in paths and len(paths) > 1:
-        raise click.UsageError("`-` stands alone")
+        raise click.UsageError("`-` cannot be combined with other paths")
     report = Diagnostics()
     if check_only or diff:
         outcome = format_command.inspect(paths, report, as_diff=diff)

@@ -1,4 +1,4 @@
-"""What `swarmc fmt` does and says."""
+"""Format files for `swarmc fmt`."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from swarmdsl.driver.format_files import STDIN, layout_of, layouts_of, write
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of it; `done` is False when something is left to do."""
+    """Result of a run; `done` is False if a file needs formatting or could not be formatted."""
 
     done: bool
     summary: str = ""
@@ -34,7 +34,7 @@ def inspect(paths: Sequence[Path], report: Diagnostics, *, as_diff: bool) -> Out
 
 
 def rewrite(paths: Sequence[Path], report: Diagnostics) -> Outcome:
-    """Write what changes in its place, or standard input to standard output."""
+    """Write changed files in place, or standard input to standard output."""
     layouts, wrong = _layouts(paths, report)
     if _is_stdin(paths):
         for layout in layouts:

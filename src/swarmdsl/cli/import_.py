@@ -23,13 +23,15 @@ _output = click.option(
     "out",
     metavar="OUT.swarm",
     type=_FILE,
-    help="Write there, not to stdout; a model that is there is updated.",
+    help="The output, instead of stdout; an existing model is updated.",
 )
 _dry_run = click.option(
-    "--dry-run", is_flag=True, help="Show what would change, write nothing; exit with 1 if it does."
+    "--dry-run",
+    is_flag=True,
+    help="Show the changes and write nothing; exit with 1 if there are any.",
 )
 _force = click.option(
-    "--force", is_flag=True, help="Replace state machines and computed values in the model too."
+    "--force", is_flag=True, help="Also replace state machines and computed values of the model."
 )
 
 
@@ -40,10 +42,10 @@ _force = click.option(
 )
 @options.debug
 def import_() -> None:
-    """Make models of SCXML, ADF and AMF files and of ROS packages.
+    """Import SCXML, ADF and AMF files and ROS packages as models.
 
-    What is wrong with a file is repaired where possible; each repair, and all that a model
-    cannot say, is a warning.
+    Faults of a file are repaired where possible. Each repair is a warning, and so is everything
+    that a model cannot express.
     """
 
 
@@ -55,7 +57,7 @@ def import_() -> None:
     multiple=True,
     metavar="FILE",
     type=_FILE,
-    help="Describes the functions that are called; may be repeated.",
+    help="Description of the functions that are called; may be repeated.",
 )
 @_output
 @_dry_run
@@ -70,7 +72,7 @@ def scxml(
     force: bool,
     format_: str,
 ) -> int:
-    """State machines: SCXML as the CPSwarm tools wrote and write it, or that of W3C."""
+    """Import state machines: W3C SCXML, or any dialect of the CPSwarm tools."""
     return _run("scxml", paths, described, out, dry_run, force, format_)
 
 
@@ -82,7 +84,7 @@ def scxml(
 @options.diagnostics_format
 @options.debug
 def adf(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, format_: str) -> int:
-    """Functions: Abstraction Description Files of all generations."""
+    """Import functions: Abstraction Description Files of all generations."""
     return _run("adf", paths, (), out, dry_run, force, format_)
 
 
@@ -94,7 +96,7 @@ def adf(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, f
 @options.diagnostics_format
 @options.debug
 def amf(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, format_: str) -> int:
-    """Behaviours of the swarm library: Algorithm Modelling Files."""
+    """Import behaviours of the swarm library: Algorithm Modelling Files."""
     return _run("amf", paths, (), out, dry_run, force, format_)
 
 
@@ -106,7 +108,7 @@ def amf(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, f
 @options.diagnostics_format
 @options.debug
 def ros(paths: tuple[Path, ...], out: Path | None, dry_run: bool, force: bool, format_: str) -> int:
-    """Interfaces and parameters of ROS 1 and ROS 2: packages, or folders with several."""
+    """Import ROS 1 or ROS 2 interfaces and parameters: packages, or folders of packages."""
     return _run("ros", paths, (), out, dry_run, force, format_)
 
 
@@ -124,7 +126,7 @@ def _run(
     from swarmdsl.importing.command import run
 
     if dry_run and out is None:
-        raise click.UsageError("--dry-run shows what would become of a file: name it with -o")
+        raise click.UsageError("--dry-run shows changes of a file: name it with -o")
     imported = run(kind, paths, described, out, force=force, dry_run=dry_run)
     render(imported.report, format_, sys.stderr)
     if imported.text is not None and out is None:
@@ -135,7 +137,7 @@ def _run(
     click.echo(summary(imported.report, imported.files), err=True)
     if not imported.report.has_errors and not dry_run and out is not None:
         if imported.is_new:
-            click.echo(f"{out} is written", err=True)
+            click.echo(f"{out} was written", err=True)
         elif not imported.layouts:
             click.echo(f"{out} is up to date", err=True)
     changes = dry_run and any(layout.changed for layout in imported.layouts)

@@ -13,19 +13,19 @@ _LOOPBACK = "127.0.0.1"
 
 
 @click.command(epilog="Example: swarmc lsp --tcp 5007")
-@click.option("--stdio", is_flag=True, help="Talk on standard input and output, as by default.")
+@click.option("--stdio", is_flag=True, help="Use standard input and output (the default).")
 @click.option(
     "--tcp",
     "port",
     type=click.IntRange(1, 65535),
     metavar="PORT",
-    help="Wait for one editor on this port of the loopback interface.",
+    help="Accept one editor on this port of the loopback interface.",
 )
 @options.debug
 def lsp(stdio: bool, port: int | None) -> int:
-    """Serve editors: the Language Server Protocol."""
+    """Run the language server."""
     if stdio and port is not None:
-        raise click.UsageError("`--stdio` and `--tcp` exclude each other")
+        raise click.UsageError("`--stdio` and `--tcp` conflict")
     from swarmdsl.ide.server.start import serve, serve_on_standard_streams
 
     if port is None:
@@ -35,7 +35,7 @@ def lsp(stdio: bool, port: int | None) -> int:
 
 
 def _connected(port: int) -> socket.socket:
-    """A connection to the first editor that asks for one; another one is refused."""
+    """Accept the first connection; others are refused."""
     with socket.socket() as listener:
         if os.name == "posix":
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

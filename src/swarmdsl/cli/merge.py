@@ -14,7 +14,7 @@ from swarmdsl.cli.exit_code import OK
 if TYPE_CHECKING:
     from swarmdsl.base.diagnostics.collector import Diagnostics
 
-# As git wants it of a merge driver: 1 for conflicts, more where there is no result.
+# As git expects of a merge driver: 1 for conflicts, more without a result.
 CONFLICTS, TROUBLE = 1, 2
 _FILE = click.Path(path_type=Path)
 
@@ -23,14 +23,14 @@ _FILE = click.Path(path_type=Path)
 @click.argument("base", type=_FILE)
 @click.argument("ours", type=_FILE)
 @click.argument("theirs", type=_FILE)
-@click.option("-o", "--out", type=_FILE, metavar="FILE", help="Write there, not to the terminal.")
+@click.option("-o", "--out", type=_FILE, metavar="FILE", help="The output, instead of stdout.")
 @options.debug
 def merge(base: Path, ours: Path, theirs: Path, out: Path | None) -> int:
-    """Merge two versions of a file that both come from BASE, by what they declare.
+    """Merge two versions of a model file, by declarations.
 
-    What one side changed is taken; what both changed, and not in the same way, is marked as git
-    does it. Where a file has syntax errors, git merges line by line. The exit code is 0 for a
-    clean merge, 1 where there are conflicts, and 2 where a file cannot be read.
+    BASE is the common ancestor. A change of one side is taken; different changes of both sides
+    are marked like conflicts of git. A file with syntax errors is merged by lines. The exit
+    code is 0 for a clean merge, 1 for conflicts, and 2 if a file cannot be read.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.base.diagnostics.render import render
@@ -48,7 +48,7 @@ def merge(base: Path, ours: Path, theirs: Path, out: Path | None) -> int:
         sys.stdout.flush()
         sys.stdout.buffer.write(merged.content)
     if merged.by_lines:
-        click.echo("merged line by line, as git does it", err=True)
+        click.echo("merged by lines", err=True)
     if merged.conflicts:
         conflicts = "conflict" if merged.conflicts == 1 else "conflicts"
         click.echo(f"{merged.conflicts} {conflicts} in {out or ours}", err=True)

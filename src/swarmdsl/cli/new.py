@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class _Target(Choice):
-    """One of the targets that projects are made for."""
+    """A target of projects."""
 
     def convert(
         self, value: Any, param: click.Parameter | None, context: click.Context | None
@@ -35,37 +35,38 @@ class _Target(Choice):
     "--folder",
     metavar="FOLDER",
     type=click.Path(path_type=Path),
-    help="Where the project goes.  [default: a folder of its name]",
+    help="The folder of the project.  [default: its name]",
 )
-@click.option("--description", metavar="TEXT", default="", help="What it is for.")
+@click.option("--description", metavar="TEXT", default="", help="Purpose of the project.")
 @click.option("--swarm", metavar="NAME", default="", help="Name of the swarm.")
 @click.option(
     "--member",
     "members",
     metavar="NAME[=NUMBER]",
     multiple=True,
-    help="A type of robot, and how many: 3, 1..5, 2..*; may be repeated.  [default: Robot=3]",
+    help="A type of robot and its multiplicity: 3, 1..5, 2..*; may be repeated.  "
+    "[default: Robot=3]",
 )
 @click.option(
     "--sensor",
     metavar="NAME",
     default="Camera",
     show_default=True,
-    help="What its robots see with.",
+    help="Sensor of the robots.",
 )
 @click.option(
     "--controller",
     metavar="NAME",
     default="Pilot",
     show_default=True,
-    help="What its robots decide with.",
+    help="Controller of the robots.",
 )
 @click.option(
     "--actuator",
     metavar="NAME",
     default="Wheels",
     show_default=True,
-    help="What its robots move with.",
+    help="Actuator of the robots.",
 )
 @click.option(
     "-t",
@@ -73,10 +74,10 @@ class _Target(Choice):
     "targets",
     type=_Target(("ros2", "smach")),
     multiple=True,
-    help="What it is built for: `smach` for ROS 1 or `ros2` for ROS 2.  [default: ros2]",
+    help="The target: `smach` for ROS 1 or `ros2` for ROS 2.  [default: ros2]",
 )
-@click.option("-i", "--interactive", is_flag=True, help="Ask for all of this.")
-@click.option("--dry-run", is_flag=True, help="List the files, write nothing.")
+@click.option("-i", "--interactive", is_flag=True, help="Ask for all of these.")
+@click.option("--dry-run", is_flag=True, help="List the files; write nothing.")
 @options.diagnostics_format
 @options.debug
 def new(
@@ -93,11 +94,11 @@ def new(
     dry_run: bool,
     format_: str,
 ) -> int:
-    """Make a project: a swarm of robots with a sensor, a controller and an actuator.
+    """Create a project: a swarm of robots with a sensor, a controller and an actuator.
 
     It has a behaviour, an environment, a fitness, tests and a scenario, and can be checked,
-    simulated, tested and built as it is. Without NAME, on a terminal, you are asked. A
-    folder that has something in it is left alone.
+    simulated, tested and built as it is. Without NAME, a terminal asks for it. A folder that
+    is not empty is left alone.
     """
     from swarmdsl.base.diagnostics.render import render
     from swarmdsl.tools.scaffold.new import create
@@ -119,7 +120,7 @@ def new(
     )
     if interactive or name is None:
         if not (sys.stdin.isatty() and sys.stderr.isatty()):
-            raise click.UsageError("NAME is missing; on a terminal you would be asked for it")
+            raise click.UsageError("NAME is missing")
         plan = _asked(plan, folder)
     created = create(plan, folder or Path(plan.name), dry_run=dry_run)
     render(created.report, format_, sys.stderr)

@@ -1,4 +1,4 @@
-"""Arguments and options that several commands have, as Click reads them."""
+"""Arguments and options shared by commands, for Click."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from swarmdsl.cli.suggestions import Choice
 
 
 class _Place(click.Path):
-    """The path of a file or folder. An empty one is a mistake, not the current folder."""
+    """Path of a file or folder. An empty path is an error, not the current folder."""
 
     def convert(
         self, value: Any, param: click.Parameter | None, context: click.Context | None
@@ -30,7 +30,7 @@ _Decorated = TypeVar("_Decorated", bound=Callable[..., Any])
 
 
 def option(about: Option) -> Callable[[_Decorated], _Decorated]:
-    """What adds an option that is described as plain data."""
+    """Decorator that adds an option described as plain data."""
     types = {None: None, str: None, Path: PLACE}
     return click.option(
         *about.flags,
@@ -49,16 +49,17 @@ files = click.argument("paths", metavar="[FILE|FOLDER]...", nargs=-1, type=PLACE
 diagnostics_format = option(FORMAT)
 
 
-# What cannot be written, and is wanted where a picture is named so.
+# Suffixes of formats that cannot be written.
 _PICTURES = frozenset(
     (".bmp", ".eps", ".gif", ".jpeg", ".jpg", ".pdf", ".png", ".ps", ".tif", ".tiff", ".webp")
 )
 
 
 def check_picture(path: Path, option: str, suffix: str, others: Mapping[str, str]) -> None:
-    """Complain about a file that is named as what it would not be.
+    """Raise BadParameter for a file whose suffix is that of another format.
 
-    `suffix` is that of what is written, `others` have what would write another one.
+    `suffix` is that of the written format; `others` maps suffixes to the options that select
+    their formats.
     """
     named = path.suffix.lower()
     if path.is_dir() or named == suffix or named not in {*others, *_PICTURES}:
@@ -69,12 +70,12 @@ def check_picture(path: Path, option: str, suffix: str, others: Mapping[str, str
     elif others:
         also = (f"with `{other}` `{each}`" for each, other in others.items())
         way += f" ({', '.join(also)})"
-    reason = f"`{path}` would not be what its name says: no `{named}` is written"
+    reason = f"`{path}` has the suffix of another format: `{named}` is not written"
     raise click.BadParameter(f"{reason}; {way}", param_hint=f"'{option}'")
 
 
 def levels(function: _Decorated) -> _Decorated:
-    """Add the options that say what becomes of warnings."""
+    """Add the options for levels of warnings."""
     return reduce(lambda inner, about: option(about)(inner), reversed(LEVELS), function)
 
 

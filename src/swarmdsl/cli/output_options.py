@@ -1,4 +1,4 @@
-"""The options that say how output is written: which go together, and what is said in the end."""
+"""Options for writing output: conflicts between them, and the report at the end."""
 
 from __future__ import annotations
 
@@ -19,26 +19,25 @@ if TYPE_CHECKING:
 FORCE = Option(
     "force",
     ("--force",),
-    "Give up what was edited in generated files, and overwrite others in their place. Files to "
+    "Discard edits of generated files, and overwrite other files in their place. Files to "
     "fill in stay as they are.",
 )
 CHECK = Option(
     "check",
     ("--check",),
-    "Write nothing; fail when a build would change a file, or one was edited.",
+    "Write nothing; fail if a build would change a file, or if one was edited.",
 )
-DRY_RUN = Option("dry_run", ("--dry-run",), "Print what would happen to which file, write nothing.")
+DRY_RUN = Option("dry_run", ("--dry-run",), "Print what would happen to each file; write nothing.")
 DIFF = Option(
     "diff",
     ("--diff",),
-    "Print what would change as a unified diff, write nothing; fail if it would.",
+    "Print the changes as a unified diff; write nothing, and fail if there are any.",
 )
 
 RENAME = Option(
     "renames",
     ("--rename",),
-    "An element of the model that had another name: move the files that you filled in for it. "
-    "May be repeated.",
+    "Move the files that you filled in for an element to its new name; may be repeated.",
     kind=str,
     metavar="OLD=NEW",
     repeated=True,
@@ -46,47 +45,46 @@ RENAME = Option(
 OPTIONS = (FORCE, CHECK, DRY_RUN, DIFF, RENAME)
 
 _NOTHING_TO_FORCE = "a check finds what `--force` would overwrite"
-# Pairs of options that cannot both be meant, and why.
-_APART = {
-    ("check", "dry_run"): "a check writes nothing either, and says what is the matter",
+# Conflicting options, and why they conflict.
+_CONFLICTS = {
+    ("check", "dry_run"): "a check writes nothing either, and reports what is stale",
     ("check", "force"): _NOTHING_TO_FORCE,
-    ("check", "clean"): "the one looks at what is there, the other removes it",
-    ("check", "watch"): "a check is made once",
-    ("check", "renames"): "a check finds what is to be moved, and `--dry-run` shows it",
-    ("clean", "force"): "what was edited is never removed",
+    ("check", "clean"): "a check compares the output, `--clean` removes it",
+    ("check", "watch"): "a check runs once",
+    ("check", "renames"): "a check reports files to move, and `--dry-run` shows them",
+    ("clean", "force"): "edited files are never removed",
     ("clean", "diff"): "`--clean --dry-run` shows what would be removed",
-    ("clean", "watch"): "what was generated is removed once",
-    ("clean", "renames"): "the one builds, the other does not",
-    ("watch", "force"): "it would overwrite each edit that is made meanwhile: build once with "
-    "`--force`, then watch",
+    ("clean", "watch"): "output is removed once",
+    ("clean", "renames"): "`--rename` builds, `--clean` does not",
+    ("watch", "force"): "it would overwrite every edit: build once with `--force`, then watch",
     ("watch", "renames"): "files are moved once: build with `--rename`, then watch",
     ("watch", "dump_ir"): "it prints once",
 }
 _NO_OUTPUT = ("check", "clean", "dry_run", "diff", "force", "renames")
-_APART |= {(name, "dump_ir"): "it prints the model and makes no files" for name in _NO_OUTPUT}
+_CONFLICTS |= {(name, "dump_ir"): "it prints the model and makes no files" for name in _NO_OUTPUT}
 _FLAGS = {"renames": "--rename"}
 
 
 def writing(given: Mapping[str, Any]) -> Writing:
-    """What these options say, which are given by their parameters.
+    """Combine the writing options, given by parameter.
 
-    Raises UsageError for some that do not go together.
+    Raises UsageError for options that conflict.
     """
-    for (one, other), reason in _APART.items():
+    for (one, other), reason in _CONFLICTS.items():
         if given.get(one) and given.get(other):
-            raise UsageError(f"{_flag(one)} and {_flag(other)} do not go together: {reason}")
+            raise UsageError(f"{_flag(one)} and {_flag(other)} conflict: {reason}")
     return Writing(
         given["force"], given["check"], given["dry_run"], given["diff"], _renames(given["renames"])
     )
 
 
 def _renames(given: Iterable[str]) -> tuple[tuple[str, str], ...]:
-    """The old and the new name of elements; UsageError for what is not OLD=NEW."""
+    """Parse pairs OLD=NEW; raise UsageError for anything else."""
     found: list[tuple[str, str]] = []
     for text in given:
         old, equals, new = text.partition("=")
         if not (equals and _is_name(old) and _is_name(new) and old != new):
-            raise UsageError(f"`--rename {text}` has not the form OLD=NEW, of two names")
+            raise UsageError(f"`--rename {text}` is not of the form OLD=NEW with two names")
         found.append((old, new))
     for side, word in enumerate(("renamed twice", "the new name of two")):
         names = [pair[side] for pair in found]
@@ -98,7 +96,7 @@ def _renames(given: Iterable[str]) -> tuple[tuple[str, str], ...]:
 
 @dataclass(frozen=True)
 class Writing:
-    """What the command line says of how output is written."""
+    """Writing options of a command line."""
 
     force: bool
     check: bool
@@ -107,14 +105,14 @@ class Writing:
     renames: tuple[tuple[str, str], ...]
 
     def how(self, *command: object) -> How:
-        """The same for whoever writes; `command` are the words that a person would repeat."""
+        """Options for `output.write`; `command` are the words that a user would repeat."""
         from swarmdsl.output import How
 
         dry = self.dry_run or self.diff
         return How(self.force, dry, self.check, self.renames, tuple(map(str, command)))
 
     def conclude(self, result: Result, format_: str) -> int:
-        """Say what came of it, or what would; return the exit code."""
+        """Print the result or the plan; return the exit code."""
         written = result.written
         if not (self.dry_run or self.diff):
             code = conclude(result, format_, sys.stdout, about_files=not self.check)
@@ -127,7 +125,7 @@ class Writing:
         return ERRORS if code == OK and self.diff and changes else code
 
     def show(self, result: Result, format_: str) -> None:
-        """Print what would be done, if it is not done."""
+        """Print the plan of a dry run."""
         from swarmdsl.output.report_planned import render_diff, render_plan
 
         if result.written is not None and self.diff:

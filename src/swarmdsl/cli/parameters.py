@@ -1,7 +1,7 @@
-"""The options of the commands that start most often, as plain data.
+"""Options of the commands that start most often, as plain data.
 
-They become options of Click. To import Click takes a quarter of a small check: what is in the
-plainest form is read here, without it.
+They become options of Click. Importing Click takes a quarter of a small check, so command lines
+in plain form (`--format json`, not `--format=json`) are parsed here instead.
 """
 
 from __future__ import annotations
@@ -17,10 +17,9 @@ from swarmdsl.base.records import dataclass
 
 @dataclass(frozen=True)
 class Option:
-    """An option: the parameter that it sets and, without a `kind`, sets to True.
+    """An option and the parameter that it sets; without a `kind` it is a flag.
 
-    The default of one that has `choices` is the first of them; of one that may be repeated,
-    nothing; else None.
+    The default is the first of the `choices`, () for a repeated option, else None.
     """
 
     parameter: str
@@ -33,13 +32,13 @@ class Option:
 
     @property
     def default(self) -> object:
-        """The value where the option is not given."""
+        """Value of an absent option."""
         if self.kind is None:
             return False
         return () if self.repeated else self.choices[0] if self.choices else None
 
 
-FORMAT = Option("format_", ("--format",), "How diagnostics are printed.", kind=str, choices=FORMATS)
+FORMAT = Option("format_", ("--format",), "Format of diagnostics.", kind=str, choices=FORMATS)
 WATCH = Option(
     "watch",
     ("--watch",),
@@ -57,8 +56,8 @@ LEVELS = (
     Option(
         "warn",
         ("--warn",),
-        "Report a warning that is silent unless asked for, or that swarm.toml silences or denies. "
-        "May be repeated.",
+        "Report a warning that is off by default, or that swarm.toml allows or denies; "
+        "may be repeated.",
         kind=str,
         metavar="NAME",
         repeated=True,
@@ -66,7 +65,7 @@ LEVELS = (
     Option(
         "deny",
         ("--deny",),
-        "Take a warning for an error; `warnings` stands for all. May be repeated.",
+        "Make a warning an error; `warnings` means all. May be repeated.",
         kind=str,
         metavar="NAME",
         repeated=True,
@@ -75,9 +74,9 @@ LEVELS = (
 
 
 def read(options: Iterable[Option], words: Sequence[str]) -> dict[str, Any] | None:
-    """The values that a command line gives options and `paths`; None where Click is to read it.
+    """Parse a command line to values of options and `paths`; None where Click must parse it.
 
-    That is so of all that is wrong, and of what is written in another than the plainest form.
+    Click parses everything that is wrong, or not in plain form.
     """
     by_flag = {flag: option for option in options for flag in option.flags}
     values: dict[str, Any] = {option.parameter: option.default for option in by_flag.values()}
@@ -102,7 +101,7 @@ def read(options: Iterable[Option], words: Sequence[str]) -> dict[str, Any] | No
 
 
 def _is_plain(text: str, kind: type[str] | type[Path]) -> bool:
-    """Whether Click takes it for a value too: of files it wants to be able to read them."""
+    """Return True if Click takes the text as a value too; it requires files to be readable."""
     if not text or text.startswith("-"):
         return False
     return kind is str or not Path(text).exists() or os.access(text, os.R_OK)

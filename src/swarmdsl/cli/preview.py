@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def _editor(_context: click.Context, _param: click.Parameter, text: str | None) -> Editor | None:
-    """That of the command line, else one that is found."""
+    """Return the editor of the command line, else an installed one."""
     from swarmdsl.ide.preview.editors import TemplateError, editor, found_editor
 
     try:
@@ -36,25 +36,24 @@ def _editor(_context: click.Context, _param: click.Parameter, text: str | None) 
     type=click.IntRange(0, 65535),
     default=0,
     metavar="PORT",
-    help="Of the loopback interface; 0 takes one that is free.  [default: 0]",
+    help="Port of the loopback interface; 0 takes a free one.  [default: 0]",
 )
-@click.option("--open", "opens", is_flag=True, help="Open it in the browser.")
+@click.option("--open", "opens", is_flag=True, help="Open the page in the browser.")
 @click.option(
     "--follow",
     "traces",
     metavar="TRACE",
     multiple=True,
-    help="Light up the states that are active by this trace, a line of JSON each, while it is "
-    "written; `-` for standard input, `ros2:NAME` for a running node, or all in a namespace. May "
-    "be repeated.",
+    help="Highlight the active states of this trace of JSON lines while it is written; `-` for "
+    "standard input, `ros2:NAME` for a running node or a namespace. May be repeated.",
 )
 @click.option(
     "--editor",
     metavar="COMMAND",
     callback=_editor,
-    help="Opens what is clicked, as `code --goto {file}:{line}:{column}`; or an address, as "
-    "`vscode://file{file}:{line}:{column}`.  [default: VS Code, VSCodium, Cursor or Windsurf, if "
-    "it is on the PATH]",
+    help="Command that opens a clicked element, like `code --goto {file}:{line}:{column}`, or an "
+    "address, like `vscode://file{file}:{line}:{column}`.  [default: VS Code, VSCodium, Cursor or "
+    "Windsurf, if it is on the PATH]",
 )
 @options.debug
 def preview(
@@ -64,12 +63,12 @@ def preview(
     traces: tuple[str, ...],
     editor: Editor | None,
 ) -> int:
-    """Show the diagrams of a model in a browser, as its files are now.
+    """Show live diagrams of a model in a browser.
 
-    A FOLDER stands for all .swarm files below it; nothing, for the sources that swarm.toml
-    names, or for the current folder. The page follows each change of a file until Ctrl-C; while
-    the model has errors, it shows how the diagrams were before. `--follow` shows where robots
-    are as well: those of a simulation in real time, or others.
+    A FOLDER means all .swarm files below it. Without arguments: the sources of swarm.toml, or
+    the current folder. The page follows each change of a file until Ctrl-C; while the model
+    has errors, it keeps the last diagrams. `--follow` also shows the states of robots, of a
+    simulation in real time or of others.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.base.diagnostics.render import render
@@ -85,12 +84,12 @@ def preview(
 
     gc.enable()  # it runs for hours
     if hasattr(signal, "SIGPIPE"):
-        # A page may be gone when it is told something; others stay.
+        # A page may be closed while it is written to; others stay.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     news = News()
 
     def settings(report: Diagnostics) -> Settings:
-        # With whole paths, by which places lead into an editor.
+        # Absolute paths, so that places open in an editor.
         found = run_settings(paths, {}, report)
         whole = (Path(os.path.abspath(path)) for path in found.sources)  # noqa: PTH100 - keeps links
         return replace(found, sources=tuple(whole))

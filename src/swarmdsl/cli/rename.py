@@ -15,15 +15,15 @@ from swarmdsl.cli.exit_code import exit_code
 @click.argument("old", metavar="OLD")
 @click.argument("new", metavar="NEW")
 @options.files
-@click.option("--dry-run", is_flag=True, help="Show what would change, write nothing.")
+@click.option("--dry-run", is_flag=True, help="Show the changes; write nothing.")
 @options.diagnostics_format
 @options.debug
 def rename(old: str, new: str, paths: tuple[Path, ...], dry_run: bool, format_: str) -> int:
-    """Call something otherwise, wherever the model, its tests and scenarios name it.
+    """Rename an element in the model, its tests and scenarios.
 
-    OLD is its name, or its path where several have that: `Uav.altitude` is a param of a
-    member, `Search.Rise` a state of a machine. NEW is one word. A name that makes a mistake
-    of anything, or that means something else already, is not given.
+    OLD is its name, or its path where the name is ambiguous: `Uav.altitude` is a param of a
+    member, `Search.Rise` a state of a machine. NEW is one word. A new name that would cause an
+    error, or change the meaning of another name, is refused.
     """
     from swarmdsl.base.diagnostics.render import counted, render
     from swarmdsl.tools.refactor.rename import rename as renamed

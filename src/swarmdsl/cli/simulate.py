@@ -14,12 +14,12 @@ from swarmdsl.cli.suggestions import Choice
 
 
 def _duration(_context: click.Context, _param: click.Parameter, text: str | None) -> int | None:
-    """A length of time with its unit, in nanoseconds."""
+    """Parse a duration with its unit, to nanoseconds."""
     from swarmdsl.execution.simulate.durations import duration
 
     length = duration(text) if text is not None else None
     if text is not None and length is None:
-        raise click.BadParameter(f"`{text}` is no time like `90s`, `500ms` or `10min`")
+        raise click.BadParameter(f"`{text}` is not a duration like `90s`, `500ms` or `10min`")
     return length
 
 
@@ -33,37 +33,40 @@ def _duration(_context: click.Context, _param: click.Parameter, text: str | None
 @click.option(
     "--events",
     metavar="FILE",
-    help="Events from outside, a line of JSON each; `-` for standard input.",
+    help="Events from outside, as JSON lines; `-` for standard input.",
 )
 @click.option(
     "--scenario",
     type=click.Path(path_type=Path),
-    help="What happens around the swarm, as TOML: how functions end, what is heard, what breaks.",
+    help="Environment of the run, as TOML: outcomes of functions, events from outside, faults.",
 )
 @click.option(
     "--trace",
     type=Choice(("text", "json", "none")),
-    help="How it is told what happens.  [default: text; json in a file; none on a terminal, "
-    "which shows a table]",
+    help="Format of the trace.  [default: text; json in a file; none on a terminal, which shows "
+    "a table]",
 )
-@click.option("--trace-file", type=click.Path(path_type=Path), help="Write that to a file.")
-@click.option("--timeline", type=click.Path(path_type=Path), help="Draw who was where, as SVG.")
+@click.option("--trace-file", type=click.Path(path_type=Path), help="Write the trace to a file.")
+@click.option(
+    "--timeline",
+    type=click.Path(path_type=Path),
+    help="Draw the states of all robots over time, as SVG.",
+)
 @click.option(
     "--replay",
     type=click.Path(path_type=Path),
     multiple=True,
-    help="Hold a trace of robots, lines of JSON, against the model, and say where they left it; "
-    "once for each trace.",
+    help="Compare a recorded trace of robots, JSON lines, with the model; may be repeated.",
 )
-@click.option("--seed", type=int, help="Another course of chance.  [default: the scenario's, or 0]")
+@click.option("--seed", type=int, help="Seed of random decisions.  [default: the scenario's, or 0]")
 @click.option(
     "--until",
     metavar="DURATION",
     callback=_duration,
-    help="End it after so much virtual time.  [default: the scenario's, or 10min after the last "
-    "of `--events`]",
+    help="End after this virtual time.  [default: the scenario's, or 10min after the last of "
+    "`--events`]",
 )
-@click.option("--real-time", is_flag=True, help="Let time pass as slowly as it does.")
+@click.option("--real-time", is_flag=True, help="Run in real time.")
 @options.diagnostics_format
 @options.debug
 def simulate(
@@ -81,20 +84,20 @@ def simulate(
     real_time: bool,
     format_: str,
 ) -> int:
-    """Run a swarm or a state machine without a robot, in virtual time.
+    """Simulate a swarm or a state machine, in virtual time.
 
-    Each FILE is a model, or an SCXML document; a FOLDER stands for all .swarm files below it.
-    Without a scenario, every function succeeds after a second. What happens goes to standard
+    Each FILE is a model, or an SCXML document; a FOLDER means all .swarm files below it.
+    Without a scenario, every function succeeds after a second. The trace goes to standard
     output, a summary to standard error.
     """
     from swarmdsl.execution.simulate.command import Request
-    from swarmdsl.execution.simulate.command import simulate as simulate_
+    from swarmdsl.execution.simulate.command import simulate as run_simulation
 
     if machine is not None and swarm is not None:
-        raise click.UsageError("`--machine` and `--swarm` are not given together")
+        raise click.UsageError("`--machine` and `--swarm` conflict")
     for name, value in (("events", events), ("trace", trace), ("trace-file", trace_file)):
         if replay and value is not None:
-            raise click.UsageError(f"`--replay` and `--{name}` are not given together")
+            raise click.UsageError(f"`--replay` and `--{name}` conflict")
     if timeline is not None:
         options.check_picture(timeline, "--timeline", ".svg", {})
     request = Request(
@@ -111,5 +114,5 @@ def simulate(
         real_time,
         replay,
     )
-    well = simulate_(request, lambda report: render(report, format_, sys.stderr))
-    return INTERRUPTED if well is None else OK if well else ERRORS
+    succeeded = run_simulation(request, lambda report: render(report, format_, sys.stderr))
+    return INTERRUPTED if succeeded is None else OK if succeeded else ERRORS

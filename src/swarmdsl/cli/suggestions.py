@@ -1,6 +1,6 @@
-"""Words on a command line that mean nothing, and what may be meant instead.
+"""Suggestions for unknown commands, options and choices.
 
-What compares words is imported when there is one: help and completion do without it.
+The module that compares words is imported on an error: help and completion do without it.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import click
 
 
 class Choice(click.Choice):  # type: ignore[type-arg]  # no generic class in Click 8.1
-    """One of some words."""
+    """A choice that suggests a similar one."""
 
     def convert(
         self, value: Any, param: click.Parameter | None, context: click.Context | None
     ) -> Any:
-        """The word, as Click takes it."""
+        """Return the choice as Click does."""
         try:
             return super().convert(value, param, context)
         except click.BadParameter as error:
@@ -29,12 +29,12 @@ class Choice(click.Choice):  # type: ignore[type-arg]  # no generic class in Cli
 
 
 class Group(click.Group):
-    """Commands below another one."""
+    """A group of commands that suggests a similar one."""
 
     def resolve_command(
         self, context: click.Context, words: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """The command that the words begin with, as Click takes it."""
+        """Return the command as Click does."""
         name, known = words[0], self.list_commands(context)
         if name not in known and not (name.startswith("-") or context.resilient_parsing):
             from swarmdsl.base.suggest import did_you_mean
@@ -45,24 +45,24 @@ class Group(click.Group):
 
 
 def unknown_option(error: click.NoSuchOption) -> str:
-    """What is said of an option that a command does not have: which one it, or another, has."""
+    """Message about an unknown option, with a similar one of this or another command."""
     from swarmdsl.base.suggest import closest, did_you_mean
 
     name, context = error.option_name, error.ctx
-    said = f"there is no option `{name}`"
-    # Of one letter, any other is as like.
+    message = f"there is no option `{name}`"
+    # All options of one letter are equally similar.
     if context is None or not name.startswith("--"):
-        return said
+        return message
     if question := did_you_mean(name, _options_of(context.command, context)):
-        return f"{said}: {question}"
+        return f"{message}: {question}"
     owners: dict[str, list[str]] = {}
-    # What stands below the same command is nearer than what stands below others.
+    # Siblings of the command come first.
     for around in (context, context.find_root()):
         for path, command in _commands(around):
             for option in _options_of(command, context):
                 owners.setdefault(option, []).append(path)
     meant = closest(name, owners, likeness=0.8)
-    return f"{said} here: `{owners[meant][0]}` has `{meant}`" if meant else said
+    return f"{message} here: `{owners[meant][0]}` has `{meant}`" if meant else message
 
 
 def _options_of(command: click.Command, context: click.Context) -> list[str]:
@@ -76,7 +76,7 @@ def _options_of(command: click.Command, context: click.Context) -> list[str]:
 
 
 def _commands(around: click.Context) -> list[tuple[str, click.Command]]:
-    """The commands directly below one, with their paths: `swarmc add`."""
+    """Commands directly below a context, with their paths: `swarmc add`."""
     group = around.command
     if not isinstance(group, click.Group):
         return []

@@ -20,21 +20,23 @@ from swarmdsl.cli.suggestions import Choice
     type=Choice(("text", "json")),
     default="text",
     show_default=True,
-    help="How the answer is printed.",
+    help="Output format.",
 )
 @options.debug
 def targets(name: str | None, format_: str) -> int:
-    """List the targets, or say what one takes and cannot express."""
+    """List the targets, or the options and limits of one."""
     from swarmdsl.base.diagnostics.collector import Diagnostics
-    from swarmdsl.codegen import target_info as known
+    from swarmdsl.codegen import target_info
 
     report = Diagnostics()
-    found = known.all_targets(report) if name is None else known.one_target(name, report)
+    found = (
+        target_info.all_targets(report) if name is None else target_info.one_target(name, report)
+    )
     if format_ == "json":
-        click.echo(known.as_json(found), nl=False)
+        click.echo(target_info.as_json(found), nl=False)
     elif name is None:
-        click.echo(known.as_list(found), nl=False)
+        click.echo(target_info.as_list(found), nl=False)
     else:
-        click.echo("".join(map(known.as_page, found)), nl=False)
+        click.echo("".join(map(target_info.as_page, found)), nl=False)
     render(report, "text", sys.stderr)
     return exit_code(report)

@@ -14,21 +14,24 @@ from swarmdsl.cli.exit_code import ERRORS, OK
 @click.command(epilog="Example: swarmc test examples/search_and_rescue -k abort --trace")
 @options.files
 @click.option(
-    "-k", "pattern", metavar="TEXT", help="Run the tests with this in their name or file."
+    "-k",
+    "pattern",
+    metavar="TEXT",
+    help="Run only tests with this text in their name or file name.",
 )
 @click.option(
     "--seed",
     type=int,
     metavar="N",
-    help="Run each test with this seed alone, to see it fail again.",
+    help="Run each test with this seed only, to reproduce a failure.",
 )
-@click.option("--trace", is_flag=True, help="Show all that happens in the tests.")
-@click.option("--coverage", is_flag=True, help="Show which states and transitions are not tested.")
+@click.option("--trace", is_flag=True, help="Show the traces of the tests.")
+@click.option("--coverage", is_flag=True, help="Show states and transitions that are not covered.")
 @click.option(
     "--fail-under",
     type=click.FloatRange(0, 100),
     metavar="PERCENT",
-    help="Fail when fewer of all states and transitions are tested.",
+    help="Fail if the coverage of states and transitions is lower.",
 )
 @click.option(
     "--junit",
@@ -48,10 +51,10 @@ def test(
     junit: Path | None,
     format_: str,
 ) -> int:
-    """Run the behaviour tests of models.
+    """Run behaviour tests of models.
 
-    Tests are in files called NAME.swarmtest.toml; a FOLDER stands for all of these below it,
-    nothing for the current folder.
+    Tests are in files NAME.swarmtest.toml. A FOLDER means all of these below it; without
+    arguments, those below the current folder.
     """
     from swarmdsl.execution.testing import command
 

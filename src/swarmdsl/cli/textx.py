@@ -1,4 +1,4 @@
-"""Registers the language and the bundled targets with textX."""
+"""Register the language and the bundled targets with textX."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from swarmdsl.driver.config.settings import Settings
 
 
-# Room for models as deep as parsed.NESTING_LIMIT: textX recurses some thirty frames a level.
+# Room for models as deep as NESTING_LIMIT: textX recurses about thirty frames a level.
 _RECURSION_LIMIT = 20_000
 
 
@@ -32,7 +32,7 @@ def _checking_metamodel(**_params: Any) -> Any:
 
 
 def _check(model: Any, _metamodel: Any) -> None:
-    """Raise what swarmc finds wrong with a file; textX can show but one mistake."""
+    """Raise the first error of a file; textX can show only one."""
     from swarmdsl.driver import pipeline
 
     path = getattr(model, "_tx_filename", None)
@@ -41,7 +41,7 @@ def _check(model: Any, _metamodel: Any) -> None:
 
 
 def _settings(path: Path) -> Settings:
-    """What the project file of a model says."""
+    """Settings of the project of a model."""
     from swarmdsl.driver.config import find_settings
 
     report = Diagnostics()
@@ -107,7 +107,7 @@ yasmin = _generator("yasmin", "ROS 2 packages that run the state machines with Y
 skeleton = _generator("skeleton", "Packages of functions and components, to fill in")
 amf = _generator("amf", "Algorithm Modelling File of the swarm library")
 swarmros = _generator("swarmros", "Configuration of the bridge between members")
-parameters = _generator("parameters", "What an optimiser may vary")
+parameters = _generator("parameters", "Search space for optimisers")
 fitness = _generator("fitness", "Python scripts that compute the fitness of a run")
 composition = _generator("composition", "Members of a swarm as XML, and launch files")
 frevo = _generator("frevo", "Problem and configuration of a search with FREVO")

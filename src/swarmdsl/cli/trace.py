@@ -24,26 +24,25 @@ from swarmdsl.cli.exit_code import exit_code
     type=click.Path(path_type=Path),
     metavar="DIR",
     multiple=True,
-    help="An output folder of `swarmc build`; may be repeated. Without it: that of swarm.toml, "
-    "those of this folder, `out` and `src` in it and the folders above, and those that logged "
-    "files lie in.",
+    help="An output folder of `swarmc build`; may be repeated. Default: that of swarm.toml, this "
+    "folder and those above with their `out` and `src`, and the folders of logged files.",
 )
 @options.diagnostics_format
 @options.debug
 def trace(paths: tuple[Path, ...], outs: tuple[Path, ...], format_: str) -> int:
-    """Show which places in a model a log is about.
+    """Show the places in a model that a log refers to.
 
-    Passes on what programs have said: tracebacks, what compilers and build tools report, logs
-    of nodes. Below each line that names a generated file stands the place in the model that it
-    was made for. Reads the standard input where no LOG is named.
+    Passes on the output of programs: tracebacks, compiler errors, logs of nodes. After each
+    line that names a generated file comes the place in the model that it was generated from.
+    Reads standard input without a LOG.
     """
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.tools.trace.command import run
 
     report = Diagnostics()
-    gc.enable()  # this can run for days
+    gc.enable()  # it can run for days
     if not sys.stdin.isatty() and not paths:
-        # Who is in front of this in a pipe ends, and has the last word.
+        # The program before it in the pipe ends first; its last lines are still read.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     colour = sys.stdout.isatty() or bool(os.environ.get("FORCE_COLOR"))
     run(paths, outs, sys.stdin.buffer, sys.stdout.buffer, report, colour=colour)

@@ -20,7 +20,7 @@ from swarmdsl.driver.pipeline import Result
 from swarmdsl.driver.workspace import Workspace
 
 _PAUSE = 0.2
-"""Seconds between two looks at the files."""
+"""Seconds between two polls."""
 
 Stamp = tuple[int, int]
 Stamps = Mapping[str, Stamp | None]
@@ -28,9 +28,9 @@ Stamps = Mapping[str, Stamp | None]
 
 @dataclass(frozen=True)
 class Concluded:
-    """What came of a run: `say` prints it and returns, in a few words, what it is all in all.
+    """Result of a run: `say` prints it and returns a summary of a few words.
 
-    `has_more` is whether it prints anything.
+    `has_more` is True if `say` prints anything.
     """
 
     has_more: bool
@@ -38,7 +38,7 @@ class Concluded:
 
 
 Conclude = Callable[[Result, Settings], Concluded]
-"""What is made of a check: what it found, or a build of what it found valid."""
+"""Report a check, or build what it found valid."""
 
 
 def watch_files(
@@ -46,10 +46,10 @@ def watch_files(
     read_settings: Callable[[Diagnostics], Settings],
     conclude: Conclude,
 ) -> int:
-    """Conclude each time that a file of a model or of its project changes; 0 when the user ends it.
+    """Conclude after each change of a file of the model or project; return 0 when the user ends it.
 
-    Looking at the times of a few hundred files takes milliseconds, and works on all file systems.
-    What the settings make impossible is told, and may be mended there.
+    Polling the times of a few hundred files takes milliseconds, and works on all file systems.
+    Errors in the settings are reported until they are fixed.
     """
     try:
         changed: set[str] = set()
@@ -74,7 +74,7 @@ def watch_files(
 def _watch(
     project: Stamps, settings: Settings, screen: _Screen, changed: set[str], start: float
 ) -> None:
-    """Watch the files of a model until the project file changes; `start` is when it did."""
+    """Watch the files of a model until the project file changes, which it last did at `start`."""
     workspace = Workspace(settings.sources, settings)
     gc.collect()
     gc.freeze()
@@ -87,7 +87,7 @@ def _watch(
         if changed:
             start = perf_counter()
             workspace.update({Path(path): None for path in changed})
-            # Of what changed meanwhile the older time counts, so that it is seen next.
+            # Files that changed meanwhile keep their older time, so that the next poll sees them.
             known = _stamps(workspace.watched())
             known.update((path, found[path]) for path in known.keys() & found.keys())
             screen.show(_result(workspace, settings), settings, changed, start)
@@ -101,7 +101,7 @@ def _result(workspace: Workspace, settings: Settings) -> Result:
 
 
 class _Screen:
-    """What is shown of each run: a line, and before it what is wrong."""
+    """Output of each run: diagnostics, then one line."""
 
     def __init__(self, conclude: Conclude) -> None:
         self._conclude = conclude
@@ -110,17 +110,17 @@ class _Screen:
     def show(
         self, result: Result, settings: Settings, changed: Iterable[str], start: float
     ) -> None:
-        """Show what came of a run that began at `start`, for which some files had changed."""
+        """Show the result of a run that began at `start`, after files had changed."""
         try:
             concluded = self._conclude(result, settings)
-        except UsageError as error:  # of what the project file leaves open
+        except UsageError as error:  # the project file leaves something open
             fault = f"Error: {error}"
             concluded = Concluded(False, lambda: fault)
         if sys.stdout.isatty():
             click.clear()
         names = ", ".join(sorted(Path(each).name for each in changed))
         if names and (concluded.has_more or self._had_more):
-            # By this line an editor knows that what was said before is no longer true.
+            # By this line an editor knows that earlier diagnostics are outdated.
             click.echo(f"changed: {names}", err=True)
         self._had_more = concluded.has_more
         said = concluded.say()
@@ -128,19 +128,19 @@ class _Screen:
         about = f"{strftime('%H:%M:%S')}, {(perf_counter() - start) * 1000:.0f} ms"
         if names:
             about = f"{names}, {about}"
-        # In parentheses: an address that comes before is clicked on in terminals.
+        # In parentheses: terminals make the address before it clickable.
         ending = "" if names else " (end with Ctrl-C)"
         click.echo(f"waiting for changes ({about}): {said}{ending}", err=True)
 
 
 def _stamps(paths: Iterable[str | Path]) -> dict[str, Stamp | None]:
-    """When each file and folder was changed, and how long it is; None for one that is not there."""
+    """Time of change and size of each file and folder; None for a missing one."""
     return {os.fspath(path): _stamp(path) for path in paths}
 
 
 def _stamp(path: str | Path) -> Stamp | None:
     try:
-        stat = os.stat(path)  # noqa: PTH116 - takes any path, a far too long one too
+        stat = os.stat(path)  # noqa: PTH116 - takes any path, however long
     except (OSError, ValueError):
         return None
     return stat.st_mtime_ns, stat.st_size

@@ -1,0 +1,28 @@
+"""Names of the commands."""
+
+# A command is a function in the module of its name; `_` follows a keyword of Python.
+COMMANDS = (
+    "add",
+    "build",
+    "check",
+    "codegen",
+    "completion",
+    "diagram",
+    "diff",
+    "doc",
+    "doctor",
+    "explain",
+    "fmt",
+    "import",
+    "lsp",
+    "merge",
+    "new",
+    "preview",
+    "rename",
+    "simulate",
+    "targets",
+    "test",
+    "trace",
+)
+# Commands with options as plain data: their command lines in plain form are read without Click.
+PLAIN = ("build", "check")
