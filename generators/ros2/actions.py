@@ -7,8 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import Diagnostics, Span
 from swarmdsl.ir import (
     Action,
     Assignment,
@@ -23,8 +22,8 @@ from swarmdsl.ir import (
     StateMachine,
     System,
     TimeTrigger,
+    subexpressions,
 )
-from swarmdsl.ir.expressions import parts
 
 from .names import TARGET, type_name
 
@@ -102,7 +101,7 @@ def _stored(state: State) -> Iterator[tuple[str, tuple[str, ...], Span | None]]:
 
 def _fields_read(state: State) -> Iterator[FieldAccess]:
     for value in _expressions(state):
-        yield from (part for part in parts(value) if isinstance(part, FieldAccess))
+        yield from (part for part in subexpressions(value) if isinstance(part, FieldAccess))
 
 
 def _expressions(state: State) -> Iterator[Expression]:

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.codegen.python import Call, Source, layout
-from swarmdsl.ir import Activity, State
-from swarmdsl.ir.integer_ranges import bound_of_any
+from swarmdsl.ir import Activity, State, bound_of_any
 
 from .effects import filled, put
 from .expressions import DATA, EVENT

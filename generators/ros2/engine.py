@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from functools import cache
 from inspect import cleandoc
 
-from swarmdsl.base import resources
+from swarmdsl.codegen import engine_folder
 
 # How docstrings begin that are no orders, as the linters want them to be.
 _NOUNS = ("A", "An", "The", "What", "Which")
@@ -27,7 +27,7 @@ def engine_source() -> str:
     the linters of ROS 2 want it.
     """
     # It is only read: to import it takes longer.
-    folder = resources.engine()
+    folder = engine_folder()
     imports: dict[str, set[str]] = {}
     sections = []
     for module in _MODULES:

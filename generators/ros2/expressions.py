@@ -9,8 +9,11 @@ from __future__ import annotations
 import keyword
 from functools import cache
 
-from swarmdsl.base.records import replace
+from swarmdsl.codegen import Dialect, python_literal, replace, translate
 from swarmdsl.ir import (
+    DURATION,
+    FLOATS,
+    STRING,
     Array,
     Binary,
     Call,
@@ -22,11 +25,9 @@ from swarmdsl.ir import (
     Primitive,
     Type,
     Unary,
+    bound_of,
+    subexpressions,
 )
-from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
-from swarmdsl.ir.expressions import parts
-from swarmdsl.ir.integer_ranges import bound_of
-from swarmdsl.syntax.types import DURATION, FLOATS, STRING
 
 from .imports import Imports
 from .names import field_name
@@ -40,7 +41,7 @@ _HELD_OTHERWISE = ("byte", "duration", "time")
 def python_expression(expression: Expression, imports: Imports, data: str = DATA) -> str:
     """The expression in a function of `machine` and `event`; `data` has variables and params."""
     made = _for_python(expression)
-    for part in parts(made):
+    for part in subexpressions(made):
         if isinstance(part, Call) and part.function == "sqrt":
             imports.module("math")
         if isinstance(part, Call) and part.function == _GET:
@@ -71,7 +72,7 @@ def attribute(base: str, field: str) -> str:
 
 def uses_event(expression: Expression) -> bool:
     """Whether it needs the message of the triggering event."""
-    return any(isinstance(part, EventData) for part in parts(expression))
+    return any(isinstance(part, EventData) for part in subexpressions(expression))
 
 
 def default_value(type_: Type, imports: Imports) -> str:

@@ -5,13 +5,16 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import fresh, snake_case
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.shared.constants import Value
-from swarmdsl.codegen.shared.nodes import behavior_nodes, bringup_package, has_node
-from swarmdsl.codegen.shared.wiring import Remaps, check_wiring, wiring
+from swarmdsl.codegen import Diagnostics, Span, dataclass, fresh, snake_case
+from swarmdsl.codegen.shared import (
+    Remaps,
+    Value,
+    behavior_nodes,
+    bringup_package,
+    check_wiring,
+    has_node,
+    member_wiring,
+)
 from swarmdsl.ir import Member, Role, Swarm, System
 
 from .names import TARGET
@@ -79,7 +82,7 @@ def launches(system: System, modules: Mapping[str, str], report: Diagnostics) ->
     launched = {role.member for launch in found for role in launch.roles}
     for member in system.members:
         if member.name in launched:
-            check_wiring(wiring(member, system), TARGET, report)
+            check_wiring(member_wiring(member, system), TARGET, report)
     return found
 
 

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.python import Call, Source, comments, layout, place
-from swarmdsl.codegen.shared.events import Events, delays
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.codegen import dataclass
+from swarmdsl.codegen.python import Call, Source, comments, layout, source_place
+from swarmdsl.codegen.shared import Events, delays, entered_region, region_transitions
 from swarmdsl.ir import (
     Binary,
     Expression,
@@ -132,19 +131,19 @@ class Table:
 
     def _transition(self, transition: Transition, state: State) -> Call:
         events = (e for t in transition.triggers for e in self._events.of_trigger(t, state))
-        there = region_entered(transition, state) is not None
+        there = entered_region(transition, state) is not None
         return self._transition_call(
             tuple(dict.fromkeys(events)),
             () if there else _targets(transition),
             self._condition(state.id, transition.guard)
             + (() if there else self._effect_of(state.id, transition))
             + ((("internal", True),) if transition.internal and not there else ())
-            + (("origin", place(transition.origin)),),
+            + (("origin", source_place(transition.origin)),),
         )
 
     def _inward(self, region: State, around: State) -> Iterable[Call]:
         """The transitions of a parallel state that its region takes."""
-        for event, guard, transition, number in inward(region, around, self._events):
+        for event, guard, transition, number in region_transitions(region, around, self._events):
             yield self._transition_call(
                 (event,) if event else (),
                 _targets(transition),
@@ -152,7 +151,7 @@ class Table:
                 + self._effect_of(around.id, transition)
                 + (
                     ("internal", True),
-                    ("origin", place(transition.origin)),
+                    ("origin", source_place(transition.origin)),
                     ("around", number),
                 ),
             )

@@ -5,7 +5,7 @@ What stands between backticks is found in the generated module, or in launch fil
 
 from __future__ import annotations
 
-from swarmdsl.codegen.api import Mapped, Support
+from swarmdsl.codegen import Mapped, Support
 
 _EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
 

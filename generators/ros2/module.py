@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.naming import fresh, snake_case
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import Span, dataclass, fresh, snake_case
 from swarmdsl.codegen.python import Source, comments
 from swarmdsl.ir import StateMachine, System
 

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import camel_case, is_python_name, snake_case
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.ros.package_names import PackageNames
+from swarmdsl.codegen import Diagnostics, Span, camel_case, is_python_name, snake_case
+from swarmdsl.codegen.ros import PackageNames
 from swarmdsl.ir import Action, Param, Service, StateMachine, Variable
 
 TARGET = "ros2"

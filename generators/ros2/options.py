@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.api import option
-from swarmdsl.codegen.ros.package import PackageOptions, copyright_fault, packages_fault
+from swarmdsl.codegen import dataclass, option
+from swarmdsl.codegen.ros import PackageOptions, copyright_fault, packages_fault
 
 from .names import NAMES
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.codegen import Diagnostics
 from swarmdsl.codegen.python import Call
-from swarmdsl.codegen.ros.parameters import parameter_value, with_parameters
-from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
-from swarmdsl.codegen.shared.nodes import BehaviorNode
+from swarmdsl.codegen.ros import parameter_value, with_parameters
+from swarmdsl.codegen.shared import BehaviorNode, Value, constant, params_by_name
 from swarmdsl.ir import Array, Param, Primitive, StateMachine
 
 from .names import TARGET

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeVar
 
-from swarmdsl.base.records import replace
+from swarmdsl.codegen import replace
 from swarmdsl.ir import Action, Array, Field, Interface, Message, Named, Service, Type
 
 from .names import field_name, type_name

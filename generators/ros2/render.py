@@ -7,13 +7,8 @@ from functools import cache
 from pathlib import Path
 from textwrap import wrap
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.codegen.api import OutputFile, fits
-from swarmdsl.codegen.ros.interface_files import file_name
-from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
-from swarmdsl.codegen.ros.package import manifest
-from swarmdsl.codegen.source_map import MappedText
-from swarmdsl.codegen.templates import Templates
+from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Templates, fits
+from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
 from swarmdsl.ir import System
 
 from .engine import engine_source
@@ -49,9 +44,9 @@ def interface_files(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
     """The files of a package of interfaces."""
-    yield from definitions(package, 2, TARGET, report)
+    yield from definition_files(package, 2, TARGET, report)
     at = package.interfaces[0].origin
-    paths = [file_name(interface) for interface in package.interfaces]
+    paths = [interface_path(interface) for interface in package.interfaces]
     text = _fill("interfaces/CMakeLists.txt", package=package, files=paths)
     yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
     depends = [

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import incoming_topic
+from swarmdsl.codegen import Diagnostics, incoming_topic
 from swarmdsl.codegen.python import Call, Source
 from swarmdsl.ir import Event, Named, StateMachine, System
 

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen import Diagnostics, Picture, Span, chosen_machines, dataclass, pictures
 from swarmdsl.codegen.python import Call, Source, comment_lines, comments, file_name, layout
-from swarmdsl.codegen.ros.interface_packages import (
+from swarmdsl.codegen.ros import (
     InterfacePackage,
     check_described,
-    packages_of,
-    written,
+    group_by_package,
+    interfaces_to_write,
+    manifest,
 )
-from swarmdsl.codegen.ros.package import manifest
 from swarmdsl.ir import StateMachine, System
-from swarmdsl.tools.diagram.readme import Picture, pictures
 
 from . import names, package
 from .actions import check_feedback, messages_of_actions
@@ -104,7 +100,7 @@ def package_view(
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = packages_of(map(ported, written(system, options.interfaces)), 2)
+    interfaces = group_by_package(map(ported, interfaces_to_write(system, options.interfaces)), 2)
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     sent = {event for machine in machines for event in package.sent_events(machine)}

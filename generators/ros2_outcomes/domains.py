@@ -4,10 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.shared.events import Events
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.codegen import Span, dataclass
+from swarmdsl.codegen.shared import Events, entered_region, region_transitions
 from swarmdsl.ir import State, StateKind, StateMachine, Transition, Trigger
 
 
@@ -65,7 +63,7 @@ class Domains:
         found = [self._move(each, state) for each in state.transitions]
         around = self.around(state)
         if around.kind is StateKind.PARALLEL:
-            for event, _, transition, _ in inward(state, around, self._events):
+            for event, _, transition, _ in region_transitions(state, around, self._events):
                 assert transition.target is not None
                 heard = [each for each in self._triggers(transition, around) if each[1] == event]
                 target, origin = transition.target, transition.origin
@@ -81,7 +79,7 @@ class Domains:
     def _move(self, transition: Transition, state: State) -> Move | None:
         """The domain by SCXML 1.0, Appendix D, getTransitionDomain."""
         target = transition.target
-        if target is None or region_entered(transition, state) is not None:
+        if target is None or entered_region(transition, state) is not None:
             return None
         inside = transition.internal and state.kind is not StateKind.PARALLEL
         candidates = [state] if inside else []

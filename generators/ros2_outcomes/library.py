@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 
 from ..ros2.view import Variant
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen.api import Mapped, Support
+from swarmdsl.codegen import Mapped, Support
 
 _EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import Diagnostics, Span
 
 from ..ros2.view import PackageView
 from .library import Library

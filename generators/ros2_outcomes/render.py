@@ -7,11 +7,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.api import OutputFile
-from swarmdsl.codegen.source_map import MappedText
-from swarmdsl.codegen.templates import Templates
+from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Span, Templates
 from swarmdsl.ir import System
 
 from ..ros2 import render as ros2

@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from enum import Enum
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import camel_case, fresh
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.codegen import Diagnostics, camel_case, dataclass, field, fresh
 from swarmdsl.ir import State, StateKind, StateMachine
 
 from .library import Library

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import Call, comments, layout
 from swarmdsl.ir import StateKind, System
 

@@ -10,10 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.shared.events import delays
+from swarmdsl.codegen import Diagnostics, dataclass, fresh
+from swarmdsl.codegen.shared import delays
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,

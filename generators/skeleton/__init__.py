@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen.api import Generator, emit_of
+from swarmdsl.codegen import Generator, emit_of
 
 from .mapping import MAPPING
 from .options import Options

@@ -4,14 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label
-from swarmdsl.base.naming import incoming_topic, is_ros_package_name, snake_case
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import (
+    Diagnostics,
+    Label,
+    Span,
+    dataclass,
+    incoming_topic,
+    is_ros_package_name,
+    snake_case,
+)
 from swarmdsl.codegen.python import comment_lines, file_name
-from swarmdsl.codegen.shared.constants import params_by_name
-from swarmdsl.codegen.shared.nodes import bringup_package, has_node
-from swarmdsl.codegen.shared.wiring import Remaps, Wiring, check_wiring, wiring
+from swarmdsl.codegen.shared import (
+    Remaps,
+    Wiring,
+    bringup_package,
+    check_wiring,
+    has_node,
+    member_wiring,
+    params_by_name,
+)
 from swarmdsl.ir import Part, System
 
 from .names import TARGET
@@ -81,7 +92,7 @@ def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Br
         parts = [part for part in member.parts if has_node(components[part.component])]
         if not parts:
             continue
-        wired = wiring(member, system)
+        wired = member_wiring(member, system)
         check_wiring(wired, TARGET, report)
         if ros == 2:
             _check_crossing(wired, system, report)

@@ -6,11 +6,10 @@ from collections.abc import Callable, Iterator
 
 from lxml import etree
 
-from swarmdsl.codegen.api import OutputFile
-from swarmdsl.codegen.exchange.xml import Places, add_comment, document
-from swarmdsl.codegen.ros.package import manifest
+from swarmdsl.codegen import OutputFile, member_pictures
+from swarmdsl.codegen.ros import manifest
+from swarmdsl.codegen.xml_tree import Places, add_comment, document
 from swarmdsl.ir import System
-from swarmdsl.tools.diagram.readme import insides
 
 from .bringup import Bringup, Robot
 from .options import Options
@@ -41,7 +40,7 @@ def bringup_files(
     )
     yield OutputFile(f"{root}/package.xml", text)
     members = [robot.member for robot in made.robots]
-    values = {"summary": summary, "pictures": insides(system, members), "ros2": ros2}
+    values = {"summary": summary, "pictures": member_pictures(system, members), "ros2": ros2}
     yield OutputFile(f"{root}/README.md", fill("bringup.md", bringup=made, **values))
     folder = "config" if ros2 else "param"
     folders = ["launch", *([folder] if made.has_values else [])]

@@ -7,11 +7,10 @@ import re
 from collections.abc import Mapping
 from typing import Protocol
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.cpp import literal as cpp_literal
-from swarmdsl.codegen.ros.interface_files import Generation
-from swarmdsl.ir import Array, Literal, Named, Primitive
-from swarmdsl.syntax.types import FLOATS, STRING
+from swarmdsl.codegen.ros import Generation
+from swarmdsl.ir import FLOATS, STRING, Array, Literal, Named, Primitive
 
 from .names import python_field
 

@@ -5,7 +5,7 @@ What stands between backticks is found in the generated files, for ROS 1 and Pyt
 
 from __future__ import annotations
 
-from swarmdsl.codegen.api import Mapped, Support
+from swarmdsl.codegen import Mapped, Support
 
 _EXACT, _REJECTED = Support.EXACT, Support.REJECTED
 

@@ -6,7 +6,7 @@ import keyword
 import re
 from collections.abc import Iterable
 
-from swarmdsl.base.naming import snake_case
+from swarmdsl.codegen import snake_case
 
 TARGET = "skeleton"
 

@@ -7,12 +7,17 @@ import sys
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label
-from swarmdsl.base.naming import camel_case, is_ros_package_name, snake_case
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.base.suggest import suggest
-from swarmdsl.codegen.shared.nodes import has_node
+from swarmdsl.codegen import (
+    Diagnostics,
+    Label,
+    Span,
+    camel_case,
+    dataclass,
+    is_ros_package_name,
+    snake_case,
+    suggest,
+)
+from swarmdsl.codegen.shared import has_node
 from swarmdsl.ir import Component, Function, Named, Primitive, System, Type
 
 from .names import TARGET, identifiers, is_cpp_word

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.api import option
-from swarmdsl.codegen.ros.package import PackageOptions
+from swarmdsl.codegen import dataclass, option
+from swarmdsl.codegen.ros import PackageOptions
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import cast
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import is_ros_package_name
-from swarmdsl.base.records import dataclass, replace
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.ros.interface_files import Generation, bad_names, parts
-from swarmdsl.codegen.ros.interface_packages import InterfacePackage, check_order, packages_of
+from swarmdsl.codegen import Diagnostics, Span, dataclass, is_ros_package_name, replace
+from swarmdsl.codegen.ros import (
+    Generation,
+    InterfacePackage,
+    check_order,
+    group_by_package,
+    interface_parts,
+    invalid_names,
+)
 from swarmdsl.ir import System
 
 from .names import TARGET, is_cpp_word
@@ -49,7 +52,7 @@ def packages(
         for interface in system.interfaces
         if interface.external and interface.type.package in functions
     )
-    found = {package.name: package for package in packages_of(interfaces, ros)}
+    found = {package.name: package for package in group_by_package(interfaces, ros)}
     placed = []
     for node in nodes:
         _check_described(node, system, report)
@@ -90,9 +93,9 @@ def _check(package: InterfacePackage, options: Options, report: Diagnostics) -> 
     if not is_ros_package_name(package.name):
         _bad(package.name, "the name of a ROS package", package.interfaces[0].origin, report)
     for interface in package.interfaces:
-        for name, use, hint, at in bad_names(interface, generation(options)):
+        for name, use, hint, at in invalid_names(interface, generation(options)):
             _bad(name, use, at, report, hint)
-        for field in (field for part in parts(interface) for field in part):
+        for field in (field for part in interface_parts(interface) for field in part):
             if options.language == "cpp" and is_cpp_word(field.name):
                 _bad(field.name, "the name of a field in C++", field.origin, report)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 
 from .nodes import Node, Topic
 from .view import NodeView

@@ -8,15 +8,10 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.base.diagnostics.collector import Diagnostics, listed
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.xml_writer import legal
-from swarmdsl.codegen.api import OutputFile, fits
+from swarmdsl.codegen import Diagnostics, OutputFile, Templates, dataclass, fits, listed
 from swarmdsl.codegen.python import docstring
-from swarmdsl.codegen.ros.interface_files import file_name
-from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
-from swarmdsl.codegen.ros.package import manifest
-from swarmdsl.codegen.templates import Templates
+from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
+from swarmdsl.codegen.xml import legal
 from swarmdsl.ir import System
 
 from .bringup import bringup
@@ -138,7 +133,7 @@ def _node_files(
             origin=node.origin,
         )
     if inside is not None:
-        yield from definitions(inside, generation(options), TARGET, report)
+        yield from definition_files(inside, generation(options), TARGET, report)
 
 
 @dataclass(frozen=True)
@@ -212,7 +207,7 @@ def _interface_files(
         package=package,
         interface_files=_by_kind(package),
         interface_depends=package.depends,
-        interface_paths=[file_name(interface) for interface in package.interfaces],
+        interface_paths=[interface_path(interface) for interface in package.interfaces],
     )
     yield OutputFile(f"{package.name}/CMakeLists.txt", text, origin=at)
     tags = [
@@ -240,14 +235,14 @@ def _interface_files(
         build_type=build_type,
     )
     yield OutputFile(f"{package.name}/package.xml", text, origin=at)
-    yield from definitions(package, generation(options), TARGET, report)
+    yield from definition_files(package, generation(options), TARGET, report)
 
 
 def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:
     """The files of interfaces in a package, as catkin wants to hear of them."""
     found: dict[str, list[str]] = {}
     for interface in package.interfaces if package is not None else ():
-        folder, _, file = file_name(interface).partition("/")
+        folder, _, file = interface_path(interface).partition("/")
         found.setdefault(_KINDS[folder], []).append(file)
     return list(found.items())
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.ros.parameters import parameter_value
-from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
+from swarmdsl.codegen import Diagnostics, Span, dataclass
+from swarmdsl.codegen.ros import parameter_value
+from swarmdsl.codegen.shared import Value, constant, params_by_name
 from swarmdsl.ir import Array, Expression, Param, Primitive
 
 from .names import TARGET, identifiers

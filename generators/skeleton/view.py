@@ -8,13 +8,10 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable
 
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import Span, TracedStr, dataclass
 from swarmdsl.codegen.python import comment_lines, comments, file_name
-from swarmdsl.codegen.ros.interface_files import parts
-from swarmdsl.codegen.source_map import Placed
-from swarmdsl.ir import Action, Field, Service, System
-from swarmdsl.syntax.types import DURATION
+from swarmdsl.codegen.ros import interface_parts
+from swarmdsl.ir import DURATION, Action, Field, Service, System
 
 from .languages import Language
 from .nodes import Node, Server, Topic
@@ -199,10 +196,10 @@ def node_view(node: Node, system: System, language: Language) -> NodeView:
 
 def _imports(node: Node, language: Language) -> tuple[str, ...]:
     """The modules or headers, each with the first place in the model that needs it."""
-    found: dict[str, Placed] = {}
+    found: dict[str, TracedStr] = {}
     for type_, kind, origin in node.uses:
         module = language.imported(type_, kind)
-        found.setdefault(module, Placed(module, origin))
+        found.setdefault(module, TracedStr(module, origin))
     return tuple(sorted(found.values()))
 
 
@@ -212,10 +209,10 @@ def _file(origin: Span | None, system: System) -> str:
 
 def _topic(topic: Topic, language: Language) -> TopicView:
     return TopicView(
-        Placed(topic.name, topic.origin),
+        TracedStr(topic.name, topic.origin),
         topic.topic,
         language.literal(topic.topic),
-        Placed(language.named(topic.type, "msg"), topic.origin),
+        TracedStr(language.named(topic.type, "msg"), topic.origin),
         comments(topic.origin, topic.doc),
     )
 
@@ -223,7 +220,9 @@ def _topic(topic: Topic, language: Language) -> TopicView:
 def _server(server: Server, node: Node, system: System, language: Language) -> ServerView:
     kind = "action" if server.paradigm == "action" else "srv"
     interface = system.interface(server.type)
-    fields = parts(interface) if isinstance(interface, (Action, Service)) else ((), (), ())
+    fields = (
+        interface_parts(interface) if isinstance(interface, (Action, Service)) else ((), (), ())
+    )
     words = ("goal", "result", "feedback") if kind == "action" else ("request", "response", "")
     taken, given, feedback = (
         tuple(_field(field, word, language) for field in part)
@@ -233,16 +232,16 @@ def _server(server: Server, node: Node, system: System, language: Language) -> S
     types = language.server_types(server.type, kind)
     what = node.model if server.method == "execute" else f"{node.model}.{server.method}"
     return ServerView(
-        method=Placed(method, server.origin),
+        method=TracedStr(method, server.origin),
         name=server.name,
         literal=language.literal(
             server.name.replace("~", "~/") if language.ros == 2 else server.name
         ),
         local=language.literal(server.name.removeprefix("~")),
-        type=Placed(types[0], server.origin),
-        taken_type=Placed(types[1], server.origin),
-        given_type=Placed(types[2], server.origin),
-        feedback_type=Placed(types[3], server.origin),
+        type=TracedStr(types[0], server.origin),
+        taken_type=TracedStr(types[1], server.origin),
+        given_type=TracedStr(types[2], server.origin),
+        feedback_type=TracedStr(types[3], server.origin),
         taken=taken,
         given=given,
         feedback=feedback,
@@ -267,7 +266,7 @@ def _setting(setting: Setting, language: Language) -> SettingView:
     about = " ".join((setting.doc or setting.key).split())
     value = setting.default
     return SettingView(
-        name=Placed(setting.name, setting.origin),
+        name=TracedStr(setting.name, setting.origin),
         key=setting.key,
         type=language.setting_type(type_),
         default="" if value is None else language.value(value, type_),

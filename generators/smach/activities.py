@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen.default_values import sent_types
 from swarmdsl.codegen.python import Call, Source, comments, layout
-from swarmdsl.ir import Activity, Communication, Literal, State
-from swarmdsl.ir.integer_ranges import bound_of_any
+from swarmdsl.codegen.shared import sent_types
+from swarmdsl.ir import Activity, Communication, Literal, State, bound_of_any
 
 from .expressions import field_name
 from .module import Module

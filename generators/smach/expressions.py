@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import keyword
 
-from swarmdsl.base.records import replace
+from swarmdsl.codegen import Dialect, python_literal, replace, translate
 from swarmdsl.ir import (
+    DURATION,
+    FLOATS,
     Array,
     Binary,
     Call,
@@ -16,10 +18,8 @@ from swarmdsl.ir import (
     Primitive,
     Type,
     Unary,
+    subexpressions,
 )
-from swarmdsl.ir.expression_printer import Dialect, python_literal, translate
-from swarmdsl.ir.expressions import parts
-from swarmdsl.syntax.types import DURATION, FLOATS
 
 from .imports import Imports
 
@@ -29,7 +29,7 @@ USERDATA = "userdata"
 
 def python_expression(expression: Expression, imports: Imports) -> str:
     """The expression in Python; variables and params are userdata."""
-    for part in parts(expression):
+    for part in subexpressions(expression):
         if isinstance(part, Literal) and part.type == DURATION:
             imports.module("rospy")
         if isinstance(part, Call) and part.function == "sqrt":

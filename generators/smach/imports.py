@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import WIDTH
 from swarmdsl.ir import Named
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import PurePosixPath
 
-from swarmdsl.base.naming import snake_case
-from swarmdsl.base.xml_writer import Element, document, legal
-from swarmdsl.codegen.shared.nodes import BehaviorNode
+from swarmdsl.codegen import snake_case
+from swarmdsl.codegen.shared import BehaviorNode
+from swarmdsl.codegen.xml import Element, document, legal
 from swarmdsl.ir import Named
 
 from .robots import Fleet, Robot, Team

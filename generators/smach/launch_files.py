@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.base.xml_writer import Element, document
-from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen import OutputFile
+from swarmdsl.codegen.xml import Element, document
 
 from .launch import fleet_launch, robot_launch, simulation_launch, test_launch, world_file
 from .parameters import own_params, robot_params

@@ -4,11 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import fresh, snake_case
-from swarmdsl.base.records import dataclass, field
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.default_values import field_type
+from swarmdsl.codegen import Diagnostics, Span, dataclass, field, fresh, snake_case
+from swarmdsl.codegen.shared import field_type
 from swarmdsl.ir import StateMachine, System, Type
 
 from .imports import Imports

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import fresh, is_python_name, snake_case
-from swarmdsl.codegen.ros.package_names import PackageNames
+from swarmdsl.codegen import Diagnostics, fresh, is_python_name, snake_case
+from swarmdsl.codegen.ros import PackageNames
 from swarmdsl.ir import Action, Event, Param, StateMachine, Variable
 
 from .module import TARGET

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.codegen.ros.interface_files import named
+from swarmdsl.codegen.ros import named_types
 from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
 
@@ -28,13 +28,13 @@ def used_types(system: System, machines: Iterable[StateMachine]) -> list[tuple[N
     found: list[tuple[Named, str]] = []
     for machine in machines:
         types = [item.type for item in machine.params] + [item.type for item in machine.variables]
-        found += ((each, "msg") for type_ in types for each in named(type_))
+        found += ((each, "msg") for type_ in types for each in named_types(type_))
         for state in machine.walk():
             if state.activity is not None:
                 call = system.function(state.activity.function).communication
                 found.append((call.type, "srv" if call.paradigm == "service" else "action"))
     for name in used_events(machines):
-        found += ((type_, "msg") for type_ in named(system.event(name).type))
+        found += ((type_, "msg") for type_ in named_types(system.event(name).type))
     return list(dict.fromkeys(found))
 
 

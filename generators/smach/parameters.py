@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 
 from swarmdsl.codegen.python import comment_lines
-from swarmdsl.codegen.shared.constants import Value
-from swarmdsl.codegen.shared.nodes import Given
+from swarmdsl.codegen.shared import ParamValue, Value
 
 from .robots import Fleet, Robot
 
@@ -37,7 +36,7 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _line(given: Given) -> str:
+def _line(given: ParamValue) -> str:
     if given.value is None:
         return f"  # {given.param.name}: needs a value of type {given.param.type}"
     return f"  {given.param.name}: {_text(given.value)}"

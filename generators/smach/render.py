@@ -6,14 +6,9 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.base import resources
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.codegen.api import OutputFile, fits
+from swarmdsl.codegen import Diagnostics, OutputFile, Templates, engine_folder, fits
 from swarmdsl.codegen.python import docstring
-from swarmdsl.codegen.ros.interface_files import file_name
-from swarmdsl.codegen.ros.interface_packages import InterfacePackage, definitions
-from swarmdsl.codegen.ros.package import manifest
-from swarmdsl.codegen.templates import Templates
+from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
 from swarmdsl.ir import System
 
 from .launch_files import launch_files
@@ -41,10 +36,10 @@ def _interfaces(
     """A package of interfaces."""
     by_kind: dict[str, list[str]] = {}
     for interface in package.interfaces:
-        folder, _, file = file_name(interface).partition("/")
+        folder, _, file = interface_path(interface).partition("/")
         kind = {"msg": "message", "srv": "service", "action": "action"}[folder]
         by_kind.setdefault(kind, []).append(file)
-    yield from definitions(package, 1, TARGET, report)
+    yield from definition_files(package, 1, TARGET, report)
     at = package.interfaces[0].origin
     files = list(by_kind.items())
     text = _fill("interfaces/CMakeLists.txt", package=package, interface_files=files)
@@ -94,7 +89,7 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
 
 def _engine(folder: str, header: str) -> Iterator[OutputFile]:
     """The engine that charts run on."""
-    for file in sorted(resources.engine().glob("*.py")):
+    for file in sorted(engine_folder().glob("*.py")):
         text = f"# {header}\n{file.read_text(encoding='utf-8')}"
         yield OutputFile(f"{folder}/{file.name}", text)
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import snake_case
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.api import NoOptions
-from swarmdsl.codegen.exchange import swarmros
-from swarmdsl.codegen.ros.parameters import with_parameters
-from swarmdsl.codegen.shared.nodes import BehaviorNode, behavior_nodes, bringup_package, has_node
-from swarmdsl.codegen.shared.wiring import check_wiring, wiring
+from swarmdsl.codegen import Diagnostics, dataclass, snake_case
+from swarmdsl.codegen.ros import with_parameters
+from swarmdsl.codegen.shared import (
+    BehaviorNode,
+    behavior_nodes,
+    bridge_files,
+    bringup_package,
+    check_wiring,
+    has_node,
+    member_wiring,
+)
 from swarmdsl.ir import Environment, Member, Role, Swarm, System
 
 from .module import TARGET
@@ -78,7 +81,7 @@ def robots(
         )
         name = snake_case(member.name)
         if nodes:
-            check_wiring(wiring(member, system), TARGET, report)
+            check_wiring(member_wiring(member, system), TARGET, report)
             parts = any(nodes_of[part.component] for part in member.parts)
             bridge = bridges.get(name)
             found.append(Robot(name, member, nodes, bridge, components if parts else None))
@@ -107,6 +110,6 @@ def _team(role: Role, robot: Robot) -> Team:
 def _bridges(system: System) -> dict[str, str]:
     """The configurations of swarmros; what cannot cross the bridge is said in a comment."""
     report = Diagnostics()
-    files = list(swarmros.emit(system, NoOptions(), report))
+    files = list(bridge_files(system, report))
     notes = "".join(f"# {found.message}\n" for found in report)
     return {file.path.removesuffix(".cfg"): notes + file.text for file in files}

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.codegen.default_values import field_type
 from swarmdsl.codegen.python import Call, Source, layout
-from swarmdsl.ir import Assignment, Effect, Expression, Named, Send, Type
-from swarmdsl.ir.integer_ranges import bound_of
+from swarmdsl.codegen.shared import field_type
+from swarmdsl.ir import Assignment, Effect, Expression, Named, Send, Type, bound_of
 
 from .expressions import USERDATA, field_name, python_expression
 from .module import Module

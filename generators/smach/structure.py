@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from swarmdsl.base.naming import fresh
+from swarmdsl.codegen import fresh
 from swarmdsl.codegen.python import Call, Source, comments, layout
 from swarmdsl.ir import State, StateKind, doc_of
 

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass, fresh
 from swarmdsl.codegen.python import Call, Source, comments
-from swarmdsl.codegen.shared.events import Events, delays
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.codegen.shared import Events, delays, entered_region, region_transitions
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,
@@ -92,7 +90,7 @@ class TransitionMaker:
 
     def _own(self, state: State, timers: Mapping[Expression, str]) -> Iterator[_Taken]:
         for transition in state.transitions:
-            inside = region_entered(transition, state) is not None
+            inside = entered_region(transition, state) is not None
             has_way = transition.target is not None and not inside
             way = self.ways.of(transition, state) if has_way else None
             is_internal = transition.internal and way is not None and way.domain == state.id
@@ -105,7 +103,7 @@ class TransitionMaker:
         """The internal transitions of a parallel state that its region takes."""
         around = self.ways.around(region)
         timers = _timers(around)
-        for event, guard, transition, _ in inward(region, around, self._events):
+        for event, guard, transition, _ in region_transitions(region, around, self._events):
             assert transition.target is not None
             way = way_into(region.id, transition.target)
             for trigger in transition.triggers or (None,):

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
-from swarmdsl.codegen.api import chosen_machines
+from swarmdsl.codegen import Diagnostics, Picture, Span, chosen_machines, dataclass, pictures
 from swarmdsl.codegen.python import (
     Call,
     Source,
@@ -16,20 +13,28 @@ from swarmdsl.codegen.python import (
     file_name,
     layout,
     one_line,
-    place,
+    source_place,
 )
-from swarmdsl.codegen.ros.interface_packages import (
+from swarmdsl.codegen.ros import (
     InterfacePackage,
-    are_described,
     check_described,
-    packages_of,
-    packages_of_others,
-    written,
+    group_by_package,
+    interfaces_to_write,
+    is_fully_described,
+    manifest,
+    third_party_packages,
 )
-from swarmdsl.codegen.ros.package import manifest
-from swarmdsl.ir import Array, Event, Literal, Named, Param, StateMachine, System
-from swarmdsl.syntax.types import DURATION, Primitive
-from swarmdsl.tools.diagram.readme import Picture, pictures
+from swarmdsl.ir import (
+    DURATION,
+    Array,
+    Event,
+    Literal,
+    Named,
+    Param,
+    Primitive,
+    StateMachine,
+    System,
+)
 
 from . import names, package
 from .expressions import USERDATA, default_value, python_expression
@@ -148,7 +153,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         return None
     name = NAMES.package(system, options.package, report)
     modules = NAMES.of_modules(machines, report)
-    interfaces = packages_of(written(system, options.interfaces), 1)
+    interfaces = group_by_package(interfaces_to_write(system, options.interfaces), 1)
     check_described(system, options.interfaces, NAMES.target, report)
     NAMES.check_interfaces(system, interfaces, name, report)
     used = package.used_types(system, machines)
@@ -176,7 +181,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
         *(("exec_depend", each) for each in bringup if options.components),
     ]
-    needs = packages_of_others((type_ for type_, _ in used), interfaces)
+    needs = third_party_packages((type_ for type_, _ in used), interfaces)
     return PackageView(
         name=name,
         doc=doc,
@@ -190,7 +195,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         pictures=pictures(system, machines),
         modules=("chart", "containers", "node", "states", *package.activity_modules(used)),
         needs=tuple(needs),
-        described=tuple(each for each in needs if are_described(system, each)),
+        described=tuple(each for each in needs if is_fully_described(system, each)),
         timeouts=options.timeouts,
         robots=tuple(made),
         fleets=tuple(fleets(system, made)),
@@ -228,7 +233,7 @@ def _machine_view(
         name=machine.name,
         module=name,
         doc=docstring(machine.doc or f"State machine {machine.name}."),
-        place=place(machine.origin),
+        place=source_place(machine.origin),
         uses=uses(system, machine),
         header=_header(system, [machine.origin]),
         imports=tuple(imports.lines()),

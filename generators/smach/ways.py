@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.codegen import dataclass, field, fresh
 from swarmdsl.ir import State, StateKind, StateMachine, Transition
 
 from .module import PREEMPTED, Entry

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen.api import Generator, chosen_machines, emit_of
+from swarmdsl.codegen import Generator, chosen_machines, emit_of
 
 from ..ros2.options import Options
 from .mapping import MAPPING

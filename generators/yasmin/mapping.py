@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.codegen.api import Mapped, Support
+from swarmdsl.codegen import Mapped, Support
 
 from ..ros2_outcomes.mapping import mapping
 

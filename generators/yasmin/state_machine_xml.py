@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from lxml import etree
 
-from swarmdsl.base.xml_writer import legal
-from swarmdsl.codegen.exchange.xml import document as written
+from swarmdsl.codegen.xml import legal
+from swarmdsl.codegen.xml_tree import document as written
 from swarmdsl.ir import StateMachine
 
 from ..ros2_outcomes.structure import Kind, Node

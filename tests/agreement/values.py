@@ -8,7 +8,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.codegen.default_values import default_value
+from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.ir import Action, Array, EventData, FieldAccess, Literal, Primitive, Service, System
 from swarmdsl.syntax.types import DURATION, INT
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.tools.diagram.graph import Diagram
 from swarmdsl.tools.diagram.views import diagrams
 
 ROOT = Path(__file__).resolve().parents[2]

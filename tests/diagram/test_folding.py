@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.tools.diagram.folding import folded
-from swarmdsl.tools.diagram.graph import Diagram
 from swarmdsl.tools.diagram.layout import lay_out
 from swarmdsl.tools.diagram.svg import svg
 from swarmdsl.tools.diagram.views import diagrams

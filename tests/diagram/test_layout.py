@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering
 from swarmdsl.tools.diagram.layout.cycles import backward
 from swarmdsl.tools.diagram.layout.simplex import Constraint, minimized

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 from markdown_it import MarkdownIt
 
+from swarmdsl.codegen.diagram.readme import pictures
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
-from swarmdsl.tools.diagram.readme import pictures
 
 from .conftest import ROOT, system_of
 

@@ -9,7 +9,7 @@ import pytest
 from lxml import etree
 
 from swarmdsl.cli import run
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram.svg import svg
 
 from .conftest import MODEL, ROOT, drawn_of

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.ir import StateKind, System
 from swarmdsl.tools.diagram.formats import FORMATS, SUFFIXES
-from swarmdsl.tools.diagram.graph import Diagram
 from swarmdsl.tools.diagram.views import diagrams
 
 from .conftest import MODEL, drawn_of, system_of

@@ -24,7 +24,7 @@ from swarmdsl.codegen.api import chosen_machines
 from swarmdsl.codegen.features import used_features
 from swarmdsl.codegen.options import parse_options
 from swarmdsl.codegen.registry import load
-from swarmdsl.codegen.ros.interface_files import definition, file_name
+from swarmdsl.codegen.ros.interface_files import definition, interface_path
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 
@@ -134,7 +134,7 @@ class Workspace:
         assert library is not None
         for interface in (*library.interfaces, *system.interfaces):
             if not (_DEBIAN / interface.type.package).exists():
-                path = folder / interface.type.package / file_name(interface)
+                path = folder / interface.type.package / interface_path(interface)
                 path.parent.mkdir(parents=True, exist_ok=True)
                 text = definition(interface, 1, lambda construct, at: pytest.fail(construct))
                 path.write_text(text, encoding="utf-8")

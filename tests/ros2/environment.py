@@ -29,8 +29,8 @@ from swarmdsl.codegen.bundled.ros2.render import interface_files
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import chosen_machines
-from swarmdsl.codegen.ros.interface_files import named, parts
-from swarmdsl.codegen.ros.interface_packages import InterfacePackage, packages_of
+from swarmdsl.codegen.ros.interface_files import interface_parts, named_types
+from swarmdsl.codegen.ros.interface_packages import InterfacePackage, group_by_package
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import Action, Field, Interface, Message, Named, Service, System
 from swarmdsl.syntax.types import STRING
@@ -119,14 +119,16 @@ def sources() -> Iterator[tuple[str, str]]:
     for model in MODELS:
         system = pipeline.check([model]).system
         assert system is not None, model
-        for package in packages_of((each for each in system.interfaces if not each.external), 2):
+        for package in group_by_package(
+            (each for each in system.interfaces if not each.external), 2
+        ):
             yield from _texts(package)
         for interface in _external(system):
             known = found.get(interface.type, interface)
             found[interface.type] = _merged(known, interface)
     missing = (each for each in found.values() if each.type.package not in _IN_WHEELS)
     by_name = sorted(missing, key=lambda each: (each.type.package, each.type.name))
-    for package in packages_of(by_name, 2):
+    for package in group_by_package(by_name, 2):
         yield from _texts(package)
 
 
@@ -143,9 +145,9 @@ def _external(system: System) -> Iterator[Interface]:
     used: dict[Named, Interface] = {}
     for machine in chosen_machines(system):
         for variable in machine.variables:
-            used.update((type_, Message(type_, (), True)) for type_ in named(variable.type))
+            used.update((type_, Message(type_, (), True)) for type_ in named_types(variable.type))
         for event in (*heard_events(machine), *sent_events(machine)):
-            used.update((t, Message(t, (), True)) for t in named(system.event(event).type))
+            used.update((t, Message(t, (), True)) for t in named_types(system.event(event).type))
         for name in called_functions(machine):
             call = system.function(name).communication
             action = call.paradigm == "action"
@@ -165,9 +167,9 @@ def _external(system: System) -> Iterator[Interface]:
 
 
 def _in_fields(interface: Interface) -> Iterator[Named]:
-    for part in parts(interface):
+    for part in interface_parts(interface):
         for field in part:
-            yield from named(field.type)
+            yield from named_types(field.type)
 
 
 def _merged(one: Interface, other: Interface) -> Interface:

@@ -12,9 +12,9 @@ import pytest
 from swarmdsl import ir
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.codegen.default_values import default_value
 from swarmdsl.codegen.exchange import scxml
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
+from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.driver import pipeline
 from swarmdsl.execution.engine import Event, Instance, Machine, Observer, Run, Transition
 from swarmdsl.execution.scxml import read

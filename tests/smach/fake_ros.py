@@ -11,7 +11,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.codegen.default_values import default_value
+from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.ir import Array, Field, Named, Primitive, System
 
 WAIT = 60.0

@@ -10,7 +10,7 @@ from swarmdsl.base.source import Piece, Source, Span
 from swarmdsl.cli import run
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.python import comments
-from swarmdsl.codegen.source_map import Entry, MappedText, Placed
+from swarmdsl.codegen.source_map import Entry, MappedText, TracedStr
 from swarmdsl.codegen.templates import Templates
 from swarmdsl.output import manifest, source_maps
 from swarmdsl.output.source_maps import FileMap, Model, Position, Positions
@@ -59,7 +59,7 @@ def test_what_is_less_deep_goes_on_after_what_is_deeper(tmp_path: Path) -> None:
     nine
 end
 """
-    text = printed(tmp_path, template, a=A, b=B, comment=Placed("b", B, holds=True))
+    text = printed(tmp_path, template, a=A, b=B, comment=TracedStr("b", B, holds=True))
 
     assert text == (
         "class X:\n    one\n    two\n      three\n    four\n    # b\n    five\n"
@@ -73,7 +73,7 @@ end
 
 def test_a_text_that_comes_from_a_place_marks_its_line_in_what_is_included(tmp_path: Path) -> None:
     (tmp_path / "inner.j2").write_text("{{ header }} {{ other }}\n", encoding="utf-8")
-    text = printed(tmp_path, "{% include 'inner.j2' %}", header=Placed("x.h", A), other="\ufdd0")
+    text = printed(tmp_path, "{% include 'inner.j2' %}", header=TracedStr("x.h", A), other="\ufdd0")
 
     assert text == "x.h \ufdd0\n"
     assert text.entries == (Entry(1, A),)

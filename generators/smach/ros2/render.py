@@ -6,11 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import fields_of
-from swarmdsl.codegen.api import OutputFile
-from swarmdsl.codegen.source_map import MappedText
-from swarmdsl.codegen.templates import Templates
+from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Templates, fields_of
 from swarmdsl.ir import System
 
 from ...ros2 import render as ros2

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.records import dataclass
-from swarmdsl.base.source import Span
+from swarmdsl.codegen import Diagnostics, Span, dataclass
 from swarmdsl.codegen.python import Call, Source, comments, layout
 from swarmdsl.ir import StateMachine, System
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.codegen.source_map import Placed
+from swarmdsl.codegen.source_map import TracedStr
 
 WIDTH = 100
 _STEP = "    "
@@ -116,7 +116,7 @@ def comment_lines(text: str) -> list[str]:
 
 def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
     """Where something stands in the model and what is said of it there, a comment a line."""
-    where = (Placed(place(origin), origin, holds=True),) if origin is not None else ()
+    where = (TracedStr(source_place(origin), origin, holds=True),) if origin is not None else ()
     return (*where, *comment_lines(doc))
 
 
@@ -126,7 +126,7 @@ def docstring(text: str) -> str:
     return "\n".join(line.rstrip() for line in safe.splitlines())
 
 
-def place(origin: Span | None) -> str:
+def source_place(origin: Span | None) -> str:
     """`file:line` of a place in the model, the file by its last name."""
     if origin is None:
         return ""

@@ -27,7 +27,7 @@ class Entry(NamedTuple):
     origin: Span | None
 
 
-class Placed(str):
+class TracedStr(str):
     """A piece of a generated text that comes from a place in the model.
 
     `holds` says that what follows does so too.
@@ -37,7 +37,7 @@ class Placed(str):
     origin: Span | None
     holds: bool
 
-    def __new__(cls, text: str, origin: Span | None, *, holds: bool = False) -> Placed:
+    def __new__(cls, text: str, origin: Span | None, *, holds: bool = False) -> TracedStr:
         """The text with its place; None ends what holds for lines as deep as this one."""
         made = super().__new__(cls, text)
         made.origin = origin
@@ -45,9 +45,9 @@ class Placed(str):
         return made
 
 
-def at(origin: Span | None = None) -> Placed:
+def at(origin: Span | None = None) -> TracedStr:
     """Nothing to print, from a place: for a template to mark a line that prints something."""
-    return Placed("", origin)
+    return TracedStr("", origin)
 
 
 class MappedText(str):
@@ -79,13 +79,13 @@ class MappedText(str):
         return MappedText("\n".join([*lines, ""]), entries)
 
 
-def marked(text: Placed, printed: list[Placed]) -> str:
+def marked(text: TracedStr, printed: list[TracedStr]) -> str:
     """A text as a template prints it: its place leaves a mark behind, and goes to `printed`."""
     printed.append(text)
     return f"{text}\ufdd0{len(printed) - 1}\ufdd1"
 
 
-def mapped(text: str, printed: Sequence[Placed]) -> MappedText:
+def mapped(text: str, printed: Sequence[TracedStr]) -> MappedText:
     """A text that was printed with marks, without them."""
     if not printed:
         return MappedText(text)

@@ -21,7 +21,7 @@ from jinja2.bccache import Bucket
 from jinja2.runtime import Context
 
 from swarmdsl import __version__
-from swarmdsl.codegen.source_map import MappedText, Placed, at, mapped, marked
+from swarmdsl.codegen.source_map import MappedText, TracedStr, at, mapped, marked
 
 _PRINTED = "places that were printed"
 
@@ -42,7 +42,7 @@ class Templates:
 
         Raises what Jinja does.
         """
-        printed: list[Placed] = []
+        printed: list[TracedStr] = []
         template = self._environment.get_template(name)
         return mapped(template.render({**values, _PRINTED: printed}), printed)
 
@@ -64,9 +64,9 @@ class Templates:
 
 @pass_context
 def _finalize(context: Context, value: object) -> object:
-    if not isinstance(value, Placed):
+    if not isinstance(value, TracedStr):
         return value
-    printed: list[Placed] = context[_PRINTED]
+    printed: list[TracedStr] = context[_PRINTED]
     return marked(value, printed)
 
 

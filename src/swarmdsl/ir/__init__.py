@@ -3,7 +3,6 @@
 Nodes are equal when they mean the same; `origin`, the place in the model, does not count.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -21,7 +20,10 @@ if TYPE_CHECKING:
         Role,
         Swarm,
     )
-    from swarmdsl.ir.docs import Docs, doc_of
+    from swarmdsl.ir.docs import (
+        Docs,
+        doc_of,
+    )
     from swarmdsl.ir.expressions import (
         Binary,
         Call,
@@ -33,6 +35,11 @@ if TYPE_CHECKING:
         Unary,
         VariableRef,
         reads,
+        subexpressions,
+    )
+    from swarmdsl.ir.integer_ranges import (
+        bound_of,
+        bound_of_any,
     )
     from swarmdsl.ir.interfaces import (
         Action,
@@ -47,7 +54,12 @@ if TYPE_CHECKING:
         Param,
         Service,
     )
-    from swarmdsl.ir.optimization import CountRange, Fitness, Optimization, ParamRange
+    from swarmdsl.ir.optimization import (
+        CountRange,
+        Fitness,
+        Optimization,
+        ParamRange,
+    )
     from swarmdsl.ir.statemachine import (
         Activity,
         Assignment,
@@ -66,32 +78,66 @@ if TYPE_CHECKING:
         Trigger,
         Variable,
     )
-    from swarmdsl.ir.system import System
-    from swarmdsl.syntax.types import Array, Named, Primitive, Type
+    from swarmdsl.ir.system import (
+        System,
+    )
+    from swarmdsl.syntax.types import (
+        BOOL,
+        DURATION,
+        FLOAT,
+        FLOATS,
+        INT,
+        INTEGERS,
+        PRIMITIVES,
+        STRING,
+        Array,
+        Named,
+        Primitive,
+        Type,
+    )
 else:
-    # Others have a `Literal` too, that of typing; the one of `expressions`, the last, is meant.
-    _PARTS = (
-        "swarmdsl.syntax.types",
-        *(
-            f"{__name__}.{part}"
-            for part in (
-                *("docs", "interfaces", "architecture", "statemachine", "optimization"),
-                *("system", "expressions"),
-            )
-        ),
+    from swarmdsl.base.lazy_exports import lazy_exports
+
+    __getattr__ = lazy_exports(
+        globals(),
+        {
+            "swarmdsl.ir.architecture": (
+                "CommunicationSettings Component Connector Direction Environment Member "
+                "Multiplicity Part Port PortRef Role Swarm"
+            ),
+            "swarmdsl.ir.docs": "Docs doc_of",
+            "swarmdsl.ir.expressions": (
+                "Binary Call EventData Expression FieldAccess Literal ParamRef Unary "
+                "VariableRef reads subexpressions"
+            ),
+            "swarmdsl.ir.integer_ranges": "bound_of bound_of_any",
+            "swarmdsl.ir.interfaces": (
+                "Action Communication Constant Event Field Function FunctionPort Interface "
+                "Message Param Service"
+            ),
+            "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
+            "swarmdsl.ir.statemachine": (
+                "Activity Assignment DoneTrigger Effect EventTrigger OutcomeTrigger Policy "
+                "ResultMapping Send State StateKind StateMachine TimeTrigger Transition "
+                "Trigger Variable"
+            ),
+            "swarmdsl.ir.system": "System",
+            "swarmdsl.syntax.types": (
+                "BOOL DURATION FLOAT FLOATS INT INTEGERS PRIMITIVES STRING Array Named "
+                "Primitive Type"
+            ),
+        },
     )
 
-    def __getattr__(name):
-        """Import the parts with the first name that is asked for: a check needs only types."""
-        if name not in __all__:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-        for part in _PARTS:
-            names = vars(import_module(part))
-            globals().update((known, names[known]) for known in names.keys() & set(__all__))
-        return globals()[name]
-
-
 __all__ = [
+    "BOOL",
+    "DURATION",
+    "FLOAT",
+    "FLOATS",
+    "INT",
+    "INTEGERS",
+    "PRIMITIVES",
+    "STRING",
     "Action",
     "Activity",
     "Array",
@@ -150,6 +196,9 @@ __all__ = [
     "Unary",
     "Variable",
     "VariableRef",
+    "bound_of",
+    "bound_of_any",
     "doc_of",
     "reads",
+    "subexpressions",
 ]

@@ -96,22 +96,22 @@ class Call:
 Expression = Literal | VariableRef | ParamRef | EventData | FieldAccess | Unary | Binary | Call
 
 
-def parts(expression: Expression) -> Iterator[Expression]:
+def subexpressions(expression: Expression) -> Iterator[Expression]:
     """The expression and all inside it."""
     yield expression
     match expression:
         case FieldAccess(base=base):
-            yield from parts(base)
+            yield from subexpressions(base)
         case Unary(operand=operand):
-            yield from parts(operand)
+            yield from subexpressions(operand)
         case Binary(left=left, right=right):
-            yield from parts(left)
-            yield from parts(right)
+            yield from subexpressions(left)
+            yield from subexpressions(right)
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from parts(argument)
+                yield from subexpressions(argument)
 
 
 def reads(expression: Expression) -> set[str]:
     """Names of the variables an expression reads."""
-    return {part.name for part in parts(expression) if isinstance(part, VariableRef)}
+    return {part.name for part in subexpressions(expression) if isinstance(part, VariableRef)}

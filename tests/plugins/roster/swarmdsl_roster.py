@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.codegen.api import Feature, Generator, OutputFile, option
+from swarmdsl.codegen import Diagnostics, Feature, Generator, OutputFile, option
 from swarmdsl.ir import System
 
 

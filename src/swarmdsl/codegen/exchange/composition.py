@@ -16,9 +16,9 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.search_space import behaviours
-from swarmdsl.codegen.exchange.xml import add_comment, document
 from swarmdsl.codegen.shared.constants import Value
-from swarmdsl.codegen.shared.nodes import Given, behavior_nodes
+from swarmdsl.codegen.shared.nodes import ParamValue, behavior_nodes
+from swarmdsl.codegen.xml_tree import add_comment, document
 from swarmdsl.ir import Member, Role, Swarm, System, Type
 from swarmdsl.syntax.types import INTEGERS, Primitive
 
@@ -85,7 +85,7 @@ def _launch(
     return root
 
 
-def _add_params(node: etree._Element, params: tuple[Given, ...], report: Diagnostics) -> None:
+def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Diagnostics) -> None:
     """The params that have a value when the model is compiled."""
     for given in params:
         if isinstance(given.value, str) and "$(" in given.value:

@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.exchange.search_space import number
-from swarmdsl.codegen.exchange.xml import document
+from swarmdsl.codegen.xml_tree import document
 from swarmdsl.ir import Environment, Optimization, Swarm, System
 
 _DOCTYPE = '<!DOCTYPE icomponent SYSTEM "../IComponent.dtd">'

@@ -43,13 +43,13 @@ _CONSTANT = {1: _FIELD[1], 2: r"[A-Z](_?[A-Z0-9])*"}
 _CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 wants capital letters, digits and single `_`"}
 
 
-def file_name(interface: Interface) -> str:
+def interface_path(interface: Interface) -> str:
     """The path of its file in its package."""
     folder = FOLDERS[type(interface)]
     return f"{folder}/{interface.type.name}.{folder}"
 
 
-def parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
+def interface_parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
     """The fields of each part of an interface, in the order of its file."""
     match interface:
         case Message(fields=fields):
@@ -60,15 +60,17 @@ def parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
             return (goal, result, feedback)
 
 
-def named(type_: Type) -> Iterator[Named]:
+def named_types(type_: Type) -> Iterator[Named]:
     """The message that is in a type, if there is one."""
     if isinstance(type_, Array):
-        yield from named(type_.element)
+        yield from named_types(type_.element)
     elif isinstance(type_, Named):
         yield type_
 
 
-def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str, str, Span | None]]:
+def invalid_names(
+    interface: Interface, ros: Generation
+) -> Iterator[tuple[str, str, str, Span | None]]:
     """The names in it that ROS does not take: each with what it is, what ROS wants, its place."""
     if not re.fullmatch(_INTERFACE, interface.type.name):
         use = "the name of an interface"
@@ -76,7 +78,7 @@ def bad_names(interface: Interface, ros: Generation) -> Iterator[tuple[str, str,
     for value in interface.constants if isinstance(interface, Message) else ():
         if not re.fullmatch(_CONSTANT[ros], value.name):
             yield value.name, "the name of a constant", _CONSTANT_HINT[ros], value.origin
-    for field in (field for part in parts(interface) for field in part):
+    for field in (field for part in interface_parts(interface) for field in part):
         if not re.fullmatch(_FIELD[ros], field.name):
             yield field.name, "the name of a field", _FIELD_HINT[ros], field.origin
 
@@ -85,7 +87,7 @@ def depends(interfaces: Iterable[Interface], ros: Generation) -> set[str]:
     """The packages whose messages are in the fields, and those that every action needs."""
     found: set[str] = set()
     for interface in interfaces:
-        for field in (field for part in parts(interface) for field in part):
+        for field in (field for part in interface_parts(interface) for field in part):
             element = field.type.element if isinstance(field.type, Array) else field.type
             if isinstance(element, Named):
                 found.add(element.package)
@@ -102,7 +104,7 @@ def definition(interface: Interface, ros: Generation, complain: Complain) -> str
     if isinstance(interface, Message):
         for value in interface.constants:
             lines += [*_comments(value.doc), _constant(value, ros, complain)]
-    for index, part in enumerate(parts(interface)):
+    for index, part in enumerate(interface_parts(interface)):
         lines += ["---"] if index else []
         for field in part:
             lines += _comments(field.doc)

@@ -13,9 +13,9 @@ from swarmdsl.codegen.ros.interface_files import (
     Generation,
     definition,
     depends,
-    file_name,
-    named,
-    parts,
+    interface_parts,
+    interface_path,
+    named_types,
 )
 from swarmdsl.ir import Interface, Named, System
 from swarmdsl.project.rosidl import standard
@@ -30,7 +30,9 @@ class InterfacePackage:
     depends: tuple[str, ...]
 
 
-def packages_of(interfaces: Iterable[Interface], ros: Generation) -> tuple[InterfacePackage, ...]:
+def group_by_package(
+    interfaces: Iterable[Interface], ros: Generation
+) -> tuple[InterfacePackage, ...]:
     """The packages that the interfaces are in, in the order in which they first appear."""
     by_name: dict[str, list[Interface]] = {}
     for interface in interfaces:
@@ -41,7 +43,7 @@ def packages_of(interfaces: Iterable[Interface], ros: Generation) -> tuple[Inter
     )
 
 
-def written(system: System, others: str) -> list[Interface]:
+def interfaces_to_write(system: System, others: str) -> list[Interface]:
     """The interfaces that a target writes: the model's own, and those of the packages `others`.
 
     These are names with commas between them: packages that no workspace has, but that the model
@@ -58,8 +60,13 @@ def check_described(system: System, others: str, target: str, report: Diagnostic
     packages = others.split(",")
     used = [(event.type, event.origin) for event in system.events]
     used += ((each.communication.type, each.origin) for each in system.functions)
-    fields = (f for each in written(system, others) for part in parts(each) for f in part)
-    used += ((type_, field.origin) for field in fields for type_ in named(field.type))
+    fields = (
+        f
+        for each in interfaces_to_write(system, others)
+        for part in interface_parts(each)
+        for f in part
+    )
+    used += ((type_, field.origin) for field in fields for type_ in named_types(field.type))
     first: dict[Named, Span | None] = {}
     for type_, origin in used:
         if isinstance(type_, Named) and type_.package in packages:
@@ -72,13 +79,13 @@ def check_described(system: System, others: str, target: str, report: Diagnostic
             report.report("unsupported-construct", origin, target=target, construct=construct)
 
 
-def packages_of_others(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:
+def third_party_packages(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:
     """The packages of interfaces that neither come with ROS nor are `made`: others have them."""
     known = {*standard.packages(), *(package.name for package in made)}
     return sorted({type_.package for type_ in used} - known)
 
 
-def are_described(system: System, package: str) -> bool:
+def is_fully_described(system: System, package: str) -> bool:
     """Whether all is known that is used of a package of others, so that it can be written."""
     found = Diagnostics()
     check_described(system, package, "", found)
@@ -99,7 +106,7 @@ def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagn
         )
 
 
-def definitions(
+def definition_files(
     package: InterfacePackage, ros: Generation, target: str, report: Diagnostics
 ) -> Iterator[OutputFile]:
     """The .msg, .srv and .action files of a package."""
@@ -109,4 +116,6 @@ def definitions(
 
     for interface in package.interfaces:
         text = definition(interface, ros, complain)
-        yield OutputFile(f"{package.name}/{file_name(interface)}", text, origin=interface.origin)
+        yield OutputFile(
+            f"{package.name}/{interface_path(interface)}", text, origin=interface.origin
+        )

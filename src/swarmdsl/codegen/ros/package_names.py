@@ -8,7 +8,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.naming import is_python_name, is_ros_package_name, snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.codegen.ros.interface_files import Generation, bad_names
+from swarmdsl.codegen.ros.interface_files import Generation, invalid_names
 from swarmdsl.codegen.ros.interface_packages import InterfacePackage, check_order
 from swarmdsl.ir import Interface, StateMachine, System
 
@@ -127,7 +127,7 @@ class PackageNames:
             self.bad(report, name, use, at, help=hint)
         owners: dict[str, Interface] = {}
         for interface in package.interfaces:
-            for wrong, use, hint, place in bad_names(interface, self.ros):
+            for wrong, use, hint, place in invalid_names(interface, self.ros):
                 self.bad(report, wrong, use, place, help=hint)
             endings = self.made_of.get(type(interface), ())
             for made in (interface.type.name + ending for ending in ("", *endings)):

@@ -6,7 +6,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.shared.constants import Value
-from swarmdsl.codegen.shared.nodes import BehaviorNode, Given
+from swarmdsl.codegen.shared.nodes import BehaviorNode, ParamValue
 from swarmdsl.ir import Primitive, Type
 from swarmdsl.syntax.types import FLOATS
 
@@ -37,7 +37,7 @@ def parameter_value(
 def with_parameters(node: BehaviorNode, ros: int, target: str, report: Diagnostics) -> BehaviorNode:
     """A node with the values of its params as parameters hold them."""
 
-    def held(given: Given) -> Given:
+    def held(given: ParamValue) -> ParamValue:
         if given.value is None or given.expression is None:
             return given
         at = given.expression.origin

@@ -1,1 +1,95 @@
-"""Views of the IR that several targets share."""
+"""Views of the IR that several generators need."""
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from swarmdsl.codegen.shared.constants import (
+        UndefinedValueError,
+        UnknownValueError,
+        Value,
+        constant,
+        evaluate,
+        params_by_name,
+    )
+    from swarmdsl.codegen.shared.default_values import (
+        default_fields,
+        default_result,
+        default_value,
+        field_type,
+        result_fields,
+        sent_types,
+    )
+    from swarmdsl.codegen.shared.events import (
+        Events,
+        delays,
+    )
+    from swarmdsl.codegen.shared.nodes import (
+        BehaviorNode,
+        ParamValue,
+        behavior_nodes,
+        bringup_package,
+        has_node,
+    )
+    from swarmdsl.codegen.shared.parallel_transitions import (
+        entered_region,
+        region_transitions,
+    )
+    from swarmdsl.codegen.shared.swarmros import (
+        bridge_files,
+    )
+    from swarmdsl.codegen.shared.wiring import (
+        Remaps,
+        Wiring,
+        check_wiring,
+        member_wiring,
+    )
+else:
+    from swarmdsl.base.lazy_exports import lazy_exports
+
+    __getattr__ = lazy_exports(
+        globals(),
+        {
+            "swarmdsl.codegen.shared.constants": (
+                "UndefinedValueError UnknownValueError Value constant evaluate params_by_name"
+            ),
+            "swarmdsl.codegen.shared.default_values": (
+                "default_fields default_result default_value field_type result_fields sent_types"
+            ),
+            "swarmdsl.codegen.shared.events": "Events delays",
+            "swarmdsl.codegen.shared.nodes": (
+                "BehaviorNode ParamValue behavior_nodes bringup_package has_node"
+            ),
+            "swarmdsl.codegen.shared.parallel_transitions": "entered_region region_transitions",
+            "swarmdsl.codegen.shared.swarmros": "bridge_files",
+            "swarmdsl.codegen.shared.wiring": "Remaps Wiring check_wiring member_wiring",
+        },
+    )
+
+__all__ = [
+    "BehaviorNode",
+    "Events",
+    "ParamValue",
+    "Remaps",
+    "UndefinedValueError",
+    "UnknownValueError",
+    "Value",
+    "Wiring",
+    "behavior_nodes",
+    "bridge_files",
+    "bringup_package",
+    "check_wiring",
+    "constant",
+    "default_fields",
+    "default_result",
+    "default_value",
+    "delays",
+    "entered_region",
+    "evaluate",
+    "field_type",
+    "has_node",
+    "member_wiring",
+    "params_by_name",
+    "region_transitions",
+    "result_fields",
+    "sent_types",
+]

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Mapping
 from swarmdsl.base.naming import fresh, snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.constants import Value, constant, params_by_name
-from swarmdsl.codegen.shared.wiring import Remaps, wiring
+from swarmdsl.codegen.shared.wiring import Remaps, member_wiring
 from swarmdsl.ir import Component, Expression, Member, Param, Part, StateMachine, System
 
 
 @dataclass(frozen=True)
-class Given:
+class ParamValue:
     """What the model gives a param of a machine; `value` is None where nothing is known yet."""
 
     param: Param
@@ -30,7 +30,7 @@ class BehaviorNode:
 
     name: str
     machine: StateMachine
-    params: tuple[Given, ...]
+    params: tuple[ParamValue, ...]
     part: str | None = None
     remaps: Remaps = ()
 
@@ -43,7 +43,7 @@ def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
         machine = machines[member.behavior]
         params = _given(machine, member.params, {}, {})
         yield BehaviorNode(snake_case(machine.name), machine, params)
-    wired = wiring(member, system)
+    wired = member_wiring(member, system)
     for part in member.parts:
         component = components[part.component]
         if component.behavior is not None:
@@ -79,7 +79,7 @@ def _given(
     params: tuple[Param, ...],
     values: Mapping[str, Expression],
     around: Mapping[str, Param],
-) -> tuple[Given, ...]:
+) -> tuple[ParamValue, ...]:
     """The params that the machine has, with the values of its owner, else its own.
 
     `values` are those of a part, in which params of the member, `around`, can be meant.
@@ -91,5 +91,5 @@ def _given(
         expression = given.get(param.name) or param.declared
         meant = around if param.name in values else known
         value = constant(expression, meant) if expression is not None else None
-        found.append(Given(param, expression, value))
+        found.append(ParamValue(param, expression, value))
     return tuple(found)

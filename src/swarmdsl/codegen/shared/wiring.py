@@ -43,7 +43,7 @@ class Wiring:
         return tuple((name, topic) for name, topic in made.items() if name != topic)
 
 
-def wiring(member: Member, system: System) -> Wiring:
+def member_wiring(member: Member, system: System) -> Wiring:
     """The wiring of a member."""
     components = {component.name: component for component in system.components}
     ports: dict[Pin, Port] = {(None, port.name): port for port in member.ports}

@@ -10,7 +10,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.codegen.default_values import default_value, result_fields
+from swarmdsl.codegen.shared.default_values import default_value, result_fields
 from swarmdsl.execution.engine import Event, Instance, LoopError, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock

@@ -12,9 +12,9 @@ from copy import deepcopy
 from typing import Any
 
 from swarmdsl import ir
-from swarmdsl.codegen.default_values import default_value, field_type, sent_types
+from swarmdsl.codegen.shared.default_values import default_value, field_type, sent_types
 from swarmdsl.codegen.shared.events import Events, delays
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_transitions
 from swarmdsl.execution.engine import (
     Activity,
     Effect,
@@ -132,7 +132,7 @@ class _Maker:
     def transition(self, transition: ir.Transition, state: ir.State) -> Transition:
         """A transition of a state."""
         events = (e for t in transition.triggers for e in self.events.of_trigger(t, state))
-        there = region_entered(transition, state) is not None
+        there = entered_region(transition, state) is not None
         return Transition(
             tuple(dict.fromkeys(events)),
             () if there else _targets(transition),
@@ -144,7 +144,7 @@ class _Maker:
 
     def inward(self, region: ir.State, around: ir.State) -> Iterable[Transition]:
         """The transitions of a parallel state that its region takes."""
-        for event, guard, transition, number in inward(region, around, self.events):
+        for event, guard, transition, number in region_transitions(region, around, self.events):
             yield Transition(
                 (event,) if event else (),
                 _targets(transition),

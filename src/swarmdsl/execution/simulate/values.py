@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from swarmdsl.base.suggest import suggest
-from swarmdsl.codegen.default_values import default_fields, default_result, result_fields
+from swarmdsl.codegen.shared.default_values import default_fields, default_result, result_fields
 from swarmdsl.execution.simulate.durations import duration
 from swarmdsl.ir import Array, Communication, Field, Message, Primitive, System, Type
 from swarmdsl.syntax.types import FLOATS, INTEGERS

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.default_values import default_result
+from swarmdsl.codegen.shared.default_values import default_result
 from swarmdsl.execution.engine import Event, Instance, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock

@@ -9,10 +9,10 @@ from typing import TypedDict
 
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.driver.pipeline import Result
 from swarmdsl.ir import System
 from swarmdsl.tools.diagram.folding import folded
-from swarmdsl.tools.diagram.graph import Diagram
 from swarmdsl.tools.diagram.svg import svg
 from swarmdsl.tools.diagram.views import diagrams
 

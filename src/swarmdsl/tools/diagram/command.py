@@ -11,10 +11,10 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import suggest
+from swarmdsl.codegen.diagram.graph import KINDS, Diagram
 from swarmdsl.driver import pipeline
 from swarmdsl.driver.config import find_settings
 from swarmdsl.tools.diagram.formats import FORMATS, SUFFIXES
-from swarmdsl.tools.diagram.graph import KINDS, Diagram
 from swarmdsl.tools.diagram.views import diagrams
 
 _MOST_NAMED = 12

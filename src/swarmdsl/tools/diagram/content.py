@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.tools.diagram.graph import Node
+from swarmdsl.codegen.diagram.graph import Node
 from swarmdsl.tools.diagram.measure import LINE_HEIGHTS, SIZES, width, wrapped
 
 PADDING = 10

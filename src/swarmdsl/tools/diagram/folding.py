@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from swarmdsl.base.records import replace
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 
 
 def folded(diagram: Diagram, ids: Collection[str]) -> Diagram:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from swarmdsl.codegen.diagram.mermaid import mermaid
 from swarmdsl.tools.diagram.dot import dot
-from swarmdsl.tools.diagram.mermaid import mermaid
 from swarmdsl.tools.diagram.plantuml import plantuml
 from swarmdsl.tools.diagram.svg import svg
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from typing import Literal
 
 from swarmdsl.base.records import dataclass, replace
+from swarmdsl.codegen.diagram.graph import Node, Port
 from swarmdsl.tools.diagram.content import Block, Text, box_block, header_block
-from swarmdsl.tools.diagram.graph import Node, Port
 from swarmdsl.tools.diagram.measure import LINE_HEIGHTS, width
 
 Direction = Literal["down", "right"]

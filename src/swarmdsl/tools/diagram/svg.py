@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from swarmdsl.base.source import Span
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.tools.diagram.content import Block
-from swarmdsl.tools.diagram.graph import Diagram
 from swarmdsl.tools.diagram.layout import Box, Line, Picture, Pin, lay_out
 from swarmdsl.tools.diagram.measure import SIZES, width
 from swarmdsl.tools.diagram.shapes import PORT, port_text

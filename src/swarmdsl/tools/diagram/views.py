@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 
+from swarmdsl.codegen.diagram.composition import composition
+from swarmdsl.codegen.diagram.graph import KINDS, Diagram, Kind
+from swarmdsl.codegen.diagram.internal import internal
+from swarmdsl.codegen.diagram.statechart import statechart
 from swarmdsl.ir import System
-from swarmdsl.tools.diagram.composition import composition
-from swarmdsl.tools.diagram.graph import KINDS, Diagram, Kind
-from swarmdsl.tools.diagram.internal import internal
-from swarmdsl.tools.diagram.statechart import statechart
 
 
 def diagrams(system: System, kinds: Collection[Kind] = KINDS) -> Iterator[Diagram]:

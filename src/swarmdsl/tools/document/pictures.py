@@ -9,7 +9,7 @@ from markupsafe import Markup
 
 from swarmdsl import ir
 from swarmdsl.base.source import Span
-from swarmdsl.tools.diagram.graph import Diagram
+from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.tools.diagram.layout import lay_out
 from swarmdsl.tools.diagram.svg import draw
 from swarmdsl.tools.diagram.views import diagrams

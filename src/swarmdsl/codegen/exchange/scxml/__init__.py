@@ -11,7 +11,7 @@ from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.ir import StateMachine, System
 
 if TYPE_CHECKING:
-    from swarmdsl.codegen.exchange.xml import Places
+    from swarmdsl.codegen.xml_tree import Places
 
 PROFILES = ("both", "portable", "cpswarm")
 
@@ -29,7 +29,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
     """The files of each machine."""
     # Imported here because other targets use single modules of this package, which need no XML.
     from swarmdsl.codegen.exchange.scxml.portable import portable
-    from swarmdsl.codegen.exchange.xml import document
+    from swarmdsl.codegen.xml_tree import document
 
     for machine in system.machines:
         if options.profile != "cpswarm":
@@ -44,7 +44,7 @@ def _in_dialect(
     machine: StateMachine, system: System, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
     from swarmdsl.codegen.exchange.scxml.cpswarm import cpswarm, file_name
-    from swarmdsl.codegen.exchange.xml import document
+    from swarmdsl.codegen.xml_tree import document
 
     found = Diagnostics()
     places: Places = {}

@@ -27,8 +27,8 @@ from swarmdsl.codegen.exchange.scxml.cpswarm_structure import (
 )
 from swarmdsl.codegen.exchange.scxml.userdata import missing
 from swarmdsl.codegen.exchange.scxml.xml import SCXML, add, add_text, root
-from swarmdsl.codegen.exchange.xml import Places, add_comment
 from swarmdsl.codegen.features import used_features
+from swarmdsl.codegen.xml_tree import Places, add_comment
 from swarmdsl.ir import Activity, Event, Named, Policy, State, StateMachine, System
 
 CPSWARM = "http://my.custom-actions.domain/cpswarm/CUSTOM"

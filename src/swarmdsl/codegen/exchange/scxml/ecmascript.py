@@ -6,8 +6,8 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 
-from swarmdsl.codegen.default_values import default_value
 from swarmdsl.codegen.exchange.scxml.effects import effects_of
+from swarmdsl.codegen.shared.default_values import default_value
 from swarmdsl.ir import (
     Assignment,
     EventData,

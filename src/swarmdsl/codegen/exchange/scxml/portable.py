@@ -17,9 +17,9 @@ from swarmdsl.codegen.exchange.scxml.ecmascript import dialect, first_value, nee
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.codegen.exchange.scxml.xml import PAYLOAD, SCXML, add, root
-from swarmdsl.codegen.exchange.xml import Places, add_comment
 from swarmdsl.codegen.shared.events import Events, delays
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+from swarmdsl.codegen.shared.parallel_transitions import entered_region, region_transitions
+from swarmdsl.codegen.xml_tree import Places, add_comment
 from swarmdsl.ir import (
     Assignment,
     Effect,
@@ -163,7 +163,7 @@ class _StateWriter:
             ]
             # No element: there, an engine would try to do what it does not know.
             add_comment(element, transition.doc)
-            if region_entered(transition, state) is not None:
+            if entered_region(transition, state) is not None:
                 # What it does stands in the region. Here it keeps those after it from being taken.
                 kept = self._add_transition(element, events, transition.guard)
                 self.places[kept] = transition.origin
@@ -181,7 +181,7 @@ class _StateWriter:
         return any(each.exit for each in around)
 
     def _add_inward(self, element: etree._Element, region: State, around: State) -> None:
-        for event, guard, transition, _ in inward(region, around, self.events):
+        for event, guard, transition, _ in region_transitions(region, around, self.events):
             events = [event] if event else []
             added = self._add_transition(element, events, guard, True, transition.target)
             self.places[added] = transition.origin

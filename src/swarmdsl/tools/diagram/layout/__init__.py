@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from math import log, sqrt
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, Port
 from swarmdsl.tools.diagram.content import Block
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node, Port
 from swarmdsl.tools.diagram.layout.compound import Compound
 from swarmdsl.tools.diagram.layout.routing import simplified
 from swarmdsl.tools.diagram.measure import width

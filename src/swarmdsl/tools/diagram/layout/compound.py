@@ -7,8 +7,8 @@ decided before, by which edges point backwards in the outer one. So Sander 1996,
 
 from __future__ import annotations
 
+from swarmdsl.codegen.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.content import Block, label_block
-from swarmdsl.tools.diagram.graph import Diagram, Node
 from swarmdsl.tools.diagram.layout.inside import Inside
 from swarmdsl.tools.diagram.layout.layered import layered
 from swarmdsl.tools.diagram.layout.level import Cell, Link, Placement, Point, Side

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import defaultdict
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram.layout.cycles import backward
 from swarmdsl.tools.diagram.layout.level import Side
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.codegen.diagram.composition import composition
+from swarmdsl.codegen.diagram.graph import Diagram
+from swarmdsl.codegen.diagram.internal import internal
+from swarmdsl.codegen.diagram.mermaid import mermaid
+from swarmdsl.codegen.diagram.statechart import statechart
 from swarmdsl.ir import State, StateMachine, System
-from swarmdsl.tools.diagram.composition import composition
-from swarmdsl.tools.diagram.graph import Diagram
-from swarmdsl.tools.diagram.internal import internal
-from swarmdsl.tools.diagram.mermaid import mermaid
-from swarmdsl.tools.diagram.statechart import statechart
 
 # What Mermaid draws at most, unless somebody has told it otherwise (`maxTextSize`, `maxEdges`).
 _MOST_TEXT, _MOST_EDGES = 50_000, 500
@@ -32,7 +32,7 @@ def pictures(system: System, machines: Sequence[StateMachine]) -> tuple[Picture,
     return tuple(_drawn(system, machines))
 
 
-def insides(system: System, members: Sequence[str]) -> tuple[Picture, ...]:
+def member_pictures(system: System, members: Sequence[str]) -> tuple[Picture, ...]:
     """Some members, each with its parts and what connects them.
 
     What is too large for Mermaid is left out.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from swarmdsl.tools.diagram.graph import Diagram
+from swarmdsl.codegen.diagram.graph import Diagram
 
 # Words that mean something at the start of a line of DOT, Mermaid or PlantUML.
 _RESERVED = """

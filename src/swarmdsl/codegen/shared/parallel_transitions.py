@@ -15,7 +15,7 @@ from swarmdsl.ir import Binary, Expression, Literal, State, StateKind, Transitio
 from swarmdsl.syntax.types import BOOL
 
 
-def region_entered(transition: Transition, state: State) -> State | None:
+def entered_region(transition: Transition, state: State) -> State | None:
     """The region that an internal transition of a parallel state leads into."""
     if state.kind is not StateKind.PARALLEL or not transition.internal:
         return None
@@ -23,7 +23,7 @@ def region_entered(transition: Transition, state: State) -> State | None:
     return next((region for region in state.states if target.startswith(f"{region.id}.")), None)
 
 
-def inward(
+def region_transitions(
     region: State, around: State, events: Events
 ) -> Iterator[tuple[str, Expression | None, Transition, int]]:
     """What such a region takes itself: the event, empty for none, the guard, the transition, which.
@@ -34,7 +34,7 @@ def inward(
     be enabled.
     """
     for index, transition in enumerate(around.transitions):
-        if region_entered(transition, around) is not region:
+        if entered_region(transition, around) is not region:
             continue
         for event in events.of_transition(transition, around):
             # One that is never taken is written too: it comes back when the document is read.

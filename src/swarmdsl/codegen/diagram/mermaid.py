@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
-from swarmdsl.tools.diagram.identifiers import identifiers
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.identifiers import identifiers
 
 _ENTITIES = {
     ord(character): f"#{code};"

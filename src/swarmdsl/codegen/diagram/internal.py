@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from swarmdsl import ir
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node, Port
-from swarmdsl.tools.diagram.labels import param_line, type_name, value_lines
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, Port
+from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
 
 
 def internal(member: ir.Member, components: Mapping[str, ir.Component]) -> Diagram:

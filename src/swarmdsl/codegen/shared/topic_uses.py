@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
-from swarmdsl.codegen.shared.wiring import wiring
+from swarmdsl.codegen.shared.wiring import member_wiring
 from swarmdsl.ir import (
     Component,
     Effect,
@@ -40,7 +40,7 @@ def uses(member: Member, system: System) -> Iterator[Use]:
     for owner in owners:
         if owner.behavior is not None:
             found.update(dict.fromkeys(_of_machine(machines[owner.behavior], system)))
-    wired = wiring(member, system)
+    wired = member_wiring(member, system)
     for (part, _), port in wired.ports.items():
         found.update(dict.fromkeys(_of_port(port, wired.topic(part, port))))
     yield from found

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Iterator
 from typing import Literal
 
 from swarmdsl import ir
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
+from swarmdsl.codegen.diagram.labels import param_line, type_name
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node
-from swarmdsl.tools.diagram.labels import param_line, type_name
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl.base.source import Span
-from swarmdsl.codegen.swarm_printer.reuse import Reuse, Use, find_reuse
-from swarmdsl.ir import State, StateKind, StateMachine
-from swarmdsl.tools.diagram.graph import Diagram, Edge, Node, NodeKind
-from swarmdsl.tools.diagram.labels import (
+from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, NodeKind
+from swarmdsl.codegen.diagram.labels import (
     behaviour_lines,
     internal_transitions,
     param_line,
@@ -16,6 +14,8 @@ from swarmdsl.tools.diagram.labels import (
     value_lines,
     variable_line,
 )
+from swarmdsl.codegen.swarm_printer.reuse import Reuse, Use, find_reuse
+from swarmdsl.ir import State, StateKind, StateMachine
 
 _KINDS: dict[StateKind, NodeKind] = {
     StateKind.SIMPLE: "state",

@@ -1,0 +1,138 @@
+"""Configuration of swarmros, the bridge of CPSwarm's library, for each member.
+
+The bridge forwards what is published on the topics of its `outgoingEvents` to the swarm, and
+publishes what arrives, its `incomingEvents`, on `bridge/events/<suffix>`. Its files are
+libconfig (https://hyperrealm.github.io/libconfig/), its keys those that its `main.cpp` reads.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.naming import incoming_topic, snake_case
+from swarmdsl.codegen.api import OutputFile
+from swarmdsl.codegen.shared.constants import Value, constant
+from swarmdsl.codegen.shared.topic_uses import Use, uses
+from swarmdsl.ir import CommunicationSettings, Member, Message, Named, System
+
+# What the bridge knows an event by: its name and who sent it.
+_HEADER = Named("swarmros", "EventHeader")
+_TECHNOLOGY = "zyre"
+_PARAMETERS = ("ifname", "port")
+_SPECIAL = re.compile(r'["\\\x00-\x1f\x7f]')
+
+Group = dict[str, Value]
+
+
+def bridge_files(system: System, report: Diagnostics) -> Iterator[OutputFile]:
+    """Return one file for each member that sends or receives over the bridge."""
+    used = {member.name: list(uses(member, system)) for member in system.members}
+    bridged = _bridged(system, [use for found in used.values() for use in found])
+    for member in system.members:
+        crossing = [use for use in used[member.name] if _suffix(use) in bridged]
+        crossing = [use for use in crossing if _can_cross(use, system, report)]
+        if crossing or member.communication is not None:
+            text = "\n".join(_file(member, crossing, report)) + "\n"
+            yield OutputFile(f"{snake_case(member.name)}.cfg", text, origin=member.origin)
+
+
+def _bridged(system: System, used: Iterable[Use]) -> set[str]:
+    """The topics of swarm events, and those that somebody hears behind the bridge."""
+    declared = {event.topic for event in system.events if event.swarm}
+    return declared | {_suffix(use) for use in used if use.heard and _suffix(use) != use.topic}
+
+
+def _suffix(use: Use) -> str:
+    """The topic on the sender's side; nothing where what is heard did not cross the bridge."""
+    if not use.heard:
+        return use.topic
+    return use.topic.removeprefix(incoming_topic("", swarm=True))
+
+
+def _can_cross(use: Use, system: System, report: Diagnostics) -> bool:
+    """Whether the bridge takes the message; reported otherwise."""
+    if use.heard and _suffix(use) == use.topic:
+        return False  # a topic of the robot itself
+    message = system.interface(use.type)
+    if not isinstance(message, Message) or any(f.type == _HEADER for f in message.fields):
+        return True
+    report.report(
+        "no-place",
+        use.origin,
+        target="swarmros",
+        what=f"topic `{_suffix(use)}`",
+        notes=(f"`{use.type}` has no field of type `{_HEADER}`, which the bridge reads",),
+        help=f"give its message a field `swarmio : {_HEADER}`",
+    )
+    return False
+
+
+def _file(member: Member, crossing: list[Use], report: Diagnostics) -> Iterator[str]:
+    settings = _settings(member, report)
+    parameters = {name: value for name, value in settings.items() if name in _PARAMETERS}
+    yield from (f"# {line}".rstrip() for line in member.doc.splitlines())
+    yield "endpoint = {"
+    yield from _items(
+        {
+            "name": settings.get("name", member.name),
+            "deviceClass": settings.get("device_class", member.name),
+            "type": _TECHNOLOGY,
+        },
+        "    ",
+    )
+    yield "    parameters = {"
+    yield from _items(parameters, "        ")
+    yield "    }"
+    yield "}"
+    yield "services = {"
+    yield from _list("telemetryTopics", [])
+    sent = {use.topic: str(use.type) for use in crossing if not use.heard}
+    heard = {_suffix(use): str(use.type) for use in crossing if use.heard}
+    yield from _list(
+        "outgoingEvents", [{"message": type_, "source": topic} for topic, type_ in sent.items()]
+    )
+    # The sender names an event as its topic.
+    yield from _list(
+        "incomingEvents",
+        [{"suffix": topic, "message": type_, "name": topic} for topic, type_ in heard.items()],
+    )
+    yield from _list("publishedParameters", [])
+    yield from _list("bridgedParameters", [])
+    yield "}"
+
+
+def _settings(member: Member, report: Diagnostics) -> Group:
+    communication: CommunicationSettings | None = member.communication
+    if communication is None:
+        return {}
+    if communication.technology != _TECHNOLOGY:
+        report.report(
+            "no-place",
+            communication.origin,
+            target="swarmros",
+            what=f"technology `{communication.technology}`",
+            notes=(f"the bridge reaches others by `{_TECHNOLOGY}`, which is written",),
+        )
+    values = {name: constant(value, {}) for name, value in communication.values}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _list(name: str, groups: list[Group]) -> Iterator[str]:
+    yield f"    {name} = ("
+    for number, group in enumerate(groups, 1):
+        yield "        {"
+        yield from _items(group, "            ")
+        yield "        }" + ("," if number < len(groups) else "")
+    yield "    )"
+
+
+def _items(group: Group, indent: str) -> Iterator[str]:
+    for name, value in group.items():
+        yield f"{indent}{name} = {_text(value) if isinstance(value, str) else value}"
+
+
+def _text(text: str) -> str:
+    """A text in quotes, with what cannot stand in it by its number."""
+    return '"' + _SPECIAL.sub(lambda found: f"\\x{ord(found[0]):02x}", text) + '"'
