@@ -1,0 +1,7 @@
+"""Old name of `swarmdsl.codegen`; it will be removed."""
+
+from swarmdsl.base.deprecated_names import moved
+
+__getattr__ = moved(
+    __name__, "swarmdsl.codegen.source_map", "swarmdsl.codegen", {"Placed": "TracedStr"}
+)
