@@ -74,7 +74,7 @@ class Context:
         operation = activity.function.target
         if not isinstance(operation, Operation):
             return self.name(activity.function)
-        assert activity.owner is not None
+        assert isinstance(activity.owner, (Component, Part))
         return self.operations[self.namespace(activity.owner), operation]
 
     def namespace(self, owner: Component | Part) -> str:

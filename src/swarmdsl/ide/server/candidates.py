@@ -95,7 +95,7 @@ class Candidates:
                     return regions(inner)
                 inside = content(inner)
                 return [v for v in vertices(inside) if isinstance(v, FinalState)] if inside else ()
-            case Activity(owner=of), _:
+            case Activity(owner=Component() | Part() | None as of), _:
                 return self._done(path, of)
         kind = NODES.get(ref.kind)
         if ref.kind == "Vertex" and isinstance(around, StateMachine):

@@ -1,8 +1,8 @@
-"""The syntax tree of a .swarm file: one class for each rule of the grammar.
+"""Syntax tree of a .swarm file: one class for each rule of the grammar.
 
-`parse` makes these nodes, `link` fills in what names refer to (`Ref.target`,
-`TypeRef.type`), and from then on nothing changes them. Attributes are called as in
-`grammar/*.tx`, whose files the modules here follow; a test holds the two against each other.
+The parser makes the nodes, the linker sets `Ref.target`, `TypeRef.type`, `NameUse.target` and
+`Activity.owner`; after that nothing changes them. Attributes are named as in `grammar/*.tx`, and
+the modules as its files; `values` has the declarations that expressions refer to.
 """
 
 from swarmdsl.syntax.ast.architecture import (
@@ -11,8 +11,6 @@ from swarmdsl.syntax.ast.architecture import (
     Component,
     Connector,
     Member,
-    Operation,
-    Parameter,
     Part,
     PartValue,
     Port,
@@ -44,7 +42,6 @@ from swarmdsl.syntax.ast.behaviour import (
     TimeTrigger,
     Transition,
     Trigger,
-    Variable,
     Vertex,
 )
 from swarmdsl.syntax.ast.composition import (
@@ -52,7 +49,6 @@ from swarmdsl.syntax.ast.composition import (
     Environment,
     EnvironmentUse,
     Fitness,
-    FitnessInput,
     FitnessUse,
     Multiplicity,
     Objective,
@@ -79,32 +75,38 @@ from swarmdsl.syntax.ast.interfaces import (
     ActionType,
     AliasType,
     Communication,
-    Constant,
-    EnumType,
-    EnumValue,
     Event,
     Field,
     Function,
     FunctionPort,
     MessageType,
-    Param,
+    Operation,
+    Parameter,
     ServiceType,
     StructType,
 )
 from swarmdsl.syntax.ast.nodes import (
-    Call,
     Documented,
-    Expression,
-    ExpressionTree,
-    FieldUse,
-    NameUse,
     Node,
-    OperatorUse,
     Ref,
     TopLevel,
     TypeRef,
-    Value,
     Word,
+)
+from swarmdsl.syntax.ast.values import (
+    Call,
+    Constant,
+    EnumType,
+    EnumValue,
+    Expression,
+    ExpressionTree,
+    FieldUse,
+    FitnessInput,
+    NameUse,
+    OperatorUse,
+    Param,
+    Value,
+    Variable,
 )
 from swarmdsl.syntax.ast.walk import (
     NODES,

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel
-
-if TYPE_CHECKING:
-    from swarmdsl.syntax.ast.behaviour import StateMachine
-    from swarmdsl.syntax.ast.interfaces import Param
-    from swarmdsl.syntax.ast.nodes import Expression, Ref, TypeRef, Word
+from swarmdsl.syntax.ast.behaviour import StateMachine
+from swarmdsl.syntax.ast.interfaces import Operation
+from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
+from swarmdsl.syntax.ast.values import Expression, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -31,23 +29,6 @@ class Component(TopLevel):
     name: Word
     base: Ref[Component] | None
     items: list[Port | Param | Operation | BehaviorUse]
-
-
-@dataclass(slots=True, eq=False)
-class Parameter(Documented):
-    """`in name : Type` of an operation; `direction` is empty where none is written."""
-
-    direction: Literal["in", "out", ""]
-    name: Word
-    type: TypeRef
-
-
-@dataclass(slots=True, eq=False)
-class Operation(Documented):
-    """`operation name(in x : Type, out y : Type)` of a component."""
-
-    name: Word
-    parameters: list[Parameter]
 
 
 @dataclass(slots=True, eq=False)

@@ -2,24 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel
-
-if TYPE_CHECKING:
-    from swarmdsl.syntax.ast.architecture import Component, Operation, Part
-    from swarmdsl.syntax.ast.interfaces import Event, Function, Param
-    from swarmdsl.syntax.ast.nodes import Expression, Ref, TypeRef, Word
-
-
-@dataclass(slots=True, eq=False)
-class Variable(Documented):
-    """`var name : Type = initial`."""
-
-    name: Word
-    type: TypeRef
-    initial: Expression | None
+from swarmdsl.syntax.ast.interfaces import Event, Function, Operation
+from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, TypeRef, Word
+from swarmdsl.syntax.ast.values import Expression, Param, Variable
 
 
 @dataclass(slots=True, eq=False)
@@ -40,14 +26,17 @@ class ResultMapping(Node):
 
 @dataclass(slots=True, eq=False)
 class Activity(Documented):
-    """`do function(...) gives (...)`; `owner` is what is asked for an operation."""
+    """`do function(...) gives (...)`.
+
+    `owner` is the component or part that provides an operation; only the linker sets it.
+    """
 
     function: Ref[Function | Operation]
     goal_callback: Word | None
     arguments: list[Argument]
     result_callback: Word | None
     results: list[ResultMapping]
-    owner: Component | Part | None = field(default=None, init=False, metadata={"elsewhere": True})
+    owner: Documented | None = field(default=None, init=False, metadata={"elsewhere": True})
 
 
 @dataclass(slots=True, eq=False)

@@ -1,16 +1,13 @@
-"""Nodes of composition.tx: swarms, where they are and what makes them good."""
+"""Nodes of composition.tx: swarms, environments, fitness functions, optimizations."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel
-
-if TYPE_CHECKING:
-    from swarmdsl.syntax.ast.architecture import Member
-    from swarmdsl.syntax.ast.interfaces import Param
-    from swarmdsl.syntax.ast.nodes import Expression, Ref, TypeRef, Word
+from swarmdsl.syntax.ast.architecture import Member
+from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel, Word
+from swarmdsl.syntax.ast.values import Expression, FitnessInput, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -50,14 +47,6 @@ class FitnessUse(Documented):
     """`fitness Name` in a swarm."""
 
     fitness: Ref[Fitness]
-
-
-@dataclass(slots=True, eq=False)
-class FitnessInput(Documented):
-    """`in name : Type`, measured in a run."""
-
-    name: Word
-    type: TypeRef
 
 
 @dataclass(slots=True, eq=False)

@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast.architecture import Component, Member
 from swarmdsl.syntax.ast.behaviour import StateMachine
-from swarmdsl.syntax.ast.composition import Environment, Fitness, Swarm
+from swarmdsl.syntax.ast.composition import Environment, Fitness, Optimization, Swarm
 from swarmdsl.syntax.ast.interfaces import (
     ActionType,
     AliasType,
-    Constant,
-    EnumType,
     Event,
     Function,
     MessageType,
     ServiceType,
     StructType,
 )
-from swarmdsl.syntax.ast.nodes import Documented, Node
-
-if TYPE_CHECKING:
-    from swarmdsl.syntax.ast.composition import Optimization
-    from swarmdsl.syntax.ast.nodes import Word
+from swarmdsl.syntax.ast.nodes import Documented, Node, Word
+from swarmdsl.syntax.ast.values import Constant, EnumType
 
 
 @dataclass(slots=True, eq=False)

@@ -1,15 +1,12 @@
-"""Nodes of interfaces.tx: what is exchanged, and what a robot can do."""
+"""Nodes of interfaces.tx: types, interfaces, events, functions, and operations of components."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-from swarmdsl.base.records import dataclass, field
-from swarmdsl.syntax.ast.nodes import Documented, TopLevel
-from swarmdsl.syntax.types import Named
-
-if TYPE_CHECKING:
-    from swarmdsl.syntax.ast.nodes import Expression, TypeRef, Word
+from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.ast.nodes import Documented, TopLevel, TypeRef, Word
+from swarmdsl.syntax.ast.values import Constant, Param
 
 
 @dataclass(slots=True, eq=False)
@@ -26,33 +23,6 @@ class StructType(TopLevel):
 
     name: Word
     fields: list[Field]
-
-
-@dataclass(slots=True, eq=False)
-class EnumValue(Documented):
-    """`NAME` or `NAME = 4`; `value` is as written, or empty."""
-
-    name: Word
-    value: str
-
-
-@dataclass(slots=True, eq=False)
-class EnumType(TopLevel):
-    """`enum Mode : uint8 { ... }`; `type` is None until it is linked."""
-
-    name: Word
-    underlying: TypeRef | None
-    values: list[EnumValue]
-    type: Named | None = field(default=None, init=False)
-
-
-@dataclass(slots=True, eq=False)
-class Constant(TopLevel):
-    """`const NAME : type = value`."""
-
-    name: Word
-    type: TypeRef
-    value: Expression
 
 
 @dataclass(slots=True, eq=False)
@@ -102,15 +72,6 @@ class Event(TopLevel):
 
 
 @dataclass(slots=True, eq=False)
-class Param(Documented):
-    """`param name : Type = default`."""
-
-    name: Word
-    type: TypeRef
-    default: Expression | None
-
-
-@dataclass(slots=True, eq=False)
 class Communication(Documented):
     """`action "name" : Type` or `service "name" : Type` of a function."""
 
@@ -135,3 +96,20 @@ class Function(TopLevel):
     name: Word
     category: Literal["abstraction", "swarm"]
     items: list[Communication | FunctionPort | Param]
+
+
+@dataclass(slots=True, eq=False)
+class Parameter(Documented):
+    """`in name : Type` of an operation; `direction` is empty where none is written."""
+
+    direction: Literal["in", "out", ""]
+    name: Word
+    type: TypeRef
+
+
+@dataclass(slots=True, eq=False)
+class Operation(Documented):
+    """`operation name(in x : Type, out y : Type)` of a component."""
+
+    name: Word
+    parameters: list[Parameter]

@@ -10,10 +10,18 @@ from types import UnionType
 from typing import Any, TypeVar, get_args
 
 from swarmdsl.base.records import annotations_of, fields_of
-from swarmdsl.syntax.ast import architecture, behaviour, composition, file, interfaces, nodes
+from swarmdsl.syntax.ast import (
+    architecture,
+    behaviour,
+    composition,
+    file,
+    interfaces,
+    nodes,
+    values,
+)
 from swarmdsl.syntax.ast.nodes import Documented, Node, Ref, TopLevel
 
-_MODULES = (nodes, interfaces, architecture, behaviour, composition, file)
+_MODULES = (nodes, values, interfaces, behaviour, architecture, composition, file)
 
 _ABSTRACT = (Node, Documented, TopLevel)
 NODES: dict[str, type[Node]] = {

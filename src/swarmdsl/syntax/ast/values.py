@@ -1,0 +1,112 @@
+"""Expressions, and the declarations whose values they name: constants, params, variables, ..."""
+
+from __future__ import annotations
+
+from swarmdsl.base.records import dataclass, field
+from swarmdsl.syntax.ast.nodes import Documented, Node, TopLevel, TypeRef, Word
+from swarmdsl.syntax.types import Named
+
+
+@dataclass(slots=True, eq=False)
+class Expression(Node):
+    """An expression of the small language in expression.lark; `tree` is None if it is wrong."""
+
+    tree: ExpressionTree | None = field(default=None, init=False)
+
+
+@dataclass(slots=True, eq=False)
+class Value(Node):
+    """A number, text or truth value; `unit` as written, or empty."""
+
+    value: bool | int | float | str
+    unit: str = ""
+
+
+@dataclass(slots=True, eq=False)
+class NameUse(Node):
+    """The name of a value, or of an enum before one of its; `event` is a name of its own."""
+
+    name: str
+    target: Variable | Param | Constant | EnumType | FitnessInput | None = field(
+        default=None, init=False, metadata={"elsewhere": True}
+    )
+
+
+@dataclass(slots=True, eq=False)
+class FieldUse(Node):
+    """`base.name`."""
+
+    base: ExpressionTree
+    name: Word
+
+
+@dataclass(slots=True, eq=False)
+class Call(Node):
+    """`function(arguments)`, the function a built-in one."""
+
+    function: Word
+    arguments: tuple[ExpressionTree, ...]
+
+
+@dataclass(slots=True, eq=False)
+class OperatorUse(Node):
+    """An operator with one or two operands."""
+
+    operator: Word
+    operands: tuple[ExpressionTree, ...]
+
+
+ExpressionTree = Value | NameUse | FieldUse | Call | OperatorUse
+
+
+@dataclass(slots=True, eq=False)
+class Constant(TopLevel):
+    """`const NAME : type = value`."""
+
+    name: Word
+    type: TypeRef
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class EnumValue(Documented):
+    """`NAME` or `NAME = 4`; `value` is as written, or empty."""
+
+    name: Word
+    value: str
+
+
+@dataclass(slots=True, eq=False)
+class EnumType(TopLevel):
+    """`enum Mode : uint8 { ... }`; `type` is None until it is linked."""
+
+    name: Word
+    underlying: TypeRef | None
+    values: list[EnumValue]
+    type: Named | None = field(default=None, init=False)
+
+
+@dataclass(slots=True, eq=False)
+class Param(Documented):
+    """`param name : Type = default`."""
+
+    name: Word
+    type: TypeRef
+    default: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Variable(Documented):
+    """`var name : Type = initial`."""
+
+    name: Word
+    type: TypeRef
+    initial: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class FitnessInput(Documented):
+    """`in name : Type`, measured in a run."""
+
+    name: Word
+    type: TypeRef
