@@ -27,7 +27,7 @@ Parser = Callable[[Sequence[Path], Sequence[str]], object]
 def _swarmdsl() -> Parser:
     from swarmdsl.base.diagnostics.collector import Diagnostics
     from swarmdsl.base.source import Source
-    from swarmdsl.syntax.parser.parse import parse
+    from swarmdsl.syntax.parse import parse
 
     def run(files: Sequence[Path], texts: Sequence[str]) -> object:
         report = Diagnostics()

@@ -10,7 +10,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 ROOT = Path(__file__).resolve().parents[2]
 BENCHMARKS = ROOT / "benchmarks"

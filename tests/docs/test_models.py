@@ -14,7 +14,7 @@ from swarmdsl.codegen import registry
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
 from swarmdsl.syntax.ast import NODES, Node, walk
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 from .pages import LANGUAGE, Block, blocks
 

@@ -13,7 +13,7 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.cli import run
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.merge.outline import Item, outline
 from swarmdsl.tools.merge.three_way import merge
 

@@ -13,9 +13,9 @@ from textx import TextXSyntaxError, metamodel_from_str
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word
 from swarmdsl.syntax.parser.expressions import TooDeepError
+from swarmdsl.syntax.parser.failure_finder import mismatch
 from swarmdsl.syntax.parser.lexer import Cutter
 from swarmdsl.syntax.pegen.actions import Target
-from swarmdsl.syntax.pegen.failure_finder import mismatch
 from swarmdsl.syntax.pegen.grammar import Grammar, UnsupportedError, read
 from swarmdsl.syntax.pegen.module import definitions
 

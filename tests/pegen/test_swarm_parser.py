@@ -18,8 +18,8 @@ from swarmdsl.base.source import Source
 from swarmdsl.syntax.ast import Expression, walk
 from swarmdsl.syntax.parser import generated
 from swarmdsl.syntax.parser.expressions import TooDeepError
+from swarmdsl.syntax.parser.failure_finder import mismatch
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
-from swarmdsl.syntax.pegen.failure_finder import mismatch
 from swarmdsl.syntax.pegen.grammar import Use, inside, read
 from swarmdsl.syntax.pegen.swarm_actions import PATH, TARGET, parser
 
@@ -224,7 +224,7 @@ def test_documentation_is_given_to_what_begins_there() -> None:
 
 def test_it_needs_neither_textx_nor_lark() -> None:
     code = (
-        "import sys; import swarmdsl.syntax.parser.parse; "
+        "import sys; import swarmdsl.syntax.parse; "
         "assert not {'textx', 'arpeggio', 'lark'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)

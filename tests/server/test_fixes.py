@@ -8,7 +8,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.ide.server.fixes import fix
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 MODEL = """\
 /// Robots that count.

@@ -14,7 +14,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.ide.server.completion import completions
 from swarmdsl.ide.server.models import Models
 from swarmdsl.ide.server.snippets import snippets, table
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 from .test_completion import state, work
 

@@ -19,7 +19,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.syntax.ast import Node
 from swarmdsl.syntax.ast.walk import children
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 FOLDER = Path(__file__).parent / "broken"
 IMPORTED = "types.swarm"

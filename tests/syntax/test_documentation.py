@@ -27,7 +27,7 @@ from swarmdsl.syntax.ast import (
     walk,
 )
 from swarmdsl.syntax.formatter import formatted
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 from ..docs.pages import blocks
 

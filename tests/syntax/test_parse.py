@@ -21,7 +21,7 @@ from swarmdsl.syntax.ast import (
     Word,
     walk,
 )
-from swarmdsl.syntax.parser.parse import Parsed, parse
+from swarmdsl.syntax.parse import Parsed, parse
 
 
 def parsed(text: str) -> tuple[Parsed, list[str]]:

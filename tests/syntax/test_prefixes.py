@@ -17,7 +17,7 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Declaration, Model, Node, Vertex, walk
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "examples").rglob("*.swarm"))
 _TOKEN = re.compile(r'//[^\n]*|"[^"\n]*"|\w+|->|=>|[^\w\s]')

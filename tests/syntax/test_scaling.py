@@ -13,8 +13,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.diagnostics.render import FORMATS, render
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
+from swarmdsl.syntax.parse import parse
 from swarmdsl.syntax.parser import generated
-from swarmdsl.syntax.parser.parse import parse
 from swarmdsl.syntax.recovery.prescan import scan
 from swarmdsl.syntax.recovery.statements import statement_at
 

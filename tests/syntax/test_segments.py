@@ -9,9 +9,9 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.syntax.ast import walk
+from swarmdsl.syntax.parse import parse, parse_piece
 from swarmdsl.syntax.parser import generated
-from swarmdsl.syntax.parser.parse import parse, parse_piece
-from swarmdsl.syntax.parser.segments import split
+from swarmdsl.syntax.segments import split
 
 from .test_mutations import MODELS, MUTATIONS
 

@@ -25,7 +25,7 @@ from swarmdsl.syntax.ast import (
     Model,
     Optimization,
 )
-from swarmdsl.syntax.parser.parse import Parsed, parse
+from swarmdsl.syntax.parse import Parsed, parse
 
 if TYPE_CHECKING:
     from swarmdsl.project.rosidl.package_folder import InterfacePath

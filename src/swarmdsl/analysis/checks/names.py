@@ -45,7 +45,7 @@ from swarmdsl.syntax.ast import (
     Word,
     by_class,
 )
-from swarmdsl.syntax.recovery.patched_text import stands_for_nothing
+from swarmdsl.syntax.parser.patched_text import stands_for_nothing
 from swarmdsl.syntax.types import PRIMITIVES
 
 Named = (

@@ -33,7 +33,7 @@ from swarmdsl.driver.workspace.relink import link_outside
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project, expanded, load
 from swarmdsl.syntax.ast import Component, Member, StateMachine
-from swarmdsl.syntax.parser.parse import no_garbage_collection
+from swarmdsl.syntax.parse import no_garbage_collection
 
 _DEFAULTS = Settings()
 _NO_TEXTS: Mapping[Path, str] = {}

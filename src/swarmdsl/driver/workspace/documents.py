@@ -15,8 +15,8 @@ from swarmdsl.project.loader import File, Reader, parsed_interface, report_empty
 from swarmdsl.project.read_source import decoded, read_bytes, without_control_characters
 from swarmdsl.project.rosidl.package_folder import InterfacePath
 from swarmdsl.syntax.ast import Model
-from swarmdsl.syntax.parser.parse import Parsed, parse_piece
-from swarmdsl.syntax.parser.segments import is_closed, joined, split
+from swarmdsl.syntax.parse import Parsed, parse_piece
+from swarmdsl.syntax.segments import is_closed, joined, split
 
 
 class Sheet:

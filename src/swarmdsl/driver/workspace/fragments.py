@@ -11,8 +11,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Level
 from swarmdsl.base.source import Source
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Component, Declaration, Member, Optimization, StateMachine
-from swarmdsl.syntax.parser.parse import Parsed
-from swarmdsl.syntax.parser.segments import is_closed
+from swarmdsl.syntax.parse import Parsed
+from swarmdsl.syntax.segments import is_closed
 
 ReportingParser = Callable[[Source, Diagnostics], Parsed]
 Levels = Mapping[str, Level]

@@ -29,7 +29,7 @@ from swarmdsl.ide.server.type_names import type_names
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Member, Node, ResultMapping, TopLevel, TypeRef, nodes_of
 from swarmdsl.syntax.parser import generated
-from swarmdsl.syntax.pegen.failure_finder import mismatch
+from swarmdsl.syntax.parser.failure_finder import mismatch
 from swarmdsl.syntax.recovery.statements import statement_at
 
 _WORD = re.compile(r"\w*")

@@ -27,7 +27,7 @@ from swarmdsl.ide.server.features import FEATURES, answer, requests
 from swarmdsl.ide.server.io import Incoming, Outgoing
 from swarmdsl.ide.server.message_queue import Conversation
 from swarmdsl.ide.server.session import Session
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 # Between two looks at whether the process that started the server is still there, in seconds.
 _LOOK = 5.0

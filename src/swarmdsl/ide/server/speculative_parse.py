@@ -18,7 +18,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Model, StateMachine, TopLevel
-from swarmdsl.syntax.parser.parse import parse_flawless, parse_piece
+from swarmdsl.syntax.parse import parse_flawless, parse_piece
 
 WORD = "completed_here_"
 COMMENT_OR_TEXT = re.compile(

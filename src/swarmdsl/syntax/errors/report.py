@@ -12,7 +12,7 @@ from swarmdsl.syntax.errors.delayed import noticed_late
 from swarmdsl.syntax.errors.foreign_statements import habit
 from swarmdsl.syntax.errors.foreign_tokens import foreign
 from swarmdsl.syntax.errors.hints import advice, keywords, strange_character
-from swarmdsl.syntax.recovery.patched_text import Draft
+from swarmdsl.syntax.parser.patched_text import Draft
 
 # How terminals of the grammar are called when one of them is missing.
 TERMINALS = {

@@ -9,7 +9,7 @@ from swarmdsl.syntax.formatter.layout import laid_out
 from swarmdsl.syntax.formatter.lines import as_text
 from swarmdsl.syntax.formatter.marks import mark
 from swarmdsl.syntax.formatter.tokens import Tokens, essence, tokenize
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 
 
 class MeaningChangedError(Exception):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.syntax.pegen import failure_finder
+from swarmdsl.syntax.parser import failure_finder
 from swarmdsl.syntax.pegen.grammar import (
     Assign,
     Choice,

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from typing import NamedTuple
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.parser.doc_comments import end_before, starts_line
+from swarmdsl.syntax.parser.patched_text import Repair
 
 CLOSER = {"{": "}", "(": ")", "[": "]"}
 _OPENER = {closer: opener for opener, closer in CLOSER.items()}
@@ -23,14 +23,6 @@ _TOKEN = re.compile(r"^[ \t]*(?=[^\s})\]])|->|[{}()\[\]]", re.MULTILINE)
 _BRACKET = re.compile(r"[{}()\[\]]")
 _CLOSERS = re.compile(r"[})\]\s]*")
 _INDENTATION = re.compile(r"[ \t]*")
-
-
-class Repair(NamedTuple):
-    """What to put in the place of a piece of text so that what is around it can be read."""
-
-    start: int
-    end: int
-    text: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,8 +17,9 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.errors.hints import strange_character
 from swarmdsl.syntax.errors.substitutions import likeness
 from swarmdsl.syntax.parser.doc_comments import Comments, DocComment
+from swarmdsl.syntax.parser.patched_text import Repair
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
-from swarmdsl.syntax.recovery.brackets import CLOSER, Repair, find_faults, report_fault
+from swarmdsl.syntax.recovery.brackets import CLOSER, find_faults, report_fault
 
 _TOKEN = re.compile(
     r'(?P<text>"(?:[^"\\\n]|\\[^\n])*")'

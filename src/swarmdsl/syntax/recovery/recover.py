@@ -20,8 +20,8 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Model, Vertex, Word, walk
 from swarmdsl.syntax.errors.report import Failure, report_syntax_error
+from swarmdsl.syntax.parser.patched_text import Draft, untouched
 from swarmdsl.syntax.parser.result import Parsed
-from swarmdsl.syntax.recovery.patched_text import Draft, untouched
 from swarmdsl.syntax.recovery.prescan import Scan
 from swarmdsl.syntax.recovery.repair import mend
 from swarmdsl.syntax.recovery.statements import Statement, statement_at, statements_at

@@ -15,8 +15,7 @@ from swarmdsl.base.records import dataclass, replace
 from swarmdsl.syntax.errors.hints import keywords
 from swarmdsl.syntax.errors.report import TOKEN, Failure
 from swarmdsl.syntax.errors.substitutions import replacement
-from swarmdsl.syntax.recovery.brackets import Repair
-from swarmdsl.syntax.recovery.patched_text import Draft
+from swarmdsl.syntax.parser.patched_text import Draft, Repair
 from swarmdsl.syntax.recovery.statements import Statement
 
 _PLACEHOLDERS = {

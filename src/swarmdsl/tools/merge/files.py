@@ -9,7 +9,7 @@ from pathlib import Path
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.read_source import decoded, read_bytes
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.merge.outline import Item, outline
 from swarmdsl.tools.merge.three_way import merge
 

@@ -28,7 +28,7 @@ from swarmdsl.syntax.ast import (
     Vertex,
 )
 from swarmdsl.syntax.formatter import formatted
-from swarmdsl.syntax.parser.parse import parse
+from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.refactor import insertion_point
 from swarmdsl.tools.refactor.names import Named, all_named, find, similar
 from swarmdsl.tools.scaffold.names import given

@@ -45,8 +45,8 @@ def parse_piece(source: Source, report: Diagnostics) -> Parsed:
 
 
 def _parse_in_pieces(source: Source, report: Diagnostics) -> Parsed:
-    from swarmdsl.syntax.parser.segments import joined, split
-    from swarmdsl.syntax.recovery.patched_text import Draft
+    from swarmdsl.syntax.parser.patched_text import Draft
+    from swarmdsl.syntax.segments import joined, split
 
     parts = []
     for start, end in split(source.text):
@@ -120,7 +120,7 @@ def _parse_text(source: Source) -> Model | Failure:
 def _failure(source: Source) -> Failure | None:
     """Where a text departs from the grammar, if it does."""
     from swarmdsl.syntax.errors.report import TERMINALS, Failure
-    from swarmdsl.syntax.pegen.failure_finder import mismatch
+    from swarmdsl.syntax.parser.failure_finder import mismatch
 
     found = mismatch(generated.PROGRAM, generated.TERMINALS, generated.BLANK, source.text)
     if found is None:

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any, NamedTuple
 
 from swarmdsl.base.records import dataclass, fields_of
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Expression, Node, Ref, Word
 
-if TYPE_CHECKING:
-    from swarmdsl.syntax.recovery.brackets import Repair
-
 _WORD = r"[A-Za-z_][A-Za-z0-9_]*"
+
+
+class Repair(NamedTuple):
+    """What to put in the place of a piece of text so that what is around it can be read."""
+
+    start: int
+    end: int
+    text: str
 
 
 @dataclass(frozen=True, slots=True)
