@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing, assignable, constant, fits
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.project.loader import Project

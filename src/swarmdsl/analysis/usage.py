@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.analysis.interfaces import only_retells, own_interfaces
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.action_messages import ways_made

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
-from swarmdsl.analysis.resolve.types import written_type
+from swarmdsl.analysis.resolve.type_names import written_type
 from swarmdsl.base import resources
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace

@@ -8,9 +8,9 @@ from typing import Any, cast
 
 from swarmdsl import ir
 from swarmdsl.analysis.event_topics import heard_on
-from swarmdsl.analysis.interfaces import Interfaces
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types import Typing
 from swarmdsl.analysis.types.enum_values import underlying
 from swarmdsl.base.diagnostics.collector import Diagnostics

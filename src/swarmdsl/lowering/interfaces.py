@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl import ir
 from swarmdsl.analysis.event_topics import topic_of
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.types.enum_values import numbers, underlying
 from swarmdsl.lowering.context import Context, operations_of
 from swarmdsl.lowering.expressions import lower_expression, lower_optional

@@ -7,7 +7,7 @@ from functools import partial
 
 from swarmdsl import ir
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.machines import regions, vertices
+from swarmdsl.analysis.resolve.states import regions, vertices
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import replace
 from swarmdsl.lowering.context import Context

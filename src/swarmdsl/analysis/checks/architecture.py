@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from swarmdsl.analysis.checks.connectors import check_connectors
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.interfaces import check_graph_name
+from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.inheritance import MOST_BASES, all_items
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
 from swarmdsl.analysis.types import fits
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.graphs import cycles, leaves_first
@@ -167,7 +167,7 @@ def _check_part(part: Part, context: Context) -> None:
         param = params.get(str(value.name))
         if param is None:
             context.report_unknown_param(
-                value.name, f"{bare(kind_of(component))} `{component.name}`", params
+                value.name, f"{kind_name(component)} `{component.name}`", params
             )
         else:
             context.expect(value.value, param.type.type, context.typing)

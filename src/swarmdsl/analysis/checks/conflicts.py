@@ -8,7 +8,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import condition_of, possible
 from swarmdsl.analysis.checks.state_hierarchy import Outline
 from swarmdsl.analysis.event_topics import awaited, heard_on
-from swarmdsl.analysis.resolve.machines import regions
+from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.analysis.checks.state_hierarchy import Outline
-from swarmdsl.analysis.interfaces import Interfaces
-from swarmdsl.analysis.resolve.scopes import kind_of
+from swarmdsl.analysis.node_kinds import kind_of
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing, constant, fits, is_number
 from swarmdsl.analysis.usage import UsesOfAll
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label

@@ -21,7 +21,7 @@ from swarmdsl.analysis.checks.accesses import (
 )
 from swarmdsl.analysis.checks.livelock import at_once
 from swarmdsl.analysis.checks.state_hierarchy import Outline
-from swarmdsl.analysis.resolve.machines import regions
+from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from swarmdsl.analysis.checks.accesses import Read, stores_of
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.control_flow import Point, Ways
-from swarmdsl.analysis.resolve.machines import all_resolved
+from swarmdsl.analysis.resolve.states import all_resolved
 from swarmdsl.analysis.types.enum_values import numbers
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import heard_on, topic_of
-from swarmdsl.analysis.resolve.scopes import kind_of
+from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
 from swarmdsl.base.graphs import cycles
 from swarmdsl.project.loader import File

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import certain
-from swarmdsl.analysis.resolve.machines import regions
+from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.graphs import cycles
 from swarmdsl.syntax.ast import (

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
-from swarmdsl.analysis.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.node_kinds import kind_name, kind_of
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
-from swarmdsl.analysis.resolve.machines import regions, vertices
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.states import regions, vertices
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
@@ -169,7 +169,7 @@ def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagn
         report.report(
             "duplicate-name",
             name.span,
-            kind=bare(kind),
+            kind=kind_name(named),
             name=name,
             related=(Label(first.name.span, f"first declared here{also}"),),
         )

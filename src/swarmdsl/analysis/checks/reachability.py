@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.state_hierarchy import Outline
-from swarmdsl.analysis.resolve.machines import all_resolved, regions, vertices
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.resolve.states import all_resolved, regions, vertices
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Branch,
@@ -55,7 +55,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
         context.report.report(
             "unreachable-state",
             state.name.span,
-            kind=bare(kind_of(state)),
+            kind=kind_name(state),
             name=state.name,
             related=tuple(
                 Label(trigger.span, "so this never happens")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import condition_of, negated, possible
 from swarmdsl.analysis.checks.state_hierarchy import Outline
-from swarmdsl.analysis.resolve.machines import all_resolved, content, regions
+from swarmdsl.analysis.resolve.states import all_resolved, content, regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Activity,

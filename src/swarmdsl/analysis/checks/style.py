@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.names import RESERVED_EVENTS
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.syntax.ast import (
     AliasType,
@@ -87,7 +87,7 @@ def check_style(declaration: Declaration, context: Context) -> None:
                 context.report.report(
                     "naming-style",
                     name.span,
-                    kind=bare(kind_of(node)),
+                    kind=kind_name(node),
                     name=name,
                     style=written,
                     help=f"write `{better(name)}`",

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import get_args
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.resolve.machines import regions, vertices
+from swarmdsl.analysis.resolve.states import regions, vertices
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.graphs import cycles, leaves_first
 from swarmdsl.base.records import dataclass

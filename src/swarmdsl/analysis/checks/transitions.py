@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.state_hierarchy import Outline
 from swarmdsl.analysis.checks.structure import completes
-from swarmdsl.analysis.resolve.machines import regions
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.syntax.ast import (
     Activity,
@@ -78,7 +78,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
     context.report.report(
         "done-without-content",
         trigger.span,
-        owner=f"{bare(kind_of(of))} `{of.name}`",
+        owner=f"{kind_name(of)} `{of.name}`",
         related=tuple(related),
         help=help_,
     )

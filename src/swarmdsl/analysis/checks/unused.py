@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Constant,
@@ -55,7 +55,7 @@ def check_unused(project: Project, context: Context) -> None:
             context.report.report(
                 "unused-declaration",
                 each.name.span,
-                kind=bare(kind_of(each)),
+                kind=kind_name(each),
                 name=each.name,
                 help="remove it, or use it",
             )

@@ -10,14 +10,20 @@ from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from typing import Any, TypeVar
 
+from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.machines import link_machine
-from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, bare, kind_of, report_unresolved
+from swarmdsl.analysis.resolve.report_unresolved import (
+    report_activity,
+    report_missing_inside,
+    report_part_as_port,
+    report_reference,
+)
+from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, Unresolved
 from swarmdsl.analysis.resolve.types import TypeLinker
 from swarmdsl.analysis.resolve.values import ValueLinker, Values
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.suggest import closest
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
     Activity,
@@ -28,13 +34,11 @@ from swarmdsl.syntax.ast import (
     EnumType,
     Environment,
     Event,
-    EventTrigger,
     Expression,
     Fitness,
     FitnessInput,
     Function,
     Member,
-    Node,
     Operation,
     Optimization,
     Param,
@@ -42,7 +46,6 @@ from swarmdsl.syntax.ast import (
     Part,
     Port,
     PortRef,
-    Ref,
     Role,
     State,
     StateMachine,
@@ -60,12 +63,6 @@ _TOP_LEVEL: dict[str, type[Any]] = {
 }
 
 K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
-# What the ends of an activity are called elsewhere: in SMACH, in YASMIN, in behaviour trees.
-_OTHER_OUTCOMES = {
-    **dict.fromkeys(("success", "succeed", "finished", "complete", "completed", "ok"), "succeeded"),
-    **dict.fromkeys(("failure", "failed", "fail", "error"), "aborted"),
-    **dict.fromkeys(("preempt", "cancel", "canceled", "cancelled"), "preempted"),
-}
 
 
 def link(project: Project, report: Diagnostics) -> None:
@@ -144,22 +141,11 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
     for node, ref in references(owner):
         kind = _TOP_LEVEL.get(ref.kind)
         if kind is not None and not isinstance(node, Activity):
-            instead: dict[type[Node], str] = {}
-            if isinstance(node, Part):
-                instead[StateMachine] = f"write `behavior {ref.name}`"
-            if isinstance(node, EventTrigger) and _reports_outcome(ref, scope, report):
-                continue
-            ref.target = scope.resolve(ref.name, ref.span, kind, report, instead=instead)
-
-
-def _reports_outcome(ref: Ref[Event], scope: FileScope, report: Diagnostics) -> bool:
-    """Report what other tools call an end of an activity."""
-    outcome = _OTHER_OUTCOMES.get(ref.name.lower())
-    if outcome is None or ref.name in scope.lost or scope.find(ref.name):
-        return False
-    help_ = f"where an activity ends so, write `{outcome}`"
-    report.report("unresolved-name", ref.span, kind="event", name=ref.name, help=help_)
-    return True
+            found = scope.resolve(ref.name, kind)
+            if isinstance(found, Unresolved):
+                report_reference(found, ref, node, kind, scope, report)
+            else:
+                ref.target = found
 
 
 def _params_of_members(
@@ -225,9 +211,11 @@ def _link_activities(
         places = parts.get(before, [])
         node.owner = places[0] if places else scope.one(before, Component)
         if node.owner is None:
-            part = closest(before, parts)
-            similar = [f"{part}.{name}"] if part else []
-            ref.target = scope.resolve(ref.name, ref.span, Function, report, built_in=similar)
+            found = scope.resolve(ref.name, Function)
+            if isinstance(found, Unresolved):
+                report_activity(found, ref, parts, scope, report)
+            else:
+                ref.target = found
             continue
         components = [part.component.target for part in places]
         if isinstance(node.owner, Component):
@@ -237,9 +225,9 @@ def _link_activities(
             continue  # the component of a part is unknown
         operations = _common_operations(known)
         ref.target = operations.get(name)
-        if ref.target is None and name not in scope.lost:
-            kind = f"operation of {bare(kind_of(node.owner))} `{before}`"
-            report_unresolved(kind, name, ref.span, operations, None, report)
+        if ref.target is None:
+            kind = f"operation of {kind_name(node.owner)} `{before}`"
+            report_missing_inside(kind, name, ref.span, operations, scope, report)
 
 
 def _common_operations(components: list[Component]) -> dict[str, Operation]:
@@ -263,17 +251,16 @@ def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostic
             continue
         item.role.target = roles.get(item.role.name)
         if item.role.target is None:
-            if item.role.name not in scope.lost:
-                kind = f"role in swarm `{swarm.name}`"
-                report_unresolved(kind, item.role.name, item.role.span, roles, None, report)
+            kind = f"role in swarm `{swarm.name}`"
+            report_missing_inside(kind, item.role.name, item.role.span, roles, scope, report)
             continue
         member = item.role.target.member.target
         if isinstance(item, ParamRange) and member is not None:
             params = params_of(member)
             item.param.target = params.get(item.param.name)
-            if item.param.target is None and item.param.name not in scope.lost:
+            if item.param.target is None:
                 kind = f"param of member `{member.name}`"
-                report_unresolved(kind, item.param.name, item.param.span, params, None, report)
+                report_missing_inside(kind, item.param.name, item.param.span, params, scope, report)
 
 
 # ---- members
@@ -302,24 +289,22 @@ def _link_port(
         end.port.target = own.get(name)
         kind = f"port of member `{member.name}`"
         if end.port.target is None and name in parts:
-            help_ = f"it is a part: name one of its ports, `{name}.port`"
-            report.report("unresolved-name", end.port.span, kind=kind, name=name, help=help_)
-        elif end.port.target is None and name not in scope.lost:
-            report_unresolved(kind, name, end.port.span, own, None, report)
+            report_part_as_port(end.port, kind, report)
+        elif end.port.target is None:
+            report_missing_inside(kind, name, end.port.span, own, scope, report)
         return
     end.part.target = parts.get(end.part.name)
     if end.part.target is None:
-        if end.part.name not in scope.lost:
-            report_unresolved("part", end.part.name, end.part.span, parts, None, report)
+        report_missing_inside("part", end.part.name, end.part.span, parts, scope, report)
         return
     component = end.part.target.component.target
     if component is None:
         return
     known = ports(component)
     end.port.target = known.get(end.port.name)
-    if end.port.target is None and end.port.name not in scope.lost:
-        kind = f"port of {bare(kind_of(component))} `{component.name}`"
-        report_unresolved(kind, end.port.name, end.port.span, known, None, report)
+    if end.port.target is None:
+        kind = f"port of {kind_name(component)} `{component.name}`"
+        report_missing_inside(kind, end.port.name, end.port.span, known, scope, report)
 
 
 def _ports(owner: Component | Member) -> dict[str, Port]:

@@ -8,14 +8,19 @@ come last: no transition can lead there, which is reported later.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
-from swarmdsl.analysis.resolve.scopes import FileScope, report_unresolved
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label
+from swarmdsl.analysis.resolve.report_unresolved import (
+    report_ambiguous_state,
+    report_missing_inside,
+    report_missing_state,
+    report_state_outside,
+)
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import Level, content, regions, states_by_name, vertices
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
-    Branch,
     Choice,
     Container,
     DoneTrigger,
@@ -29,55 +34,14 @@ from swarmdsl.syntax.ast import (
     StateMachine,
     Transition,
     Vertex,
-    nodes_of,
-    walk,
 )
 
 V = TypeVar("V", bound=Vertex | Region)
-
-# States by name; several of one name are in different regions.
-Level = Mapping[str, Sequence[Vertex]]
 
 
 def link_machine(machine: StateMachine, scope: FileScope, report: Diagnostics) -> None:
     """Resolve the references between the states of a machine."""
     _link_container(machine, (), (), scope, report)
-
-
-def vertices(container: Container) -> list[Vertex]:
-    """The states directly inside a container."""
-    kinds = (State, FinalState, Choice, Parallel, History)
-    return [item for item in container.items if isinstance(item, kinds)]
-
-
-def regions(state: Vertex | Container) -> list[Region]:
-    """The regions of a parallel state."""
-    if not isinstance(state, Parallel):
-        return []
-    return [item for item in state.items if isinstance(item, Region)]
-
-
-def content(state: Vertex | Container) -> Container | None:
-    """The container whose final states complete a state: itself or the machine it reuses."""
-    if isinstance(state, State) and state.machine is not None:
-        return state.machine.target
-    return state if isinstance(state, (State, StateMachine, Region)) else None
-
-
-def all_resolved(container: Container) -> bool:
-    """Whether each transition and initial state inside leads to a state that was found."""
-    arrows: Iterable[Initial | Transition | Branch | History]
-    if isinstance(container, StateMachine):
-        arrows = [
-            *nodes_of(container, Initial),
-            *nodes_of(container, Transition),
-            *nodes_of(container, Branch),
-            *nodes_of(container, History),
-        ]
-    else:
-        kinds = (Initial, Transition, Branch, History)
-        arrows = (node for node in walk(container) if isinstance(node, kinds))
-    return all(arrow.target is None or arrow.target.target is not None for arrow in arrows)
 
 
 def _link_container(
@@ -92,7 +56,7 @@ def _link_container(
     `outer` are the states around it, the nearest first, `beside` those in all regions of
     the parallel states around it.
     """
-    inside = _by_name(container)
+    inside = states_by_name(container)
     for item in container.items:
         match item:
             case Transition():
@@ -116,20 +80,6 @@ def _link_container(
                 _link_container(item, (inside, *outer), beside, scope, report)
 
 
-def _by_name(state: Vertex | Container) -> Level:
-    """The states inside another, regions not counted as a level of their own."""
-    containers: list[Container] = [*regions(state)]
-    if isinstance(state, (State, StateMachine, Region)):
-        containers.append(state)
-    names: dict[str, list[Vertex]] = {}
-    for container in containers:
-        # The second of two in one container is reported there.
-        first = {str(inside.name): inside for inside in reversed(vertices(container))}
-        for name, inside in first.items():
-            names.setdefault(name, []).append(inside)
-    return names
-
-
 def _link_inside(
     arrow: Initial | History,
     container: Container,
@@ -144,15 +94,7 @@ def _link_inside(
     if outside is None or name in inside:
         _link_vertex(arrow.target, (inside,), scope, report)
         return
-    what = "`initial` names" if isinstance(arrow, Initial) else f"history `{arrow.name}` leads to"
-    report.report(
-        "unresolved-name",
-        arrow.target.span,
-        kind=f"state in `{container.name}`",
-        name=name,
-        related=(Label(outside.name.span, "this one is not inside"),),
-        help=f"{what} a state inside `{container.name}`",
-    )
+    report_state_outside(arrow, container, outside, report)
 
 
 def _link_vertex(
@@ -163,60 +105,18 @@ def _link_vertex(
     start = ref.span.start
     for name in ref.name.split("."):
         if outer is not None:
-            levels = (_by_name(outer),)
+            levels = (states_by_name(outer),)
         found = next((level[name] for level in levels if name in level), ())
         if len(found) != 1:
             at = Span(ref.span.source, start, start + len(name))
             if found:
-                _report_ambiguous(name, at, found, report)
-            elif name not in scope.lost:
-                _report_missing_state(name, at, outer, levels, report)
+                report_ambiguous_state(name, at, found, report)
+            else:
+                report_missing_state(name, at, outer, levels, scope, report)
             return
         outer = found[0]
         start += len(name) + 1
     ref.target = outer
-
-
-def _report_ambiguous(name: str, at: Span, found: Sequence[Vertex], report: Diagnostics) -> None:
-    report.report(
-        "ambiguous-name",
-        at,
-        name=name,
-        related=tuple(Label(state.name.span, "declared here") for state in found),
-        help="give the states in the regions different names",
-    )
-
-
-def _report_missing_state(
-    name: str, at: Span, outer: Vertex | None, levels: tuple[Level, ...], report: Diagnostics
-) -> None:
-    """Report a name that no state in sight has; `outer` is the state it should be in."""
-    kind = "state" if outer is None else f"state in `{outer.name}`"
-    if not report.wants_hint("unresolved-name"):
-        report.report("unresolved-name", at, kind=kind, name=name)
-        return
-    states = [state for level in levels for found in level.values() for state in found]
-    ways = (_way_to(name, state) for state in states)
-    way = next((way for way in ways if way), [])
-    if way:
-        report.report(
-            "unresolved-name",
-            at,
-            kind="state",
-            name=name,
-            related=(Label(way[-1].name.span, "declared here, inside another state"),),
-            help=f"write `{'.'.join(state.name for state in way)}`",
-        )
-        return
-    report_unresolved(kind, name, at, [str(state.name) for state in states], None, report)
-
-
-def _way_to(name: str, state: Vertex) -> list[Vertex]:
-    """The states from one down to another inside it; none if there is none of that name."""
-    if state.name == name:
-        return [state]
-    ways = (_way_to(name, inside) for found in _by_name(state).values() for inside in found)
-    return next(([state, *way] for way in ways if way), [])
 
 
 def _link_done(
@@ -238,6 +138,6 @@ def _link_among(
     ref: Ref[V], kind: str, candidates: list[V], scope: FileScope, report: Diagnostics
 ) -> None:
     ref.target = next((node for node in candidates if node.name == ref.name), None)
-    if ref.target is None and ref.name not in scope.lost:
+    if ref.target is None:
         names = [str(node.name) for node in candidates]
-        report_unresolved(kind, ref.name, ref.span, names, None, report)
+        report_missing_inside(kind, ref.name, ref.span, names, scope, report)

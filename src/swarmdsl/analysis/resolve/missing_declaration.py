@@ -58,7 +58,7 @@ _LINES: dict[type[Node], str] = {
 }
 
 
-def missing_import(name: str, kinds: tuple[type[Node], ...], project: Project) -> str | None:
+def suggest_import(name: str, kinds: tuple[type[Node], ...], project: Project) -> str | None:
     """The line that imports what a library that comes with swarmdsl declares by this name.
 
     Libraries that declare the same cannot be used together: it is the one that the project
@@ -80,7 +80,7 @@ def _root(package: str) -> str:
     return package.partition(".")[0]
 
 
-def missing_line(name: str, kinds: tuple[type[Node], ...]) -> str | None:
+def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
     """The declaration to add so that a name means something of one of these kinds, in words.
 
     None where nobody can say: of a fitness or an enum the name alone tells too little.

@@ -6,9 +6,8 @@ compared with one. Of arithmetic there are many that would do.
 
 from __future__ import annotations
 
-from swarmdsl.analysis.interfaces import Interfaces
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.scopes import FileScope
-from swarmdsl.analysis.types.fitting import is_float, is_number
 from swarmdsl.syntax.ast import (
     ActionType,
     Activity,
@@ -36,13 +35,23 @@ from swarmdsl.syntax.ast import (
     Variable,
     nodes_of,
 )
-from swarmdsl.syntax.types import BOOL, DURATION, STRING, Array, Named, Primitive, Type
+from swarmdsl.syntax.types import (
+    BOOL,
+    DURATION,
+    FLOATS,
+    INTEGERS,
+    STRING,
+    Array,
+    Named,
+    Primitive,
+    Type,
+)
 
 _COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 _LOGIC = ("and", "or", "not")
 
 
-def way_to_declare(
+def suggest_variable(
     use: NameUse, within: Expression, owner: TopLevel, scope: FileScope
 ) -> str | None:
     """What to write where, so that a name in an expression means something, in words."""
@@ -75,8 +84,10 @@ def way_to_declare(
 
 def _initial(type_: Type) -> str:
     """What a variable begins with, where the type has a value that stands for nothing."""
-    if is_number(type_):
-        return " = 0.0" if is_float(type_) else " = 0"
+    if isinstance(type_, Primitive) and type_.name in FLOATS:
+        return " = 0.0"
+    if isinstance(type_, Primitive) and type_.name in (*INTEGERS, "byte", "char"):
+        return " = 0"
     if type_ == BOOL:
         return " = false"
     return ' = ""' if type_ == STRING else ""

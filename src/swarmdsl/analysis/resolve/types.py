@@ -1,12 +1,20 @@
-"""Names of types to types."""
+"""Resolve the names of types."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 
-from swarmdsl.analysis.resolve.scopes import FileScope
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.analysis.resolve.report_unresolved import report_type
+from swarmdsl.analysis.resolve.scopes import FileScope, Unresolved
+from swarmdsl.analysis.resolve.type_names import (
+    array_of,
+    bound_of,
+    brackets_of,
+    interface_name,
+    is_size,
+    written_element,
+)
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -18,7 +26,7 @@ from swarmdsl.syntax.ast import (
     StructType,
     TypeRef,
 )
-from swarmdsl.syntax.types import PRIMITIVES, Array, Named, Primitive, Type
+from swarmdsl.syntax.types import Array, Type
 
 _TYPES: tuple[type[Interface], ...] = (
     StructType,
@@ -28,54 +36,6 @@ _TYPES: tuple[type[Interface], ...] = (
     ServiceType,
     ActionType,
 )
-_PRIMITIVES = {name: Primitive(name) for name in PRIMITIVES}
-# What other languages call some types.
-_OTHER_NAMES = {
-    "int": "int32",
-    "integer": "int32",
-    "uint": "uint32",
-    "float": "float64",
-    "double": "float64",
-    "number": "float64",
-    "boolean": "bool",
-    "str": "string",
-}
-
-# No message has room for more elements or characters than such a number counts.
-_MOST_DIGITS = 9
-_BRACKETS = re.compile(r"\[\s*(<=?)?\s*([^\]\s]*)\s*\]")
-
-
-def interface_name(file: File, name: str) -> Named:
-    """The full name of an interface declared in a file."""
-    package, _, last = name.rpartition("/")
-    return Named(package or file.package.replace(".", "_"), last)
-
-
-def written_type(ref: TypeRef) -> Type | None:
-    """The type that stands there in full, None for a name that must be looked up."""
-    element = _written_element(ref)
-    return _in_array(element, ref) if element is not None and ref.array else element
-
-
-def _written_element(ref: TypeRef) -> Type | None:
-    if ref.name in _PRIMITIVES:
-        return Primitive(ref.name, int(_bound(ref))) if ref.bound else _PRIMITIVES[ref.name]
-    package, slash, name = ref.name.partition("/")
-    return Named(package, name) if slash else None
-
-
-def _in_array(element: Type, ref: TypeRef) -> Array:
-    ((bounded, size),) = _BRACKETS.findall(ref.array)
-    return Array(element, int(size) if size else None, bool(bounded))
-
-
-def _bound(ref: TypeRef) -> str:
-    return ref.bound.strip("<= \t\n")
-
-
-def _is_size(number: str) -> bool:
-    return number.isdigit() and len(number) <= _MOST_DIGITS and int(number) > 0
 
 
 class TypeLinker:
@@ -121,58 +81,22 @@ class TypeLinker:
         """What the name of a type means; None when it means nothing, which is reported."""
         if ref.bound and not self._check_bound(ref):
             return None
-        written = _written_element(ref)
+        written = written_element(ref)
         if written is not None:
             return written
-        if ref.name in _OTHER_NAMES and not scope.find(ref.name):
-            self._report.report(
-                "unresolved-name",
-                ref.span,
-                kind="type",
-                name=ref.name,
-                help=f"write `{_OTHER_NAMES[ref.name]}`",
-            )
+        found = scope.resolve(ref.name, _TYPES)
+        if isinstance(found, Unresolved):
+            report_type(found, ref, _TYPES, scope, self._report)
             return None
-        package, _, name = ref.name.rpartition(".")
-        if package and "." not in package and package not in scope.packages and scope.complete:
-            self._report.report(
-                "unresolved-name",
-                ref.span,
-                kind="type",
-                name=ref.name,
-                help=f"write `{package}/{name}` for an interface of ROS",
-            )
-            return None
-        if self._reports_package(ref, scope):
-            return None
-        found = scope.resolve(ref.name, ref.span, _TYPES, self._report, built_in=PRIMITIVES)
-        if found is None or isinstance(found, AliasType):
+        if isinstance(found, AliasType):
             return found
         return interface_name(self._homes[found], found.name)
-
-    def _reports_package(self, ref: TypeRef, scope: FileScope) -> bool:
-        """Report the name of an interface that ROS comes with, without its package."""
-        name = ref.name
-        if name.lower() in PRIMITIVES or name in scope.lost or scope.find(name):
-            return False
-        if not self._report.wants_hint("unresolved-name"):
-            return False
-        if any(declared.name == name for declared in self._homes):
-            return False
-        # Reading these takes a while, and most models are right.
-        from swarmdsl.project.rosidl import standard
-
-        meant = [f"{each}/{name}" for each in standard.packages() if name in standard.names(each)]
-        if meant:
-            help_ = f"write {listed(meant)}"
-            self._report.report("unresolved-name", ref.span, kind="type", name=name, help=help_)
-        return bool(meant)
 
     def _in_array(self, element: Type | None, ref: TypeRef) -> Type | None:
         """The type of a reference whose name, without the brackets behind it, means `element`."""
         if element is None or not ref.array:
             return element
-        brackets = _BRACKETS.findall(ref.array)
+        brackets = brackets_of(ref)
         if isinstance(element, Array) or len(brackets) > 1:
             self._report.report("nested-array", ref.span, help="put the inner array into a struct")
             return element
@@ -180,7 +104,7 @@ class TypeLinker:
         fault = ""
         if bounded == "<" or (bounded and not size):
             fault = "such a bound"
-        elif size and not _is_size(size):
+        elif size and not is_size(size):
             fault = f"{size} elements"
         if fault:
             # Imported here because it is all advice, which most models do without.
@@ -190,16 +114,16 @@ class TypeLinker:
                 "impossible-array", ref.span, what="an array", size=fault, help=SIZES
             )
             return None
-        return _in_array(element, ref)
+        return array_of(element, ref)
 
     def _check_bound(self, ref: TypeRef) -> bool:
         """Report a bound that no text has; return whether there is none such."""
         if ref.name not in ("string", "wstring"):
             what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
         elif not ref.bound.startswith("<="):
-            what, size, help_ = "a text", "such a bound", f"write `{ref.name}<={_bound(ref)}`"
-        elif not _is_size(_bound(ref)):
-            what, size = "a text", f"at most {_bound(ref)} characters"
+            what, size, help_ = "a text", "such a bound", f"write `{ref.name}<={bound_of(ref)}`"
+        elif not is_size(bound_of(ref)):
+            what, size = "a text", f"at most {bound_of(ref)} characters"
             help_ = f"write `{ref.name}` for a text of any length"
         else:
             return True

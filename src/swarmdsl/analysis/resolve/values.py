@@ -8,8 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from swarmdsl.analysis.resolve.report_unresolved import (
+    dotted,
+    report_type_as_value,
+    report_value,
+    resolve_or_report,
+)
 from swarmdsl.analysis.resolve.scopes import FileScope
-from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import (
@@ -35,8 +41,6 @@ Values = Mapping[str, Variable | Param | FitnessInput]
 # Names that mean nothing, each with the fields that are asked of it.
 Missing = list[tuple[NameUse, list[FieldUse]]]
 
-# What other languages call a value that is not there.
-_NOTHING = ("null", "none", "nil", "undefined")
 _DECLARED: tuple[type[Constant | EnumType | AliasType], ...] = (Constant, EnumType, AliasType)
 
 
@@ -58,7 +62,7 @@ class ValueLinker:
                 unknown += [(base, fields, node) for base, fields in missing]
         # What is said of a name depends on what those beside it mean.
         for base, fields, node in unknown:
-            self._report_unknown(base, fields, node, owner, values)
+            report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)
 
     def _linked(
         self, tree: ExpressionTree, owner: TopLevel, values: Values, missing: Missing
@@ -90,7 +94,7 @@ class ValueLinker:
             base.target = values[base.name]
         elif base.name != "event":
             names = [base.name]
-            names += [f"{base.name}.{_words(fields[: n + 1])}" for n in range(len(fields))]
+            names += [dotted(base.name, fields[: n + 1]) for n in range(len(fields))]
             length = next((n for n, name in enumerate(names) if self._means_value(name)), None)
             if length is None:
                 missing.append((base, fields))
@@ -110,58 +114,11 @@ class ValueLinker:
 
     def _declared(self, name: str, at: Span) -> Constant | EnumType | None:
         """The constant or enum that a name means; None if it is not one, which is reported."""
-        found = self.scope.resolve(name, at, _DECLARED, self.report)
+        found = resolve_or_report(self.scope, name, at, _DECLARED, self.report)
         if not isinstance(found, AliasType):
             return found
         type_ = found.type.type
         enum = self.enums.get(type_) if isinstance(type_, Named) else None
         if enum is None and type_ is not None:
-            self.report.report(
-                "wrong-kind", at, name=name, actual=f"the type `{type_}`", expected="a value"
-            )
+            report_type_as_value(name, at, type_, self.report)
         return enum
-
-    def _report_unknown(
-        self,
-        base: NameUse,
-        fields: list[FieldUse],
-        within: Expression,
-        owner: TopLevel,
-        values: Values,
-    ) -> None:
-        """Report a name that means no value: of a package, what is looked for in it."""
-        name, at = base.name, base.span
-        for count, field in enumerate(fields):
-            package = f"{base.name}.{_words(fields[:count])}".rstrip(".")
-            if package in self.scope.packages:
-                name, at = f"{package}.{field.name}", field.span
-        enums = self.scope.names(EnumType) if self.report.wants_hint("unresolved-name") else ()
-        meant = [
-            f"{known}.{name}"
-            for known in enums
-            if (enum := self.scope.one(known, EnumType)) is not None
-            and any(value.name == name for value in enum.values)
-        ]
-        if meant and name not in self.scope.lost and not self.scope.find(name):
-            help_ = f"write {listed(meant)}"
-            self.report.report("unresolved-name", at, kind="value", name=name, help=help_)
-        elif name.lower() in _NOTHING and not self.scope.find(name):
-            help_ = 'a value is always there: compare with one that stands for nothing, 0 or ""'
-            self.report.report("unresolved-name", at, kind="value", name=name, help=help_)
-        else:
-            # Models that are right do not wait for it.
-            from swarmdsl.analysis.resolve.missing_variable import way_to_declare
-
-            self.scope.resolve(
-                name,
-                at,
-                _DECLARED,
-                self.report,
-                built_in=[*values, "true", "false"],
-                # With something behind it, it may as well be a package.
-                way=None if fields else lambda: way_to_declare(base, within, owner, self.scope),
-            )
-
-
-def _words(fields: list[FieldUse]) -> str:
-    return ".".join(str(field.name) for field in fields)

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf
 
-from swarmdsl.analysis.interfaces import Interfaces
-from swarmdsl.analysis.resolve.scopes import report_unresolved
+from swarmdsl.analysis.resolve.interfaces import Interfaces
+from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
 from swarmdsl.analysis.types.fitting import fits, is_number, is_text, range_of
 from swarmdsl.analysis.types.operators import Application
@@ -174,9 +174,7 @@ class Typing:
     def _enum_value(self, enum: EnumType, name: Word) -> Type | None:
         known = self.folding.numbers(enum)
         if str(name) not in known:
-            report_unresolved(
-                f"value of enum `{enum.name}`", name, name.span, known, None, self.report
-            )
+            report_missing(f"value of enum `{enum.name}`", name, name.span, known, self.report)
             return None
         return enum.type
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from swarmdsl.analysis.resolve.scopes import report_unresolved
+from swarmdsl.analysis.resolve.report_unresolved import report_missing
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, is_text
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.base.records import dataclass
@@ -36,8 +36,8 @@ class Application:
         function, types = str(call.function), self.types
         count = _FUNCTIONS.get(function)
         if count is None:
-            report_unresolved(
-                "built-in function", function, call.function.span, _FUNCTIONS, None, self.report
+            report_missing(
+                "built-in function", function, call.function.span, _FUNCTIONS, self.report
             )
             return None
         enough = len(types) >= count if function in ("min", "max") else len(types) == count

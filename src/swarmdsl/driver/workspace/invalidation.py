@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator
 
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source
 from swarmdsl.driver.workspace.documents import Sheet

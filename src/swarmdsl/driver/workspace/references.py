@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from swarmdsl.analysis.node_kinds import KINDS
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.scopes import KINDS, FileScope, Scopes
+from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace

@@ -143,7 +143,7 @@ class _WatchedScope(FileScope):
     def __init__(self, file: File, scopes: Scopes, seen: Seen) -> None:
         super().__init__(file, scopes)
         self._seen = seen
-        self.lost = _Lost(self.lost, seen)
+        self.skipped_names = _Lost(self.skipped_names, seen)
 
     def find(self, name: str) -> list[tuple[str, Declaration]]:
         """All declarations `name` could mean, the nearest only, each with its package."""

@@ -9,7 +9,7 @@ import re
 from collections import Counter
 from pathlib import Path
 
-from swarmdsl.analysis.resolve.scopes import KINDS, kind_of
+from swarmdsl.analysis.node_kinds import KINDS, kind_of
 from swarmdsl.base.diagnostics.collector import Severity
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.analysis.resolve.inheritance import all_items
-from swarmdsl.analysis.resolve.machines import content, regions, vertices
 from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.fields import fields_of
 from swarmdsl.ide.server.speculative_parse import WORD

@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
-from swarmdsl.analysis.resolve.scopes import FileScope, Scopes, bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
+from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
@@ -180,7 +181,7 @@ class _Place:
 def _completion(node: Node, text: str | None = None, word: str = "") -> Completion:
     """A name, with what it is and of which type."""
     type_ = getattr(node, "type", None)
-    detail = bare(kind_of(node))
+    detail = kind_name(node)
     if isinstance(type_, TypeRef):
         detail += f" : {type_.span.text}"
     return Completion(word or str(node.name), detail, node, text)  # type: ignore[attr-defined]

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from swarmdsl.analysis.interfaces import Interfaces
 from swarmdsl.analysis.resolve.inheritance import all_items
+from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing
 from swarmdsl.base.records import dataclass
 from swarmdsl.ide.server.speculative_parse import WORD

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import occurrence_at
@@ -44,7 +44,7 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
 
 def described(node: Node) -> str:
     """How something is declared, what it is, and its documentation, as Markdown."""
-    parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([bare(kind_of(node)), *_more(node)])]
+    parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([kind_name(node), *_more(node)])]
     if isinstance(node, Documented) and node.doc:
         parts.append(node.doc)
     return "\n\n".join(parts)

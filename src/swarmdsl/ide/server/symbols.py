@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.analysis.resolve.scopes import KINDS, bare, kind_of
+from swarmdsl.analysis.node_kinds import KINDS, kind_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
@@ -60,4 +60,4 @@ def symbols_of(node: Node) -> Iterator[Symbol]:
         yield Symbol(f"optimize {node.swarm.name}", type(node), "", span, name, inside)
     else:
         name = node.name.span.absolute  # type: ignore[attr-defined]
-        yield Symbol(name.text, type(node), bare(kind_of(node)), span, name, inside)
+        yield Symbol(name.text, type(node), kind_name(node), span, name, inside)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from swarmdsl.analysis.resolve.linker import link
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span

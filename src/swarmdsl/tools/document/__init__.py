@@ -11,8 +11,8 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from swarmdsl import ir
-from swarmdsl.analysis.interfaces import only_retells, own_interfaces
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.usage import used_declarations
 from swarmdsl.lowering import lower
 from swarmdsl.project.loader import File, Project

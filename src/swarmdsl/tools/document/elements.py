@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from swarmdsl.analysis.resolve.scopes import KINDS, bare
+from swarmdsl.analysis.node_kinds import KINDS, kind_name
 from swarmdsl.base import resources
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
@@ -126,7 +126,7 @@ def _kind(node: Node) -> str:
             return kind
         case Event(swarm=True):
             return "swarm event"
-    return bare(KINDS[type(node)])
+    return kind_name(node)
 
 
 def _named(node: Node) -> Iterator[tuple[Node, str]]:

@@ -7,7 +7,7 @@ from bisect import bisect_left
 from collections.abc import Iterator
 
 from swarmdsl.analysis.resolve.scopes import Scopes
-from swarmdsl.analysis.resolve.types import interface_name
+from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import occurrences
 from swarmdsl.project.loader import File, Project

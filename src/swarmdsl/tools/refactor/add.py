@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from swarmdsl.analysis.resolve.scopes import kind_of
+from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Level, Severity
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.base.rewriting import Change, Layout, rewritten

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from swarmdsl.analysis.resolve.scopes import KINDS, kind_of
+from swarmdsl.analysis.node_kinds import KINDS, kind_of
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import closest

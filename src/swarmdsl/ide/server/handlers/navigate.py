@@ -7,7 +7,7 @@ from typing import Any
 
 from lsprotocol import types as lsp
 
-from swarmdsl.analysis.resolve.scopes import bare, kind_of
+from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
@@ -86,7 +86,7 @@ def _as_item(session: Session, node: Node) -> lsp.CallHierarchyItem | None:
     return lsp.CallHierarchyItem(
         name=name.text,
         kind=SYMBOL_KINDS.get(type(node), lsp.SymbolKind.Object),
-        detail=bare(kind_of(node)),
+        detail=kind_name(node),
         uri=location.uri,
         range=whole.range,
         selection_range=location.range,

@@ -1,0 +1,99 @@
+"""Hints for names that are not resolved.
+
+Only a model with mistakes imports this module.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from swarmdsl.analysis.resolve.scopes import FileScope
+from swarmdsl.analysis.resolve.states import states_by_name
+from swarmdsl.base.diagnostics.collector import Diagnostics, listed
+from swarmdsl.project.loader import File
+from swarmdsl.syntax.ast import EnumType, ImportLibrary, Vertex
+from swarmdsl.syntax.types import PRIMITIVES
+
+# Names of the outcomes of an activity in SMACH, YASMIN and behaviour trees.
+_OTHER_OUTCOMES = {
+    **dict.fromkeys(("success", "succeed", "finished", "complete", "completed", "ok"), "succeeded"),
+    **dict.fromkeys(("failure", "failed", "fail", "error"), "aborted"),
+    **dict.fromkeys(("preempt", "cancel", "canceled", "cancelled"), "preempted"),
+}
+# Names of types in other languages.
+_OTHER_TYPES = {
+    "int": "int32",
+    "integer": "int32",
+    "uint": "uint32",
+    "float": "float64",
+    "double": "float64",
+    "number": "float64",
+    "boolean": "bool",
+    "str": "string",
+}
+# Names of an absent value in other languages.
+_NULL = ("null", "none", "nil", "undefined")
+
+
+def other_outcome(name: str) -> str | None:
+    """Return the outcome that other tools call by this name: `aborted` for `failure`."""
+    return _OTHER_OUTCOMES.get(name.lower())
+
+
+def import_path(other: File, name: str, scope: FileScope) -> str:
+    """Path of an import statement for a declaration of another file: a package or a file."""
+    for file in scope.project.files:
+        for statement, target in file.imports:
+            if target is other and isinstance(statement, ImportLibrary):
+                return f"{statement.name.rpartition('.')[0]}.{name}"
+    if other.library:
+        return f"{other.package}.{name}"
+    path = os.path.relpath(other.source.name, Path(scope.file.source.name).parent)
+    return f'"{Path(path).as_posix()}"'
+
+
+def type_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
+    """Hint for a type of another language or of ROS."""
+    if name in _OTHER_TYPES:
+        return f"write `{_OTHER_TYPES[name]}`"
+    package, _, last = name.rpartition(".")
+    unknown = package and "." not in package and package not in scope.packages
+    if unknown and scope.imports_resolved:
+        return f"write `{package}/{last}` for an interface of ROS"
+    if name.lower() in PRIMITIVES or name in scope.skipped_names:
+        return None
+    if not report.wants_hint("unresolved-name"):
+        return None
+    if any(declared.name == name for _, declared in scope.project.declarations()):
+        return None
+    # Slow to read, and correct models do not need it.
+    from swarmdsl.project.rosidl import standard
+
+    meant = [f"{each}/{name}" for each in standard.packages() if name in standard.names(each)]
+    return f"write {listed(meant)}" if meant else None
+
+
+def value_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
+    """Hint for a value of an enum without its enum, and for an absent value."""
+    enums = scope.names(EnumType) if report.wants_hint("unresolved-name") else ()
+    meant = [
+        f"{known}.{name}"
+        for known in enums
+        if (enum := scope.one(known, EnumType)) is not None
+        and any(value.name == name for value in enum.values)
+    ]
+    if meant and name not in scope.skipped_names:
+        return f"write {listed(meant)}"
+    if name.lower() in _NULL:
+        return 'a value is always there: compare with one that stands for nothing, 0 or ""'
+    return None
+
+
+def path_to_state(name: str, state: Vertex) -> list[Vertex]:
+    """States from one down to a state of this name inside it; empty if there is none."""
+    if state.name == name:
+        return [state]
+    inside = (inner for found in states_by_name(state).values() for inner in found)
+    paths = (path_to_state(name, inner) for inner in inside)
+    return next(([state, *path] for path in paths if path), [])

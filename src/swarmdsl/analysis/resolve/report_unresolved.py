@@ -1,0 +1,390 @@
+"""Diagnostics of names that are not resolved, with hints.
+
+The linkers bind names and pass on what they could not bind. Hints are computed here, so that
+a correct model does not pay for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TypeVar
+
+from swarmdsl.analysis.node_kinds import kind_of
+from swarmdsl.analysis.resolve.scopes import Ambiguous, FileScope, Missing, Unresolved, WrongKind
+from swarmdsl.analysis.resolve.states import Level
+from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.source import Span
+from swarmdsl.base.suggest import closest
+from swarmdsl.syntax.ast import (
+    Constant,
+    Container,
+    Declaration,
+    EventTrigger,
+    Expression,
+    FieldUse,
+    Function,
+    History,
+    Initial,
+    NameUse,
+    Node,
+    Operation,
+    Part,
+    Port,
+    Ref,
+    StateMachine,
+    TopLevel,
+    TypeRef,
+    Vertex,
+)
+from swarmdsl.syntax.types import PRIMITIVES, Type
+
+D = TypeVar("D", bound=Declaration)
+Kinds = tuple[type[Node], ...]
+Hint = Callable[[], str | None]
+
+
+def resolve_or_report(
+    scope: FileScope,
+    name: str,
+    at: Span,
+    kinds: type[D] | tuple[type[D], ...],
+    report: Diagnostics,
+    *,
+    built_in: Iterable[str] = (),
+) -> D | None:
+    """Return the declaration that a name means; report a failure and return None.
+
+    `built_in` are names without a declaration that may be meant.
+    """
+    found = scope.resolve(name, kinds)
+    if not isinstance(found, Unresolved):
+        return found
+    several = kinds if isinstance(kinds, tuple) else (kinds,)
+    _report_declaration(found, name, at, several, scope, report, built_in=built_in)
+    return None
+
+
+def report_missing(
+    kind: str,
+    name: str,
+    at: Span,
+    candidates: Iterable[str],
+    report: Diagnostics,
+    *,
+    nodes: Mapping[str, Declaration] | None = None,
+    hint: Hint | None = None,
+) -> None:
+    """Report a missing name and suggest the most similar candidate.
+
+    `nodes` are the declarations of candidates. `hint` is used if no candidate is similar.
+    """
+    close = closest(name, candidates) if report.wants_hint("unresolved-name") else None
+    similar = nodes.get(close) if close and nodes else None
+    other = hint() if hint is not None and not close else None
+    report.report(
+        "unresolved-name",
+        at,
+        kind=kind,
+        name=name,
+        related=(Label(similar.name.span, "this has a similar name"),) if similar else (),
+        help=f"did you mean `{close}`?" if close else other,
+    )
+
+
+def report_missing_inside(
+    kind: str, name: str, at: Span, candidates: Iterable[str], scope: FileScope, report: Diagnostics
+) -> None:
+    """Report a missing name inside a declaration, unless skipped text may declare it."""
+    if name not in scope.skipped_names:
+        report_missing(kind, name, at, candidates, report)
+
+
+# ---- declarations
+
+
+def report_reference(
+    found: Unresolved,
+    ref: Ref[D],
+    owner: Node,
+    kind: type[D],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Report a reference from `owner` to a declaration of a kind."""
+    name = ref.name
+    if isinstance(owner, EventTrigger) and isinstance(found, Missing):
+        from swarmdsl.analysis.resolve.hints import other_outcome
+
+        outcome = other_outcome(name)
+        if outcome is not None and name not in scope.skipped_names:
+            help_ = f"where an activity ends so, write `{outcome}`"
+            report.report("unresolved-name", ref.span, kind="event", name=name, help=help_)
+            return
+    instead = None
+    if isinstance(owner, Part) and isinstance(found, WrongKind):
+        instead = f"write `behavior {name}`" if type(found.node) is StateMachine else None
+    _report_declaration(found, name, ref.span, (kind,), scope, report, instead=instead)
+
+
+def report_activity(
+    found: Unresolved,
+    ref: Ref[Function | Operation],
+    parts: Iterable[str],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Report an activity that is neither a function nor an operation of a part."""
+    before, _, name = ref.name.rpartition(".")
+    part = closest(before, parts)
+    similar = [f"{part}.{name}"] if part else []
+    _report_declaration(found, ref.name, ref.span, (Function,), scope, report, built_in=similar)
+
+
+def _report_declaration(
+    found: Unresolved,
+    name: str,
+    at: Span,
+    kinds: Kinds,
+    scope: FileScope,
+    report: Diagnostics,
+    *,
+    built_in: Iterable[str] = (),
+    instead: str | None = None,
+    hint: Hint | None = None,
+) -> None:
+    """Report a name that means no declaration of these kinds.
+
+    `instead` is the help for a declaration of another kind, `hint` that for a missing one.
+    """
+    match found:
+        case Ambiguous(candidates=candidates):
+            report.report(
+                "ambiguous-name",
+                at,
+                name=name,
+                related=_declared_here(candidates.values()),
+                help=f"write {listed([f'{package}.{name}' for package in candidates])}",
+            )
+        case WrongKind(node=node) if not _may_be_skipped(name, scope):
+            report.report(
+                "wrong-kind",
+                at,
+                name=name,
+                actual=kind_of(node),
+                expected=_kind_of_any(kinds),
+                related=_declared_here([node]),
+                help=instead,
+            )
+        case Missing() if scope.imports_resolved and not _may_be_skipped(name, scope):
+            _report_missing_declaration(name, at, kinds, built_in, scope, report, hint)
+
+
+def _report_missing_declaration(
+    name: str,
+    at: Span,
+    kinds: Kinds,
+    built_in: Iterable[str],
+    scope: FileScope,
+    report: Diagnostics,
+    hint: Hint | None,
+) -> None:
+    kind = _kind_of_any(kinds).split(" ", 1)[1]
+    if not report.wants_hint("unresolved-name"):
+        report.report("unresolved-name", at, kind=kind, name=name)
+        return
+    elsewhere = next(
+        (
+            (file, node)
+            for file, node in scope.project.declarations()
+            if node.name == name and isinstance(node, kinds)
+        ),
+        None,
+    )
+    if elsewhere is not None:
+        from swarmdsl.analysis.resolve.hints import import_path
+
+        file, node = elsewhere
+        report.report(
+            "unresolved-name",
+            at,
+            kind=kind,
+            name=name,
+            related=(Label(node.name.span, "declared in a file that is not imported"),),
+            help=f"add `import {import_path(file, name, scope)}`",
+        )
+        return
+    names = scope.visible()
+    candidates = [key for key, node in names.items() if isinstance(node, kinds)]
+    package, _, _ = name.rpartition(".")
+    if package in scope.packages:
+        candidates = [f"{package}.{key}" for key in candidates if scope.find(f"{package}.{key}")]
+        names = {key: scope.find(key)[0][1] for key in candidates}
+    if package:
+        report_missing(kind, name, at, [*built_in, *candidates], report, nodes=names)
+        return
+    from swarmdsl.analysis.resolve.missing_declaration import suggest_declaration, suggest_import
+
+    line = suggest_import(name, kinds, scope.project)
+    if line is not None:
+        report.report("unresolved-name", at, kind=kind, name=name, help=f"add `{line}`")
+        return
+
+    def declaration() -> str | None:
+        return suggest_declaration(name, kinds) or (hint() if hint is not None else None)
+
+    report_missing(kind, name, at, [*built_in, *candidates], report, nodes=names, hint=declaration)
+
+
+def _may_be_skipped(name: str, scope: FileScope) -> bool:
+    """Return True if text that could not be parsed may declare a name."""
+    return name.rpartition(".")[2] in scope.skipped_names
+
+
+def _kind_of_any(kinds: Kinds) -> str:
+    """Name of a group of kinds, with an article. Several kinds are types or values."""
+    if len(kinds) == 1:
+        return kind_of(kinds[0])
+    return "a value" if Constant in kinds else "a type"
+
+
+def _declared_here(nodes: Iterable[Declaration | Vertex]) -> tuple[Label, ...]:
+    return tuple(Label(node.name.span, "declared here") for node in nodes)
+
+
+# ---- types
+
+
+def report_type(
+    found: Unresolved, ref: TypeRef, kinds: Kinds, scope: FileScope, report: Diagnostics
+) -> None:
+    """Report the name of a type that is not declared."""
+    from swarmdsl.analysis.resolve.hints import type_hint
+
+    help_ = type_hint(ref.name, scope, report) if isinstance(found, Missing) else None
+    if help_ is not None:
+        report.report("unresolved-name", ref.span, kind="type", name=ref.name, help=help_)
+        return
+    _report_declaration(found, ref.name, ref.span, kinds, scope, report, built_in=PRIMITIVES)
+
+
+# ---- values
+
+
+def report_value(
+    base: NameUse,
+    fields: Sequence[FieldUse],
+    within: Expression,
+    owner: TopLevel,
+    values: Iterable[str],
+    kinds: tuple[type[D], ...],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Report a name that means no value; for a package, the name that is missing in it.
+
+    `values` are the names of the variables, params and inputs of `owner`.
+    """
+    name, at = base.name, base.span
+    for count, field in enumerate(fields):
+        package = dotted(base.name, fields[:count])
+        if package in scope.packages:
+            name, at = f"{package}.{field.name}", field.span
+    found = scope.resolve(name, kinds)
+    assert isinstance(found, Unresolved)
+    from swarmdsl.analysis.resolve.hints import value_hint
+
+    help_ = value_hint(name, scope, report) if isinstance(found, Missing) else None
+    if help_ is not None:
+        report.report("unresolved-name", at, kind="value", name=name, help=help_)
+        return
+
+    def hint() -> str | None:
+        # A name with fields may be a package.
+        if fields:
+            return None
+        from swarmdsl.analysis.resolve.missing_variable import suggest_variable
+
+        return suggest_variable(base, within, owner, scope)
+
+    known = [*values, "true", "false"]
+    _report_declaration(found, name, at, kinds, scope, report, built_in=known, hint=hint)
+
+
+def report_type_as_value(name: str, at: Span, type_: Type, report: Diagnostics) -> None:
+    """Report an alias of a type that is no enum, used as a value."""
+    report.report("wrong-kind", at, name=name, actual=f"the type `{type_}`", expected="a value")
+
+
+def dotted(name: str, fields: Iterable[FieldUse]) -> str:
+    """Return a name and fields as they are written: `sar.Mode`."""
+    return ".".join([name, *(str(field.name) for field in fields)])
+
+
+# ---- states and ports
+
+
+def report_ambiguous_state(
+    name: str, at: Span, found: Sequence[Vertex], report: Diagnostics
+) -> None:
+    """Report a name that states in several regions have."""
+    report.report(
+        "ambiguous-name",
+        at,
+        name=name,
+        related=_declared_here(found),
+        help="give the states in the regions different names",
+    )
+
+
+def report_missing_state(
+    name: str,
+    at: Span,
+    outer: Vertex | None,
+    levels: Sequence[Level],
+    scope: FileScope,
+    report: Diagnostics,
+) -> None:
+    """Report a missing name of a state. `outer` is the state that a path leads into."""
+    if name in scope.skipped_names:
+        return
+    kind = "state" if outer is None else f"state in `{outer.name}`"
+    if not report.wants_hint("unresolved-name"):
+        report.report("unresolved-name", at, kind=kind, name=name)
+        return
+    from swarmdsl.analysis.resolve.hints import path_to_state
+
+    states = [state for level in levels for found in level.values() for state in found]
+    paths = (path_to_state(name, state) for state in states)
+    path = next((path for path in paths if path), None)
+    if path:
+        report.report(
+            "unresolved-name",
+            at,
+            kind="state",
+            name=name,
+            related=(Label(path[-1].name.span, "declared here, inside another state"),),
+            help=f"write `{'.'.join(state.name for state in path)}`",
+        )
+        return
+    report_missing(kind, name, at, [str(state.name) for state in states], report)
+
+
+def report_state_outside(
+    arrow: Initial | History, container: Container, outside: Vertex, report: Diagnostics
+) -> None:
+    """Report an initial state or a history whose target is not inside its container."""
+    what = "`initial` names" if isinstance(arrow, Initial) else f"history `{arrow.name}` leads to"
+    report.report(
+        "unresolved-name",
+        arrow.target.span,
+        kind=f"state in `{container.name}`",
+        name=arrow.target.name,
+        related=(Label(outside.name.span, "this one is not inside"),),
+        help=f"{what} a state inside `{container.name}`",
+    )
+
+
+def report_part_as_port(ref: Ref[Port], kind: str, report: Diagnostics) -> None:
+    """Report a part at the end of a connector, without one of its ports."""
+    help_ = f"it is a part: name one of its ports, `{ref.name}.port`"
+    report.report("unresolved-name", ref.span, kind=kind, name=ref.name, help=help_)
