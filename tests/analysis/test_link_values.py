@@ -93,10 +93,10 @@ def test_what_names_mean(checked: Checked, guard: str, meant: str) -> None:
 @pytest.mark.parametrize(
     ("guard", "message", "help_"),
     [
-        ("K == 3", "`K` could mean several things here", "write `sar.modes.K` or `air.K`"),
+        ("K == 3", "`K` is ambiguous", "write `sar.modes.K` or `air.K`"),
         (
             "Mode.ON == sar.modes.Mode.ON",
-            "`Mode` could mean several things here",
+            "`Mode` is ambiguous",
             "write `sar.modes.Mode` or `air.Mode`",
         ),
         ("air.ONLI == 3", "no value called `air.ONLI`", "did you mean `air.ONLY`?"),

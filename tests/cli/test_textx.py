@@ -118,7 +118,7 @@ def test_generate_overwrites_only_when_told(good, tmp_path):
     good.write_text(good.read_text().replace("Off", "Dark"))
     refused = run_textx("generate", good, "--target", "scxml", "-o", tmp_path)
     assert refused.returncode == 1
-    assert "has been edited where what is generated changes" in refused.stderr
+    assert "the generator changes edited lines" in refused.stderr
     assert edited.read_text() == "mine"
     forced = run_textx("generate", good, "--target", "scxml", "-o", tmp_path, "--overwrite")
     assert forced.returncode == 0, forced.stderr
@@ -140,7 +140,7 @@ def test_the_project_file_counts(tmp_path, good):
     (tmp_path / "lib").mkdir()
     (tmp_path / "lib" / "kit.swarm").write_text("package kit\nevent Go : std_msgs/Empty\n")
     good.write_text("import kit.*\n" + good.read_text().removeprefix("package lamps\n"))
-    assert "no library has a package `kit`" in run_textx("check", good).stderr
+    assert "no package called `kit`" in run_textx("check", good).stderr
     settings = '[project]\nlibraries = ["lib"]\n[targets.scxml]\nprofile = "portable"\n'
     (tmp_path / "swarm.toml").write_text(settings)
 

@@ -39,10 +39,10 @@ def test_one_goes_to_a_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "code", "said"),
     [
-        ([], 1, "error[SW1302]: 4 diagrams do not go to standard output"),
+        ([], 1, "error[SW1302]: cannot write 4 diagrams to standard output"),
         (["--name", "Patrl"], 1, "did you mean `Patrol`?"),
         (["--kind", "swarm"], 2, "'swarm' is not one of"),
-        (["-o", "all.svg"], 1, "error[SW1302]: 4 diagrams do not go to file `all.svg`"),
+        (["-o", "all.svg"], 1, "error[SW1302]: cannot write 4 diagrams to file `all.svg`"),
         (["-o", "all.svg"], 1, "name a folder for them with `-o`, or choose: `--name Pack`"),
         (["-o", "one.PNG"], 2, "no `.png` is written; name a file that ends with `.svg` (with"),
         (["-o", "one.dot"], 2, "ends with `.svg`, or add `--format dot`"),
@@ -75,7 +75,7 @@ def test_nothing_to_draw(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> 
     path = tmp_path / "events.swarm"
     path.write_text("event E : std_msgs/Empty\n")
     assert run(["diagram", str(path), "--kind", "statechart"]) == 1
-    assert "error[SW1301]: the model has nothing for statechart diagrams" in capsys.readouterr().err
+    assert "error[SW1301]: nothing to draw in statechart diagrams" in capsys.readouterr().err
 
 
 def test_nothing_is_written_of_a_model_with_errors(

@@ -289,9 +289,9 @@ def test_the_form_of_the_schema(compiled: Compile) -> None:
     ]
     assert content["functions"][-1]["api"]["comm_paradigm"] == "rosaction"
     assert said == [
-        "target `adf` has no place for param `rate` of a component",
-        "target `adf` has no place for controller `Mind`",
-        "target `adf` has no place for param `far` of a function",
+        "target `adf` cannot represent param `rate` of a component",
+        "target `adf` cannot represent controller `Mind`",
+        "target `adf` cannot represent param `far` of a function",
     ]
 
 

@@ -68,7 +68,7 @@ def test_params_have_no_place(compiled: Compile) -> None:
     (found,) = report
 
     assert found.name == "no-place"
-    assert found.message == "target `amf` has no place for param `wait` of a function"
+    assert found.message == "target `amf` cannot represent param `wait` of a function"
     assert found.primary is not None
     assert found.primary.span.text == "wait"
 

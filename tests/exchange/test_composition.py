@@ -75,8 +75,8 @@ def test_members(compiled: Compile) -> None:
         "</swarm>",
     ]
     assert [(found.name, found.message) for found in report] == [
-        ("no-place", "target `composition` has no place for multiplicity `2..*`"),
-        ("no-place", "target `composition` has no place for multiplicity `*`"),
+        ("no-place", "target `composition` cannot represent multiplicity `2..*`"),
+        ("no-place", "target `composition` cannot represent multiplicity `*`"),
     ]
 
 

@@ -56,7 +56,7 @@ def emitted(
         "search/frevoConfiguration.json",
         "search/Search.xml",
     )
-    begin = "target `frevo` has no place for "
+    begin = "target `frevo` cannot represent "
     assert [found.message.removeprefix(begin) for found in report] == list(expected)
     return json.loads(configuration.text), etree.fromstring(problem.text.encode())
 

@@ -142,8 +142,8 @@ def test_what_the_bridge_cannot_take(compiled: Compile) -> None:
     )
     files = emitted(
         system,
-        "target `swarmros` has no place for topic `found`",
-        "target `swarmros` has no place for technology `wifi`",
+        "target `swarmros` cannot represent topic `found`",
+        "target `swarmros` cannot represent technology `wifi`",
     )
 
     assert files["m.cfg"]["services"]["incomingEvents"] == []

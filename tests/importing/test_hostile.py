@@ -68,7 +68,7 @@ def test_other_files_are_not_read(tmp_path: Path) -> None:
 def test_depth_of_elements_and_expressions() -> None:
     deep = "".join(f"<state id='s{n}'>" for n in range(10_000)) + "</state>" * 10_000
     assert said(f"{HEAD}{deep}</scxml>") == [
-        ("not-xml", "this is not XML: more than 250 elements stand in each other")
+        ("not-xml", "invalid XML: more than 250 elements stand in each other")
     ]
     for condition in ("(" * 10_000 + "x", "!" * 10_000 + "x", "x + " * 10_000 + "x"):
         way = f"<state id='A'><transition event='e' cond='{condition}' target='A'/></state>"
@@ -157,7 +157,7 @@ def test_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
     done = command.run("scxml", [path], [], None, force=False)
     assert [(f.name, f.message) for f in done.report] == [
-        ("too-large", f"`{path}` has more than 1 MB")
+        ("too-large", f"`{path}` is larger than 1 MB")
     ]
 
 

@@ -181,7 +181,10 @@ def test_what_nobody_handles_ends_the_machine() -> None:
     system, report = imported(f"<state id='A'>{call(lift())}</state>")
 
     assert [(f.name, f.message) for f in report] == [
-        ("open-outcome", "nothing handles `succeeded` and `aborted` of `A`: the machine ends then")
+        (
+            "open-outcome",
+            "no transition handles `succeeded` and `aborted` of `A`: the machine ends then",
+        )
     ]
     assert ways(states(system)["A"]) == [(["succeeded"], "Succeeded"), (["aborted"], "Aborted")]
     assert not system.machines[0].endless

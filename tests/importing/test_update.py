@@ -137,7 +137,7 @@ statemachine Keep {
     assert "-  param mine    : int32    = 3\n" in out
     assert '+  action "cmd/raise" : arm_msgs/Lift  // how it is called\n' in out
     assert err.count("SW1212") == 1
-    assert "the value of `ratio` stays as it is" in err
+    assert "the value of `ratio` is not updated" in err
 
 
 def test_a_second_import_changes_nothing(
@@ -460,7 +460,7 @@ def test_a_machine_that_differs_is_replaced_by_force_alone(
     assert "SW1212" not in capsys.readouterr().err
     model.write_text(edited.replace("-> Rise", "-> Done"), encoding="utf-8")
     assert run(["import", "scxml", str(file), "-o", str(model)]) == 0
-    assert "state machine `Search` stays as it is" in capsys.readouterr().err
+    assert "state machine `Search` is not updated" in capsys.readouterr().err
     assert model.read_text(encoding="utf-8") == edited.replace("-> Rise", "-> Done")
     assert run(["import", "scxml", str(file), "-o", str(model), "--force"]) == 0
     assert model.read_text(encoding="utf-8") == edited.replace("  // In it.\n", "")

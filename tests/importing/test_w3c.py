@@ -275,7 +275,9 @@ def test_histories_of_parallel_states() -> None:
 def test_events_that_a_machine_raises_for_itself() -> None:
     system, said = imported(WAY.format("", "<raise event='f'/>"))
 
-    assert said == [("sent-later", "`F` is sent here: it comes after the events that wait already")]
+    assert said == [
+        ("sent-later", "`F` is sent instead of raised, after the events already queued")
+    ]
     assert "on E / send F -> B" in print_system(system)
 
 

@@ -101,7 +101,7 @@ def test_an_edited_text_beside_a_file_is_not_overwritten_which_is_told(conflict:
     beside.write_text("my notes\n", encoding="utf-8")
 
     _, (notes, _) = build(conflict, plain(text(l2="newer\n")))
-    assert notes.message == f"`{beside}` is generated, and has been edited"
+    assert notes.message == f"generated file `{beside}` has been edited"
     assert notes.notes == ("what is generated now is not in it",)
     assert tree(conflict)["t/f.swarmc-new"] == "my notes\n"
     (conflict / "t/f").write_text(text(l2="newer\n"), encoding="utf-8")

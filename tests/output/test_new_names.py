@@ -21,7 +21,7 @@ def test_a_new_name_is_recognized(tmp_path: Path) -> None:
     found = build(tmp_path, *climb, *land, command=("swarmc", "build", "m.swarm"))
 
     assert names(found) == ["parked-code", "renamed-element"]
-    assert found[1][1].message == "`climb` looks like `rise` under another name"
+    assert found[1][1].message == "`rise` seems to have been renamed to `climb`"
     assert "`swarmc build m.swarm --rename rise=climb`" in str(found[1][1].help)
     assert names(build(tmp_path, *climb, *land)) == []
 

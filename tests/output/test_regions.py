@@ -10,7 +10,7 @@ from swarmdsl.output import Action, How, Written, texts, write
 from swarmdsl.output.manifest import NAME
 
 FIRST = "one\n# swarmc:begin m.a\n# swarmc:end m.a\ntwo\n# swarmc:begin m.b\n# swarmc:end m.b\n"
-CONFLICT = "`OUT/t/f` has been edited where what is generated changes"
+CONFLICT = "merge conflict in `OUT/t/f`: the generator changes edited lines"
 MOVED = "new\n# swarmc:begin m.b\n# swarmc:end m.b\n1\n# swarmc:begin m.a\n# swarmc:end m.a\n"
 
 
@@ -75,7 +75,7 @@ def test_an_edit_outside_is_merged_beside_them(out: Path) -> None:
     edit(out, "two", "2")
     text = (out / "t/f").read_text()
 
-    assert build("zero\n" + FIRST, out)[1] == ["`OUT/t/f` is generated, and has been edited"]
+    assert build("zero\n" + FIRST, out)[1] == ["generated file `OUT/t/f` has been edited"]
     assert (out / "t/f").read_text() == "zero\n" + text
 
 
@@ -104,10 +104,10 @@ def test_damaged_marks_are_named_and_nothing_is_lost(
 
     (found,) = report
     assert found.name == "damaged-region"
-    assert found.message == f"in `{out / 't/f'}`, {fault}"
+    assert found.message == f"damaged region in `{out / 't/f'}`: {fault}"
     assert found.primary is not None
     assert found.primary.span.line == line
-    assert build(MOVED, out, **options)[1] == [CONFLICT, f"in `OUT/t/f`, {fault}"]
+    assert build(MOVED, out, **options)[1] == [CONFLICT, f"damaged region in `OUT/t/f`: {fault}"]
     assert (out / "t/f").read_bytes() == before
 
 
@@ -117,7 +117,7 @@ def test_a_region_that_is_not_generated_is_named(out: Path) -> None:
     write({"t": [OutputFile("f", "zero\n" + FIRST)]}, out, report)
 
     (found,) = report
-    assert found.message == f"in `{out / 't/f'}`, no region `m.c` is generated"
+    assert found.message == f"damaged region in `{out / 't/f'}`: no region `m.c` is generated"
     assert found.help == "did you mean `m.b`?"
     assert found.primary is not None
     assert found.primary.span.text == "# swarmc:begin m.c"
@@ -130,7 +130,10 @@ def test_a_region_that_is_gone_is_not_lost(out: Path) -> None:
     without = FIRST.replace("# swarmc:begin m.a\n# swarmc:end m.a\n", "")
 
     for _ in range(2):
-        assert build(without, out)[1] == [CONFLICT, "in `OUT/t/f`, no region `m.a` is generated"]
+        assert build(without, out)[1] == [
+            CONFLICT,
+            "damaged region in `OUT/t/f`: no region `m.a` is generated",
+        ]
         assert "\nmine\n" in (out / "t/f").read_text()
     edit(out, "mine\n\n  é\n", "\n")
     assert build(without, out)[1] == []
@@ -139,7 +142,10 @@ def test_a_region_that_is_gone_is_not_lost(out: Path) -> None:
 def test_force_does_not_take_what_is_in_a_region_that_is_gone(out: Path) -> None:
     without = FIRST.replace("# swarmc:begin m.a\n# swarmc:end m.a\n", "")
 
-    assert "in `OUT/t/f`, no region `m.a` is generated" in build(without, out, force=True)[1]
+    assert (
+        "damaged region in `OUT/t/f`: no region `m.a` is generated"
+        in build(without, out, force=True)[1]
+    )
     assert "\nmine\n" in (out / "t/f").read_text()
 
 
@@ -156,7 +162,7 @@ def test_regions_in_a_file_with_other_line_ends(out: Path) -> None:
 def test_a_file_that_is_not_made_any_more_is_put_aside_with_what_is_in_it(out: Path) -> None:
     written, said = build(None, out)
 
-    assert said == ["`OUT/t/f` is put aside: nothing is generated for it any more"]
+    assert said == ["`OUT/t/f` is parked: it is no longer generated"]
     assert written is not None
     assert written.paths(Action.PARK) == (".parked/t/f",)
     assert not (out / "t/f").exists()

@@ -137,9 +137,7 @@ def test_two_models_in_one_folder_are_told_when_they_take_turns(tmp_path):
         assert write(files(both="1", **{name: "1"}), tmp_path, report, How(model=model)) is not None
         (found,) = report
         assert found.name == "other-model"
-        assert found.message == (
-            f"`{tmp_path}` loses one file of model `{other}`, which was built into it"
-        )
+        assert found.message == (f"the build removes one file of model `{other}` from `{tmp_path}`")
         write_ok(files(both="1", **{name: "1"}), tmp_path, model=model)
     # Another name alone is no other model.
     write_ok(files(a="2", both="1"), tmp_path, model="plane")

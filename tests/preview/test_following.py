@@ -212,7 +212,7 @@ def test_nodes_that_cannot_be_followed(
     (tmp_path / "yard.swarm").write_text(MODEL, encoding="utf-8")
     assert run(["preview", str(tmp_path), "--follow", f"ros2:{name}"]) == 1
     said = capsys.readouterr().err
-    assert f"error[SW1012]: ROS 2 cannot be followed: {why}" in said
+    assert f"error[SW1012]: cannot follow ROS 2 nodes: {why}" in said
     assert "help: " in said
 
 

@@ -140,7 +140,9 @@ def test_what_is_given_twice_is_named(text: str, line: int, column: int, key: st
 
     assert parse_toml(Source("x.toml", text), report) is None
     (found,) = report
-    assert found.message == f"`x.toml` is not TOML: `{key}` overwrites what is given before it"
+    assert (
+        found.message == f"`x.toml` is not valid TOML: `{key}` overwrites what is given before it"
+    )
     assert found.primary is not None
     span = found.primary.span
     assert span.text == key

@@ -12,7 +12,7 @@ from swarmdsl.driver import pipeline
 
 from .conftest import ISLAND, MODEL
 
-UNREACHABLE = "lamps.swarm:10:9: {}[SW0503] state `Island` can never be reached\n"
+UNREACHABLE = "lamps.swarm:10:9: {}[SW0503] state `Island` is unreachable\n"
 # `Start` comes from an operator.
 UNSENT = """\
 swarm event Start : std_msgs/Empty
@@ -30,19 +30,25 @@ PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
 @pytest.mark.parametrize(
     ("toml", "lines"),
     [
-        ("x = " + "[" * 999, ["1:1: error[SW0011] `swarm.toml` is not TOML: TOML inline arrays"]),
-        ("[project\n", ["1:9: error[SW0011] `swarm.toml` is not TOML: expected ']' at the end"]),
+        (
+            "x = " + "[" * 999,
+            ["1:1: error[SW0011] `swarm.toml` is not valid TOML: TOML inline arrays"],
+        ),
+        (
+            "[project\n",
+            ["1:9: error[SW0011] `swarm.toml` is not valid TOML: expected ']' at the end"],
+        ),
         (
             '[project]\nnam = "x"\n[lints]\n[build]\nout = 3\n',
             [
-                "2:1: error[SW0012] `[project]` has no `nam`",
-                "3:2: error[SW0012] `swarm.toml` has no `lints`",
+                "2:1: error[SW0012] `[project]` has no key `nam`",
+                "3:2: error[SW0012] `swarm.toml` has no key `lints`",
                 "5:7: error[SW0013] `out` takes text, not a whole number",
             ],
         ),
         (
             "[project]\nname = 'a'\nname = 'b'\n",
-            ["3:1: error[SW0011] `swarm.toml` is not TOML: `name` overwrites what is given"],
+            ["3:1: error[SW0011] `swarm.toml` is not valid TOML: `name` overwrites what is given"],
         ),
         (
             "[project]\nsources = [ ]",
@@ -100,9 +106,9 @@ warn = ['unresolved-name', 1979-05-27]
 """,
             [
                 "2:10: error[SW0014] there is no diagnostic `unreachable-sate`",
-                "2:40: error[SW0015] `unresolved-name` is an error, and cannot be allowed",
+                "2:40: error[SW0015] `unresolved-name` is an error and cannot be downgraded",
                 "3:9: error[SW0404] the level of `unreachable-state` is given twice",
-                "4:9: error[SW0015] `unresolved-name` is an error, and cannot be allowed",
+                "4:9: error[SW0015] `unresolved-name` is an error and cannot be downgraded",
                 "4:28: error[SW0013] `warn` takes text, not a time",
             ],
         ),
@@ -234,7 +240,7 @@ def test_silent_warnings_are_asked_for_by_name(swarmc, project, toml, arguments,
     project({"swarm.toml": f"[lint]\n{toml}\n", "hop.swarm": UNSENT})
     ran = swarmc("check", *arguments, "--format", "concise")
 
-    found = f"hop.swarm:5:19: {severity}[SW0523] nothing sends event `Start`\n"
+    found = f"hop.swarm:5:19: {severity}[SW0523] event `Start` is never sent\n"
     assert ran.out == (found if severity else "")
     assert ran.code == (1 if severity == "error" else 0)
 

@@ -303,7 +303,7 @@ def test_what_cannot_be_meant(arguments, swarmc, model) -> None:
 def test_an_interface_that_nothing_describes_is_told(swarmc, model) -> None:
     ran = swarmc("add", "function", "count", "--action", "count:stock_msgs/Count")
     assert (ran.code, ran.out) == (0, "yard.swarm\n")
-    assert "warning[SW0616]: nothing describes `stock_msgs/Count`" in ran.err
+    assert "warning[SW0616]: no definition of interface `stock_msgs/Count`" in ran.err
     # `yard_msgs/Drive` was there before.
     assert ran.err.count("SW0616") == 1
     assert swarmc("check", "--deny", "warnings").code == 0

@@ -90,7 +90,7 @@ def test_nothing_is_overwritten(swarmc, folder) -> None:
     again = swarmc("new", "rescue")
 
     assert (again.code, again.out) == (1, "")
-    assert again.err.startswith("error[SW1502]: `rescue` is there already")
+    assert again.err.startswith("error[SW1502]: `rescue` already exists")
     assert (folder / "rescue" / "swarm.toml").read_text() == "# mine\n"
     (folder / "file").write_text("")
     assert swarmc("new", "file").code == 1

@@ -333,7 +333,7 @@ WRONG: list[tuple[str, str, str, str]] = [
         "no state has the id `b`",
         "b",
     ),
-    ('<state id="a"/><state id="a"/>', "duplicate-id", "the id `a` is given twice", "a"),
+    ('<state id="a"/><state id="a"/>', "duplicate-id", "duplicate id `a`", "a"),
     ("", "illegal-structure", "the document has no state", "scxml"),
     (
         STATE.format("<transition/>"),
@@ -344,109 +344,109 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format('<transition event="e" cond="1 +"/>'),
         "bad-expression",
-        "this expression is not understood: it ends early",
+        "invalid expression: it ends early",
         "1 +",
     ),
     (
         STATE.format('<transition event="e" cond="eval(1)"/>'),
         "bad-expression",
-        "this expression is not understood: only functions of `Math`, and `In`, can be called",
+        "invalid expression: only functions of `Math`, and `In`, can be called",
         "eval(1)",
     ),
     (
         STATE.format('<transition event="e" cond="_event.origin"/>'),
         "bad-expression",
-        "this expression is not understood: `_event.origin` is not known, only its `name` and `data`",
+        "invalid expression: `_event.origin` is not known, only its `name` and `data`",
         "_event.origin",
     ),
     (
         STATE.format('<transition event="e" cond="x = 3"/>'),
         "bad-expression",
-        "this expression is not understood: `=` cannot stand here",
+        "invalid expression: `=` cannot stand here",
         "x = 3",
     ),
     (
         STATE.format('<transition event="e" type="inner"/>'),
         "bad-value",
-        "`type` can only be `external` or `internal`",
+        "`type` must be `external` or `internal`",
         "inner",
     ),
     (
         STATE.format('<transition event="" target="a"/>'),
         "bad-value",
-        "`event` can only be the name of an event",
+        "`event` must be the name of an event",
         "",
     ),
     (
         STATE.format('<onentry><send event="e" delay="soon"/></onentry>'),
         "bad-value",
-        "`delay` can only be a number with `s` or `ms` behind it",
+        "`delay` must be a number with `s` or `ms` behind it",
         "soon",
     ),
     (
         STATE.format('<onentry><send delay="1s"/></onentry>'),
         "missing-attribute",
-        "`<send>` needs `event`",
+        "`<send>` needs attribute `event`",
         "send",
     ),
     (
         STATE.format('<onentry><assign expr="1"/></onentry>'),
         "missing-attribute",
-        "`<assign>` needs `location`",
+        "`<assign>` needs attribute `location`",
         "assign",
     ),
     (
         STATE.format('<onentry><assign location="1" expr="1"/></onentry>'),
         "bad-expression",
-        "this expression is not understood: `1` cannot be assigned to",
+        "invalid expression: `1` cannot be assigned to",
         "1",
     ),
     (
         STATE.format('<onentry><send event="e" namelist="x 1+"/></onentry>'),
         "bad-expression",
-        "this expression is not understood: it ends early",
+        "invalid expression: it ends early",
         "1+",
     ),
     (
         STATE.format("<onentry><script>1</script></onentry>"),
         "not-understood",
-        "`script` is not understood: scripts are not run",
+        "`script` is not supported: scripts are not run",
         "script",
     ),
     (
         STATE.format('<invoke type="x"/>'),
         "not-understood",
-        "`invoke` is not understood: activities outside of the machine are not started from SCXML",
+        "`invoke` is not supported: activities outside of the machine are not started from SCXML",
         "invoke",
     ),
     (
         '<datamodel><data id="d" src="file:///etc/passwd"/></datamodel><state id="a"/>',
         "not-understood",
-        "`src` is not understood: other files are not read",
+        "`src` is not supported: other files are not read",
         "file:///etc/passwd",
     ),
     (
         '<datamodel><data id="d"/><data id="d"/></datamodel><state id="a"/>',
         "duplicate-id",
-        "the id `d` is given twice",
+        "duplicate id `d`",
         "d",
     ),
     (
         STATE.format('<transition event="e" taget="a"/>'),
         "unknown-attribute",
-        "`<transition>` has no `taget`",
+        "`<transition>` has no attribute `taget`",
         "a",
     ),
     (
         STATE.format("<transitoin/>"),
         "unknown-element",
-        "there is no `<transitoin>` in `<state>`",
+        "element `<transitoin>` is not allowed in `<state>`",
         "transitoin",
     ),
     (
         '<raise event="e"/><state id="a"/>',
         "unknown-element",
-        "there is no `<raise>` in `<scxml>`",
+        "element `<raise>` is not allowed in `<scxml>`",
         "raise",
     ),
     (STATE.format("words"), "illegal-structure", "there is no text in `<state>`", "state"),
@@ -489,13 +489,13 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         '<state id="a"><history id="h" type="big"><transition target="c"/></history><state id="c"/></state>',
         "bad-value",
-        "`type` can only be `shallow` or `deep`",
+        "`type` must be `shallow` or `deep`",
         "big",
     ),
     (
         '<x:y xmlns:x="urn:x"/><state id="a"><x:z xmlns:x="urn:x"/></state>',
         "foreign-element",
-        "`<y>` is no SCXML and is passed over",
+        "`<y>` is not an SCXML element and is ignored",
         "x:y",
     ),
 ]
@@ -511,8 +511,8 @@ def test_what_is_wrong_is_said_once_at_its_place(
 @pytest.mark.parametrize(
     ("text", "name", "message", "place"),
     [
-        ("", "not-xml", "this is not XML: no element found", ""),
-        ("words", "not-xml", "this is not XML: syntax error", "w"),
+        ("", "not-xml", "invalid XML: no element found", ""),
+        ("words", "not-xml", "invalid XML: syntax error", "w"),
         (f"{HEAD}<state></scxml>", "not-xml", None, None),
         ("<scxml><state/></scxml>", "not-scxml", None, "scxml"),
         ('<a xmlns="http://www.w3.org/2005/07/scxml"/>', "not-scxml", None, "a"),
@@ -572,7 +572,7 @@ def test_deep_documents() -> None:
     ((name, message, _),) = said_of("<state>" * 300 + "</state>" * 300)
     assert (name, message) == (
         "not-xml",
-        "this is not XML: more than 250 elements stand in each other",
+        "invalid XML: more than 250 elements stand in each other",
     )
 
 

@@ -219,7 +219,7 @@ def test_a_value_that_fails_is_told_with_how_often(simulate: Simulate) -> None:
     ran = simulate(text, events=[{"event": "Start"}, {"event": "Start"}])
 
     assert ran.code == 0
-    assert "warning[SW1007]: a value in `M` failed: division by zero" in ran.err
+    assert "warning[SW1007]: evaluation failed in `M`: division by zero" in ran.err
     assert "2 times" in ran.err
 
 
@@ -284,28 +284,28 @@ def test_a_param_needs_a_value(simulate: Simulate) -> None:
 @pytest.mark.parametrize(
     ("line", "said", "place"),
     [
-        ('{"event": "Start" "after": 5}', "SW1003]: this line is no event: expecting ',' ", "2:19"),
-        ("[1, 2]", "SW1003]: this line is no event: an object is wanted, not a list", "2:1"),
-        ('{"after": 5}', 'SW1003]: this line is no event: it needs an `"event"`', "2:1"),
-        ('{"event": "Start", "after": NaN}', "SW1003]: this line is no event: `NaN`", "2:29"),
+        ('{"event": "Start" "after": 5}', "SW1003]: invalid event line: expecting ',' ", "2:19"),
+        ("[1, 2]", "SW1003]: invalid event line: an object is wanted, not a list", "2:1"),
+        ('{"after": 5}', 'SW1003]: invalid event line: it needs an `"event"`', "2:1"),
+        ('{"event": "Start", "after": NaN}', "SW1003]: invalid event line: `NaN`", "2:29"),
         (
             '{"event": "Found", "data": {"level": 1e999}}',
-            "SW1003]: this line is no event: `1e999` is too large a number",
+            "SW1003]: invalid event line: `1e999` is too large a number",
             "2:38",
         ),
         (
             '{"event": "Start", "event": "Stop"}',
-            "SW1003]: this line is no event: `event` stands in it twice",
+            "SW1003]: invalid event line: `event` stands in it twice",
             "2:3",
         ),
-        ("[" * 100_000, "SW1003]: this line is no event: it is nested too deeply", "2:1"),
+        ("[" * 100_000, "SW1003]: invalid event line: it is nested too deeply", "2:1"),
         (
             '{"after": ' + "9" * 5000 + "}",
-            "SW1003]: this line is no event: a number in it has too",
+            "SW1003]: invalid event line: a number in it has too",
             "2:1",
         ),
         ('{"event": "Strat"}', "SW0202]: no event called `Strat`", "2:12"),
-        ('{"event": "Start", "afer": 5}', "SW0012]: an event has no `afer`", "2:21"),
+        ('{"event": "Start", "afer": 5}', "SW0012]: an event has no key `afer`", "2:21"),
         ('{"event": "Start", "after": -1}', "SW0013]: `after` takes a number", "2:21"),
         ('{"event": "Start", "after": 1e308}', "SW0013]: `after` takes a number", "2:21"),
         ('{"event": "Start", "member": "uav[9]"}', "SW0202]: no member called `uav[9]`", "2:31"),

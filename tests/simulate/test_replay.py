@@ -119,7 +119,7 @@ def test_several_traces(replay: Replay, tmp_path: Path) -> None:
     assert code == 1
     assert first == f"{tmp_path / 'trace.jsonl'}: 2 lines of 1 member as the model says"
     assert second == f"{other}: 1 line of 1 member as the model says"
-    assert f"{other}:2:1: error[SW1011] `M` leaves the model on `Start` at 500 ms" in wrong
+    assert f"{other}:2:1: error[SW1011] `M` deviates from the model on `Start` at 500 ms" in wrong
 
 
 def test_what_an_activity_sends(replay: Replay) -> None:
@@ -151,7 +151,7 @@ def test_what_departs_from_the_model(
 
     assert code == 1
     assert f"{where - 1} line" in err
-    assert f"trace.jsonl:{where}:1: error[SW1011] `M` leaves the model {what}" in err
+    assert f"trace.jsonl:{where}:1: error[SW1011] `M` deviates from the model {what}" in err
 
 
 def test_it_is_said_what_is_different(replay: Replay) -> None:
@@ -177,7 +177,7 @@ def test_what_is_no_trace(replay: Replay, text: str, reason: str) -> None:
     code, err = replay(START, text)
 
     assert code == 1
-    assert f"trace.jsonl:2:1: error[SW1010] this line is none of a trace: {reason}" in err
+    assert f"trace.jsonl:2:1: error[SW1010] invalid trace line: {reason}" in err
 
 
 def test_a_member_that_there_is_not(replay: Replay) -> None:

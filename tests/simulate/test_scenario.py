@@ -361,15 +361,15 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
 @pytest.mark.parametrize(
     ("text", "said", "place"),
     [
-        ("sed = 1", "SW0012]: a scenario has no `sed`", "1:1"),
+        ("sed = 1", "SW0012]: a scenario has no key `sed`", "1:1"),
         ("seed = 1.5", "SW0013]: `seed` takes a whole number, not `1.5`", "1:8"),
         ("until = 30", 'SW0013]: `until` takes a time like "1.5 s", with `us`, `ms`, `s`,', "1:9"),
         ("until = '9999999 h'", "SW0013]: `until` takes at most 292 years, not", "1:9"),
-        ("until = [", "SW0011]: `scenario.toml` is not TOML", "1:10"),
+        ("until = [", "SW0011]: `scenario.toml` is not valid TOML", "1:10"),
         ("[count]\nuva = 3", "SW0202]: no role called `uva`", "2:1"),
         ("[count]\nrover = 3", "SW0013]: `rover` takes 1, not `3`", "2:9"),
         ("[functions.og]", "SW0202]: no function called `og`", "1:12"),
-        ("[functions.go]\ndurtion = '1 s'", "SW0012]: a function has no `durtion`", "2:1"),
+        ("[functions.go]\ndurtion = '1 s'", "SW0012]: a function has no key `durtion`", "2:1"),
         ("[functions.go]\nduration = 3", "SW0013]: `duration` takes a time", "2:12"),
         (
             "[functions.go]\nduration = { unifrm = ['1 s', '2 s'] }",
@@ -406,8 +406,8 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
         ("[params.uav]\npuase = '1 s'", "SW0202]: no param called `puase`", "2:1"),
         ("[params.uav]\npause = 1", "SW0013]: `pause` takes a time", "2:9"),
         ("[network]\nloss = 2", "SW0013]: `loss` takes a probability from 0 to 1, not `2`", "2:8"),
-        ("[network]\njitter = 2", "SW0012]: `[network]` has no `jitter`", "2:1"),
-        ("[[messages]]\nevent = 'Start'", "SW1008]: this needs `at`", "1:3"),
+        ("[network]\njitter = 2", "SW0012]: `[network]` has no key `jitter`", "2:1"),
+        ("[[messages]]\nevent = 'Start'", "SW1008]: missing key `at`", "1:3"),
         ("[[messages]]\nevent = 'Strat'\nat = '1 s'", "SW0202]: no event called `Strat`", "2:9"),
         (
             "[[messages]]\nevent = 'Start'\nat = '1 s'\nto = 'me'",
@@ -424,7 +424,7 @@ def test_params_of_a_machine_alone(simulate: Simulate) -> None:
             "SW0013]: `every` takes a",
             "4:9",
         ),
-        ("[[faults]]\nat = '1 s'", "SW1008]: this needs `lost`", "1:3"),
+        ("[[faults]]\nat = '1 s'", "SW1008]: missing key `lost`", "1:3"),
         ("[[faults]]\nat = '1 s'\nlost = 'uav[2]'", "SW0202]: no member called `uav[2]`", "3:8"),
         ("[[faults]]\nat = '1 s'\nsilent = 'og'", "SW0202]: no function called `og`", "3:10"),
         ("[faults]\nat = '1 s'", "SW0013]: `faults` takes tables: `[[faults]]`", "1:2"),

@@ -157,7 +157,7 @@ def test_members_that_talk_without_end_while_no_time_passes(simulate: Simulate) 
     ran = simulate(text, events=[{"event": "Found", "member": "one[0]"}])
 
     assert ran.code == 1
-    assert "does not come to rest at 0 ms" in ran.err
+    assert "does not reach a stable configuration at 0 ms" in ran.err
     assert "on Found / send Found -> A" in ran.err
 
 

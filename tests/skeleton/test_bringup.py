@@ -116,7 +116,7 @@ member Uav {
 def test_what_no_bridge_takes_to_other_robots(emit: Emit) -> None:
     _, complaints = emit(BETWEEN + REST, ros="2")
     said = [(each.name, each.message) for each in complaints]
-    port = "target `skeleton` has no place for a port between robots, `{}` on `{}`".format
+    port = "target `skeleton` cannot represent a port between robots, `{}` on `{}`".format
     assert said == [
         ("no-place", port("eye.seen", "found")),
         ("no-place", port("pilot.told", "bridge/events/found")),

@@ -194,7 +194,8 @@ def test_too_little_coverage_fails(swarmc: Callable[..., Ran], folder: Path) -> 
     found = swarmc("test", "--fail-under", "9")
     assert found.code == 1
     assert (
-        "error[SW1104]: the tests reach 8.3 % of all states and transitions, not 9 %" in found.out
+        "error[SW1104]: the tests cover 8.3 % of all states and transitions, but 9 % are required"
+        in found.out
     )
 
 

@@ -316,7 +316,7 @@ steps = [{ in = "rest" }, { send = "go" }, { in = "a" }]
     found = ran(text)
 
     assert found.code == 1
-    assert "error[SW1006]: `loop` does not come to rest at 0 ms" in found.out
+    assert "error[SW1006]: `loop` does not reach a stable configuration at 0 ms" in found.out
     assert '{ send = "go" }' in found.out
     assert "it goes round in `a` and `b`" in found.out
 
@@ -339,7 +339,7 @@ swarm S { a : Asks[1]  b : Answers[1] }
     found = ran(steps('{ send = "Ping" }, { pass = "1 s" }'))
 
     assert found.code == 1
-    assert "error[SW1006]: `a[0]` does not come to rest at 0 ms" in found.out
+    assert "error[SW1006]: `a[0]` does not reach a stable configuration at 0 ms" in found.out
     assert '{ send = "Ping" }' in found.out
     assert "lamps.swarm:5:9" in found.out
 
@@ -350,7 +350,7 @@ def test_what_fails_in_the_model_is_told(ran: Callable[..., Ran], folder) -> Non
     found = ran(steps(f'{_START}, {{ end = "blink" }}'))
 
     assert found.code == 0
-    assert "warning[SW1007]: a value in `Blinking` failed: division by zero" in found.out
+    assert "warning[SW1007]: evaluation failed in `Blinking`: division by zero" in found.out
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,7 @@ server.listen(0, "127.0.0.1", () =>
   console.log("1 file is right; http://127.0.0.1:" + server.address().port + "/"));
 process.on("SIGINT", () => process.exit(0));
 `;
-const FAILS = `console.error("error[SW1012]: ROS 2 cannot be followed\\n  = help: source it"); process.exit(1);`;
+const FAILS = `console.error("error[SW1012]: cannot follow ROS 2 nodes\\n  = help: source it"); process.exit(1);`;
 
 interface Told {
   readonly nodes: Nodes;

@@ -240,7 +240,7 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
 
         window.command("Swarm: Follow ROS 2 Nodes...")
         window.answer("Follow ROS 2 Nodes", "/sar")
-        told = window.page.locator(".notification-toast", has_text="ROS 2 cannot be followed")
+        told = window.page.locator(".notification-toast", has_text="cannot follow ROS 2 nodes")
         expect(told).to_contain_text("source the setup file of ROS 2")
 
         window.command("Swarm: Simulate in Real Time")
