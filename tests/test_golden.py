@@ -40,7 +40,7 @@ SAME_IN_ALL = re.compile(
     r"smach/\w+/src/\w+/(actions|chart|containers|node|services|states)\.py"
     r"|ros2/\w+/(\w+/(alarms|diagnostics|functions|host|node|parameters|topics|tracing|values)\.py"
     r"|test/test_(copyright|flake8|pep257)\.py|setup\.cfg)"
-    r"|(yasmin|smach_ros2)/\w+/\w+/(following|library|node|runner)\.py"
+    r"|(yasmin|smach_ros2)/\w+/\w+/(following|library|node|runner|states)\.py"
 )
 
 

@@ -11,6 +11,7 @@ from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Templates, fit
 from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
 from swarmdsl.ir import System
 
+from ..runtime_source import runtime_source
 from .engine import engine_source
 from .imports import WIDTH
 from .launch import configuration
@@ -18,12 +19,12 @@ from .names import TARGET
 from .options import Options
 from .view import MachineView, PackageView, package_view
 
+_RUNTIME = Path(__file__).parent / "runtime"
 _MODULES = (
     "alarms",
     "diagnostics",
     "functions",
     "host",
-    "node",
     "parameters",
     "topics",
     "tracing",
@@ -74,18 +75,21 @@ def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
     yield OutputFile(f"{root}/{root}/__init__.py", "")
     yield OutputFile(f"{root}/{root}/engine.py", f"{head}\n{engine_source()}")
     for module in _MODULES:
-        text = _fill(
-            f"package/package/{module}.py", header=head, lifecycle=options.lifecycle, **values
-        )
+        text = runtime_source(_RUNTIME / f"{module}.py", head)
         yield OutputFile(f"{root}/{root}/{module}.py", text)
+    node = _fill("package/package/node.py", header=head, lifecycle=options.lifecycle, **values)
+    yield OutputFile(f"{root}/{root}/node.py", node)
     if package.callbacks:
         facts = tuple(f"{name}({parameters})" for name, parameters in package.callbacks)
         text = _fill("package/package/callbacks.py", stamp=fits(facts), **values)
         yield OutputFile(f"{root}/{root}/callbacks.py", text, keep=True, owner=root, facts=facts)
     for machine in package.machines:
         yield _machine(machine, package, legal)
-    for test in ("copyright", "flake8", "machines", "pep257"):
+    for test in ("copyright", "machines"):
         text = _fill(f"package/test/test_{test}.py", header=head, **values)
+        yield OutputFile(f"{root}/test/test_{test}.py", text)
+    for test in ("flake8", "pep257"):
+        text = runtime_source(_RUNTIME / "test" / f"test_{test}.py", head)
         yield OutputFile(f"{root}/test/test_{test}.py", text)
     for launch in package.launches:
         text = _fill(

@@ -7,7 +7,7 @@ from swarmdsl.codegen import Diagnostics, Span
 from ..ros2.view import PackageView
 from .library import Library
 
-_MODULES = ("following", "library", "runner")
+_MODULES = ("following", "library", "runner", "states")
 
 
 def check_names(package: PackageView, library: Library, report: Diagnostics) -> None:

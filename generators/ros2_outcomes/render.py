@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Span, Templates
+from swarmdsl.codegen import Diagnostics, MappedText, OutputFile, Span
 from swarmdsl.ir import System
 
 from ..ros2 import render as ros2
 from ..ros2.imports import WIDTH
 from ..ros2.options import Options
 from ..ros2.view import MachineView, PackageView, package_view
+from ..runtime_source import runtime_source
 from .library import Library
 from .names import check_names
 
@@ -50,18 +50,21 @@ class _Report(Diagnostics):
 
 
 def shared_files(
-    package: PackageView, options: Options, library: Library, readme: str, states: str
+    package: PackageView, options: Options, readme: str, runtime: Path
 ) -> Iterator[OutputFile]:
-    """What all libraries have; `states` are the classes of the states of this one.
-
-    The module `library`, with what a node asks of it, each library has of its own.
-    """
+    """The files that each library has; modules `library` and `states` are in its `runtime`."""
     root = package.name
     for file in ros2.files(package, options):
         yield OutputFile(file.path, readme) if file.path == f"{root}/README.md" else file
-    values = {"header": header(package, options), "library": library, "states": states}
-    for module in ("following", "runner"):
-        text = _templates().fill(f"{module}.py.j2", **values)
+    head = header(package, options)
+    own = Path(__file__).parent / "runtime"
+    for folder, module in (
+        (own, "following"),
+        (own, "runner"),
+        (runtime, "library"),
+        (runtime, "states"),
+    ):
+        text = runtime_source(folder / f"{module}.py", head)
         yield OutputFile(f"{root}/{root}/{module}.py", text)
 
 
@@ -76,8 +79,3 @@ def module_file(
     """The module of a machine in the library."""
     path = f"{package.name}/{package.name}/{machine.module}{library.suffix}.py"
     return OutputFile(path, text.rewritten(WIDTH, ros2.narrowed), origin=machine.origin)
-
-
-@cache
-def _templates() -> Templates:
-    return Templates(Path(__file__).parent / "templates")

@@ -47,7 +47,6 @@ _FILES = {
     "ros2_python": {
         "setup.py": "setup.py",
         "setup.cfg": "setup.cfg",
-        "resource": "resource/{}",
         "__init__.py": "{}/__init__.py",
         "base.py": "{}/base.py",
         "implementation.py": "!{}/implementation.py",
@@ -132,6 +131,9 @@ def _node_files(
             facts=facts if keep else (),
             origin=node.origin,
         )
+    if variant == "ros2_python":
+        path = f"{node.package}/resource/{node.package}"
+        yield OutputFile(path, "", owner=node.model, origin=node.origin)
     if inside is not None:
         yield from definition_files(inside, generation(options), TARGET, report)
 

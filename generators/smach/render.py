@@ -11,10 +11,13 @@ from swarmdsl.codegen.python import docstring
 from swarmdsl.codegen.ros import InterfacePackage, definition_files, interface_path, manifest
 from swarmdsl.ir import System
 
+from ..runtime_source import runtime_source
 from .launch_files import launch_files
 from .module import TARGET
 from .options import Options
 from .view import PackageView, package_view
+
+_RUNTIME = Path(__file__).parent / "runtime"
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
@@ -61,17 +64,15 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
     yield OutputFile(f"{root}/package.xml", package.manifest)
     yield OutputFile(f"{root}/CMakeLists.txt", _fill("package/CMakeLists.txt", **common))
     yield OutputFile(f"{root}/setup.py", _fill("package/setup.py", **common))
-    init = _fill("package/src/package/__init__.py", doc=docstring(package.doc), **common)
+    init = f'# {package.header}\n"""{docstring(package.doc)}"""\n'
     yield OutputFile(f"{source}/__init__.py", init)
     for module in package.modules:
-        yield OutputFile(
-            f"{source}/{module}.py", _fill(f"package/src/package/{module}.py", **common)
-        )
+        yield OutputFile(f"{source}/{module}.py", _runtime(package, f"{module}.py"))
     yield from _engine(f"{source}/engine", package.header)
     yield OutputFile(f"{root}/README.md", _fill("package/README.md", **common))
     yield from launch_files(package)
     if package.robots:
-        text = _fill("package/test/test_machine.py", **common)
+        text = _runtime(package, "test/test_machine.py")
         yield OutputFile(f"{root}/test/test_machine.py", text, executable=True)
     if package.events:
         yield OutputFile(f"{source}/events.py", _fill("package/src/package/events.py", **common))
@@ -85,6 +86,20 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
         text = _fill("package/scripts/node", machine=machine, **common)
         path = f"{root}/scripts/{machine.module}"
         yield OutputFile(path, text, executable=True, origin=machine.origin)
+
+
+def _runtime(package: PackageView, path: str) -> str:
+    """The source of a module of the folder `runtime`."""
+    timeouts: dict[str, object] = {
+        f"_{name.upper()}": seconds for name, seconds in package.timeouts.items()
+    }
+    constants: dict[str, dict[str, object]] = {
+        "actions.py": timeouts,
+        "services.py": {"_MISSING_SERVER": timeouts["_MISSING_SERVER"]},
+        "test/test_machine.py": {"PACKAGE": package.name},
+    }
+    header = f"# {package.header}"
+    return runtime_source(_RUNTIME / path, header, **constants.get(path, {}))
 
 
 def _engine(folder: str, header: str) -> Iterator[OutputFile]:

@@ -36,9 +36,8 @@ def _behavior(package: PackageView, views: list[FsmView], options: Options) -> I
     root = package.name
     head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
-    readme, states = _fill("README.md", **values), _fill("package/states.py")
-    yield from shared.shared_files(package, options, YASMIN, readme, states)
-    yield OutputFile(f"{root}/{root}/library.py", _fill("package/library.py", **values))
+    readme = _fill("README.md", **values)
+    yield from shared.shared_files(package, options, readme, Path(__file__).parent / "runtime")
     imports = _imports_of_test(package, views)
     text = _fill("test/test_yasmin.py", imports=imports, **values)
     yield OutputFile(f"{root}/test/test_yasmin.py", text)

@@ -66,7 +66,7 @@ def fsm_view(
             imports.name("yasmin", node.kind.value)
         else:
             states.append(_state(node, system))
-            imports.own("following", states[-1].base)
+            imports.own("states", states[-1].base)
     return FsmView(
         name=machine.name,
         chart=chart,

@@ -61,7 +61,7 @@ def test_machines_in_libraries_pass(
 ) -> None:
     package = variant("tests/ros2/models", **options)
     modules = [*package.rglob("*_fsm.py"), *package.rglob("*_smach.py")]
-    modules += [package / package.name / f"{each}.py" for each in ("following", "runner")]
+    modules += [package / package.name / f"{each}.py" for each in ("following", "runner", "states")]
     assert lint(modules) == []
 
 

@@ -43,12 +43,11 @@ def _behavior(
     root = package.name
     head = shared.header(package, options)
     values = {"package": package, "views": views, "header": head}
-    readme, states = _fill("README.md", **values), _fill("states.py")
-    yield from shared.shared_files(package, options, SMACH, readme, states)
-    yield OutputFile(f"{root}/{root}/library.py", _fill("library.py", **values))
+    readme = _fill("README.md", **values)
+    yield from shared.shared_files(package, options, readme, Path(__file__).parent / "runtime")
     imports = Imports({})
     imports.module("pytest")
-    imports.name(f"{root}.following", "check")
+    imports.name(f"{root}.states", "check")
     for view in views:
         imports.name(root, view.module)
     text = _fill("test_smach.py", imports=imports.lines(), **values)

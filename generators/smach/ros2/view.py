@@ -40,13 +40,13 @@ def smach_view(machine: StateMachine, chart: str, system: System, report: Diagno
     """What is printed of a machine whose chart is in the module `chart`."""
     structure = Structure(machine, SMACH, report)
     imports = imports_of(chart)
-    imports.own("following", "Machine")
+    imports.own("states", "Machine")
     imports.name("smach", "StateMachine")
     for node in structure.root.walk():
         if node.kind is Kind.CONCURRENCE:
             imports.name("smach", "Concurrence")
         elif node.kind is not Kind.MACHINE:
-            imports.own("following", class_of(node, system)[0])
+            imports.own("states", class_of(node, system)[0])
     return SmachView(
         name=machine.name,
         chart=chart,

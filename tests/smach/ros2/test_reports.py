@@ -59,6 +59,7 @@ def test_skeletons_of_ros_1_beside_it_mean_nothing_for_it(tmp_path: Path) -> Non
         ("Following", "following"),
         ("Library", "library"),
         ("Runner", "runner"),
+        ("States", "states"),
         ("Host", "host"),
     ],
 )

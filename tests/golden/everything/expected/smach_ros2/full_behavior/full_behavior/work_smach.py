@@ -3,9 +3,10 @@
 
 from smach import Concurrence, StateMachine
 
-from .following import ActionState, Chart, Machine, ServiceState, State, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, Machine, ServiceState, State
 from .work import BEHAVIOR
 
 CHART = Chart(

@@ -2,7 +2,7 @@
 """Each machine is complete for SMACH."""
 
 from full_behavior import work_smach
-from full_behavior.following import check
+from full_behavior.states import check
 import pytest
 
 MACHINES = {

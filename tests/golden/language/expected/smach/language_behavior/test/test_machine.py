@@ -13,6 +13,9 @@ import unittest
 import rospy
 import rostest
 
+# The package that is tested, from swarmc.
+PACKAGE = 'language_behavior'
+
 
 class TestMachine(unittest.TestCase):
     """The machine with the params of this node."""
@@ -20,7 +23,7 @@ class TestMachine(unittest.TestCase):
     def setUp(self):
         """Build the machine."""
         name = rospy.get_param('~machine')
-        self.machine = importlib.import_module('language_behavior.' + name).build()
+        self.machine = importlib.import_module(PACKAGE + '.' + name).build()
 
     def test_it_is_complete(self):
         """Each outcome of each state leads somewhere."""
@@ -48,4 +51,4 @@ def check(container):
 
 if __name__ == '__main__':
     rospy.init_node('test_machine')
-    rostest.rosrun('language_behavior', rospy.get_param('~machine'), TestMachine, sys.argv)
+    rostest.rosrun(PACKAGE, rospy.get_param('~machine'), TestMachine, sys.argv)

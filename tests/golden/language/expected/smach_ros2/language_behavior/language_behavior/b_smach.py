@@ -4,9 +4,10 @@
 from smach import StateMachine
 
 from .b import BEHAVIOR
-from .following import ActionState, Chart, Junction, Machine, ServiceState, State, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, Junction, Machine, ServiceState, State
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -2,7 +2,7 @@
 """Each machine is complete for SMACH."""
 
 from language_behavior import b_smach
-from language_behavior.following import check
+from language_behavior.states import check
 import pytest
 
 MACHINES = {

@@ -4,9 +4,10 @@
 from smach import StateMachine
 
 from .blinking import BEHAVIOR
-from .following import ActionState, Chart, Machine, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, Machine
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -2,7 +2,7 @@
 """Each machine is complete for SMACH."""
 
 from blinker_behavior import blinking_smach
-from blinker_behavior.following import check
+from blinker_behavior.states import check
 import pytest
 
 MACHINES = {

@@ -4,9 +4,10 @@
 from yasmin import StateMachine
 
 from .blinking import BEHAVIOR
-from .following import ActionState, Chart, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -3,10 +3,11 @@
 
 from smach import StateMachine
 
-from .following import Chart, Machine, ServiceState, State, Way
+from .following import Chart, Way
 from .inspect import BEHAVIOR
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import Machine, ServiceState, State
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -2,7 +2,7 @@
 """Each machine is complete for SMACH."""
 
 from inspection_behavior import inspect_smach
-from inspection_behavior.following import check
+from inspection_behavior.states import check
 import pytest
 
 MACHINES = {

@@ -3,10 +3,11 @@
 
 from yasmin import StateMachine
 
-from .following import Chart, ServiceState, State, Way
+from .following import Chart, Way
 from .inspect import BEHAVIOR
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ServiceState, State
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -3,9 +3,10 @@
 
 from smach_ros import IntrospectionServer
 
-from .following import check
 from .parameters import Parameter
+from .states import check
 
+NAME = 'SMACH'
 SHOWN = Parameter('introspection.publish', 'bool', False, 'Whether SMACH tells its states.')
 
 

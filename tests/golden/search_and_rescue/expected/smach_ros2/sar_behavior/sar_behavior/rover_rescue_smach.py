@@ -3,10 +3,11 @@
 
 from smach import Concurrence, StateMachine
 
-from .following import ActionState, Chart, Machine, State, Way
+from .following import Chart, Way
 from .node import run
 from .rover_rescue import BEHAVIOR
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, Machine, State
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -3,7 +3,7 @@
 
 import pytest
 from sar_behavior import rover_rescue_smach, uav_search_smach
-from sar_behavior.following import check
+from sar_behavior.states import check
 
 MACHINES = {
     'uav_search': uav_search_smach.build,

@@ -7,6 +7,7 @@ from yasmin_viewer import YasminViewerPub
 
 from .parameters import Parameter
 
+NAME = 'YASMIN'
 SHOWN = Parameter('viewer.publish', 'bool', True, 'Whether yasmin_viewer is told of states.')
 
 

@@ -3,10 +3,11 @@
 
 from yasmin import Concurrence, StateMachine
 
-from .following import ActionState, Chart, State, Way
+from .following import Chart, Way
 from .node import run
 from .rover_rescue import BEHAVIOR
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, State
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -3,9 +3,10 @@
 
 from yasmin import StateMachine
 
-from .following import ActionState, Chart, ServiceState, State, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ActionState, ServiceState, State
 from .uav_search import BEHAVIOR
 
 CHART = Chart(

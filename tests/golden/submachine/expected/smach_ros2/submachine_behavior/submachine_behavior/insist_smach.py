@@ -3,10 +3,11 @@
 
 from smach import StateMachine
 
-from .following import Chart, Machine, ServiceState, Way
+from .following import Chart, Way
 from .insist import BEHAVIOR
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import Machine, ServiceState
 
 CHART = Chart(
     BEHAVIOR.machine,

@@ -3,9 +3,10 @@
 
 from smach import StateMachine
 
-from .following import Chart, Machine, ServiceState, State, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import Machine, ServiceState, State
 from .twice import BEHAVIOR
 
 CHART = Chart(

@@ -3,7 +3,7 @@
 
 import pytest
 from submachine_behavior import insist_smach, twice_smach
-from submachine_behavior.following import check
+from submachine_behavior.states import check
 
 MACHINES = {
     'insist': insist_smach.build,

@@ -3,9 +3,10 @@
 
 from yasmin import StateMachine
 
-from .following import Chart, ServiceState, State, Way
+from .following import Chart, Way
 from .node import run
 from .runner import Fsm, in_node_of_its_own
+from .states import ServiceState, State
 from .twice import BEHAVIOR
 
 CHART = Chart(

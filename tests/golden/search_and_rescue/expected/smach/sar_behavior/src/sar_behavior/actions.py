@@ -11,8 +11,12 @@ import rospy
 from actionlib import ActionClient, CommState
 from actionlib_msgs.msg import GoalStatus
 
-from sar_behavior.states import Activity
+from .states import Activity
 
+# Defaults of timeouts in seconds, from the options of swarmc.
+_MISSING_SERVER = 10
+_DEAD_SERVER = 5
+_CANCEL = 5
 # How goals end; in other ways they are aborted.
 _OUTCOMES = {
     GoalStatus.SUCCEEDED: 'succeeded',
@@ -43,9 +47,9 @@ class ActionState(Activity):
         self._goal_cb = goal_cb
         self._result_cb = result_cb
         self._client = ActionClient(name, spec)
-        self._missing = _timeout('missing_server', 10)
-        self._dead = _timeout('dead_server', 5)
-        self._cancel = _timeout('cancel', 5)
+        self._missing = _timeout('missing_server', _MISSING_SERVER)
+        self._dead = _timeout('dead_server', _DEAD_SERVER)
+        self._cancel = _timeout('cancel', _CANCEL)
 
     def call(self):
         """Reach the goal, or give up."""

@@ -15,7 +15,7 @@ from collections import deque
 
 import rospy
 
-from sar_behavior import engine
+from . import engine
 
 
 class Activation:

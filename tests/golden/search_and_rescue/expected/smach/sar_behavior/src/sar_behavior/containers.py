@@ -10,9 +10,9 @@ import traceback
 
 import smach
 
-from sar_behavior import engine
-from sar_behavior.chart import Chart
-from sar_behavior.states import Charted, joined
+from . import engine
+from .chart import Chart
+from .states import Charted, joined
 
 
 class StateMachine(Charted, smach.StateMachine):

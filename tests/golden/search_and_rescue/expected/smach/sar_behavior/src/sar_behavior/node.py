@@ -11,7 +11,7 @@ import traceback
 import rospy
 import smach_ros
 
-from sar_behavior.states import StartError
+from .states import StartError
 
 # How long a machine has to end when ROS shuts down, in seconds.
 GRACE = 1.5

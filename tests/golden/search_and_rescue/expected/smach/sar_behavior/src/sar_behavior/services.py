@@ -9,7 +9,10 @@ import threading
 
 import rospy
 
-from sar_behavior.states import Activity
+from .states import Activity
+
+# Default of a timeout in seconds, from the options of swarmc.
+_MISSING_SERVER = 10
 
 
 class ServiceState(Activity):
@@ -38,7 +41,7 @@ class ServiceState(Activity):
         self._request = request
         self._request_cb = request_cb
         self._response_cb = response_cb
-        self._missing = rospy.get_param('~timeouts/missing_server', 10)
+        self._missing = rospy.get_param('~timeouts/missing_server', _MISSING_SERVER)
 
     def call(self):
         """Get the answer, or give up."""

@@ -9,7 +9,7 @@ import genpy
 import rospy
 import smach
 
-from sar_behavior import engine
+from . import engine
 
 # The trigger of a transition that waits for nothing.
 AT_ONCE = ''

@@ -1,0 +1,79 @@
+"""Things to do later, by a clock of ROS: one timer for whatever comes first."""
+
+import heapq
+from itertools import count
+
+_LONGEST = 86_400_000_000_000
+"""For how many nanoseconds a timer is set at most: ROS adds them to the time in 64 bits."""
+
+
+class Alarms:
+    """
+    Calls functions after so many nanoseconds, those of one moment in the order of their making.
+
+    `post` runs a function when no other one is in the middle of something.
+    """
+
+    def __init__(self, node, clock, group, post):
+        self._node = node
+        self._clock = clock
+        self._group = group
+        self._post = post
+        self._waiting = []
+        self._numbers = count()
+        self._timer = None
+
+    @property
+    def now(self):
+        """The time of the clock, in nanoseconds."""
+        return self._clock.now().nanoseconds
+
+    def schedule(self, delay, action):
+        """Call the action once; return what `unschedule` takes."""
+        alarm = [self.now + delay, next(self._numbers), action]
+        heapq.heappush(self._waiting, alarm)
+        if self._waiting[0] is alarm:
+            self._set()
+        return alarm
+
+    def unschedule(self, alarm):
+        """Do not call it any more."""
+        alarm[2] = None
+        if self._waiting and self._waiting[0] is alarm:
+            self._set()
+
+    def clear(self):
+        """Forget all of them, and the timer."""
+        self._waiting.clear()
+        if self._timer is not None:
+            self._node.destroy_timer(self._timer)
+            self._timer = None
+
+    def _set(self):
+        """Let the timer go off when the first one is due."""
+        while self._waiting and self._waiting[0][2] is None:
+            heapq.heappop(self._waiting)
+        if not self._waiting:
+            if self._timer is not None:
+                self._timer.cancel()
+            return
+        delay = min(max(self._waiting[0][0] - self.now, 1), _LONGEST)
+        if self._timer is None:
+            self._timer = self._node.create_timer(
+                delay / 1e9, self._ring, callback_group=self._group, clock=self._clock
+            )
+        else:
+            self._timer.timer_period_ns = delay
+            self._timer.reset()
+
+    def _ring(self):
+        self._post(self._call_due)
+
+    def _call_due(self):
+        """Call what is due, also what becomes so on the way."""
+        now = self.now
+        while self._waiting and self._waiting[0][0] <= now:
+            action = heapq.heappop(self._waiting)[2]
+            if action is not None:
+                action()
+        self._set()

@@ -1,0 +1,58 @@
+"""How the node is, on `/diagnostics`, for the tools that watch a robot."""
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+
+_DEPTH = 10
+
+
+class Diagnostics:
+    """
+    Tells how a machine is, and what its calls of functions wait for.
+
+    A warning is told once, in the next message, as is that a server is missing; what has failed
+    is an error from then on.
+    """
+
+    def __init__(self, node, machine, member):
+        self._node = node
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', _DEPTH)
+        self._name = f'{node.get_fully_qualified_name().lstrip("/")}: {machine}'
+        self._member = member or ''
+        self._warnings = []
+        self._failure = ''
+
+    def warn(self, what):
+        """Take note of what has gone wrong, to be told in the next message."""
+        self._warnings.append(what)
+
+    def fail(self, what):
+        """Take note of what has ended the machine."""
+        self._failure = what.strip().rpartition('\n')[2]
+
+    def tell(self, states, running, calls):
+        """Publish a message about the machine in these states, and its calls."""
+        waiting = [call for call in calls if call.is_waiting]
+        warnings = [*self._warnings, *(f'{call} has no server yet' for call in waiting)]
+        self._warnings.clear()
+        status = DiagnosticStatus(
+            level=DiagnosticStatus.OK,
+            name=self._name,
+            message=', '.join(states) if running else 'ended',
+            hardware_id=self._member,
+            values=[
+                KeyValue(key='states', value=', '.join(states)),
+                *(KeyValue(key=str(call), value=call.progress) for call in calls),
+                *(KeyValue(key='warning', value=each) for each in warnings),
+            ],
+        )
+        if self._failure:
+            status.level, status.message = DiagnosticStatus.ERROR, self._failure
+        elif warnings:
+            status.level, status.message = DiagnosticStatus.WARN, warnings[0]
+        message = DiagnosticArray(status=[status])
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        self._publisher.publish(message)
+
+    def release(self):
+        """Let go of the topic."""
+        self._node.destroy_publisher(self._publisher)

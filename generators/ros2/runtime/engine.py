@@ -1,0 +1,25 @@
+"""Stand-in for the engine, which generated packages get from `swarmdsl.execution.engine`."""
+
+from swarmdsl.execution.engine import (
+    Event,
+    ExecutionError,
+    Instance,
+    LoopError,
+    Machine,
+    Observer,
+    Servers,
+)
+from swarmdsl.execution.engine.world import FAILURES as _FAILURES
+
+FAILURES: tuple[type[Exception], ...] = _FAILURES
+
+__all__ = (
+    'FAILURES',
+    'Event',
+    'ExecutionError',
+    'Instance',
+    'LoopError',
+    'Machine',
+    'Observer',
+    'Servers',
+)

@@ -1,0 +1,11 @@
+"""The style of docstrings, with the rules of ROS 2."""
+
+from ament_pep257.main import main
+import pytest
+
+
+@pytest.mark.linter
+@pytest.mark.pep257
+def test_pep257():
+    """Find nothing wrong."""
+    assert main(argv=['.', 'test']) == 0

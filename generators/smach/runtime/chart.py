@@ -1,0 +1,181 @@
+"""Decides what a machine does; its SMACH states and containers follow.
+
+An event, the end of an activity or a time that has passed is run to its end, as in SCXML: the
+transitions that it enables are taken, with all their effects in order, before anything else is
+looked at. What comes meanwhile waits: nothing is lost. Each state that is entered is noted, and
+the outcome with which it is left. SMACH goes the same way, from state to state by the outcomes to
+which they are bound; it runs the activities, and shows where the machine is.
+"""
+
+import heapq
+import itertools
+import threading
+from collections import deque
+
+import rospy
+
+from . import engine
+
+
+class Activation:
+    """One time that a state is active, from its entry to its exit.
+
+    `outcome` is that of the transition of the state that ended it, `entered` has the labels of the
+    states entered inside, in order, `run` is the run of its activity.
+    """
+
+    def __init__(self):
+        self.entered = deque()
+        self.run = None
+        self.is_called = False
+        self.is_over = False
+        self.outcome = None
+
+
+class Chart(engine.Observer):
+    """Runs the machine whose states are in the container `root`."""
+
+    def __init__(self, root):
+        self.changed = threading.Condition(threading.RLock())
+        self.failure = None
+        self._root = root
+        self._states = []
+        self._timers = []
+        self._count = itertools.count()
+        self._clock = None
+        self._left = []
+        self._is_leaving = False
+        self._place(root)
+        table = engine.Machine('machine', root.tables(), root.initial_path())
+        self._instance = engine.Instance(table, self, data=root.userdata, observer=self)
+        # The last: from here on threads of rospy call.
+        for event in dict.fromkeys(event for state in self._states for event in state.heard()):
+            event.listen(self.receive)
+
+    def _place(self, container):
+        container.userdata = self._root.userdata
+        container.edges = {
+            (label, outcome): to for outcome, label, to in container.get_internal_edges()
+        }
+        self._states.append(container)
+        for label, child in container.get_children().items():
+            child.place(label, container, self)
+            if hasattr(child, 'get_children'):
+                self._place(child)
+            else:
+                self._states.append(child)
+
+    # ---- what states and containers call
+
+    def enter(self):
+        """Enter the machine."""
+        with self.changed:
+            self._root.add_activation(Activation())
+            self._do(self._instance.start)
+
+    def leave(self):
+        """Leave all states."""
+        with self.changed:
+            self._do(self._instance.stop)
+
+    def receive(self, name, data=None):
+        """Run an event to its end."""
+        with self.changed:
+            self._do(lambda: self._instance.receive(engine.Event(name, data)))
+
+    def ended(self, activation, outcome, result):
+        """Run the end of an activity to its end."""
+        with self.changed:
+            activation.is_called = False
+            self._do(lambda: activation.run.end(outcome, result))
+
+    def fail(self, error):
+        """End a machine that cannot go on."""
+        with self.changed:
+            self.failure = self.failure or error
+            self._do(self._instance.stop)
+
+    def _do(self, action):
+        try:
+            action()
+        except Exception as error:  # a thread of rospy would only print it
+            self.failure = self.failure or error
+        if self.failure is not None:
+            for state in self._states:
+                state.end()
+        elif not self._instance.running:
+            self._root.end()
+        self.changed.notify_all()
+
+    # ---- what the engine tells: which states are entered and left
+
+    def entered(self, instance, state):
+        """Note that a state is active."""
+        if state.origin is not None:  # a final state of the machine itself is no SMACH state
+            state.origin.add_activation(Activation())
+
+    def exited(self, instance, state):
+        """Note that it is left."""
+        if not self._is_leaving:
+            self._is_leaving = True
+            self._left = []
+        if state.origin is not None:
+            state.origin.end()
+            self._left.append(state.origin)
+
+    def taken(self, instance, transition):
+        """Note the outcome; that of an internal transition is one of the state inside."""
+        self._is_leaving = False
+        if transition.origin is None or not transition.targets:
+            return
+        state, on = transition.origin
+        for left in self._left:
+            if (left.container if on.internal else left) is state:
+                left.current.outcome = on.outcome
+
+    # ---- what the engine asks for
+
+    def start(self, run):
+        """Let a state begin its activity, as soon as SMACH has come to it."""
+        _state_of(run).current.run = run
+
+    def cancel(self, run):
+        """Let it stop that."""
+        state = _state_of(run)
+        if state.current.is_called:
+            state.request_preempt()
+        else:
+            run.end('preempted')
+
+    def failed(self, instance, error):
+        """Say that a guard or an effect has no value; the machine goes on."""
+        rospy.logerr('%s', error)
+
+    def schedule(self, delay, action):
+        """Do something in so many nanoseconds of ROS time."""
+        timer = (rospy.Time.now() + rospy.Duration(delay / 1e9), next(self._count), action)
+        heapq.heappush(self._timers, timer)
+        if self._clock is None:
+            self._clock = threading.Thread(target=self._watch_clock, name='clock')
+            self._clock.daemon = True
+            self._clock.start()
+        return timer
+
+    def unschedule(self, timer):
+        """Do it no more."""
+        if timer in self._timers:
+            self._timers.remove(timer)
+            heapq.heapify(self._timers)
+
+    def _watch_clock(self):
+        with self.changed:
+            while self._timers:
+                if rospy.Time.now() < self._timers[0][0]:
+                    self.changed.wait(0.02)
+                else:
+                    self._do(heapq.heappop(self._timers)[2])
+            self._clock = None
+
+
+def _state_of(run):
+    return run.instance.machine.states[run.state].origin

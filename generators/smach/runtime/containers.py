@@ -1,0 +1,140 @@
+"""Containers that go where the chart of their machine says.
+
+All of a machine share one userdata: a value that one state stores is there for every other at
+once, and no container copies an old one over it when it ends.
+"""
+
+import threading
+import traceback
+
+import smach
+
+from . import engine
+from .chart import Chart
+from .states import Charted, joined
+
+
+class StateMachine(Charted, smach.StateMachine):
+    """A state with states inside, one of which is active at a time.
+
+    `on` has its transitions; `outcomes` are those of states inside that lead out of it, and of
+    internal transitions of the states around. `initial` is the state entered first, by its path
+    in this one; the one added first, where it is not given.
+    """
+
+    def __init__(self, on=(), outcomes=(), initial=None, after=None, on_entry=None, on_exit=None):
+        own = self.describe(on, after, on_entry, on_exit)
+        smach.StateMachine.__init__(self, [*own, *outcomes, 'preempted'])
+        self._initial = initial
+
+    def tables(self):
+        """The states inside as the engine knows them."""
+        return [child.table() for child in self.get_children().values()]
+
+    def initial_path(self):
+        """The path of the state inside that is entered first."""
+        return (joined(self.path, self._initial or self.get_initial_states()[0]),)
+
+    def next_label(self):
+        """The label of the state that SMACH comes to next."""
+        with self.chart.changed:
+            return self.following.entered[0]
+
+    def execute(self, parent_ud=None):
+        """Go from state to state as the chart has, beginning where it has begun."""
+        activation = self.follow()
+        self.set_initial_state([self.next_label()])
+        outcome = smach.StateMachine.execute(self, parent_ud)
+        self.wait(activation)
+        return activation.outcome or outcome or 'preempted'
+
+
+class Machine(StateMachine):
+    """The whole state machine; it ends in one of `outcomes`, its final states."""
+
+    def __init__(self, outcomes, userdata, initial=None):
+        super().__init__(outcomes=outcomes, initial=initial)
+        self.userdata = userdata
+        self._finals = outcomes
+
+    def __exit__(self, *failure):
+        """Make the chart when all states are there."""
+        result = super().__exit__(*failure)
+        if failure == (None, None, None):
+            self.chart = Chart(self)
+        return result
+
+    def tables(self):
+        """The states inside as the engine knows them, and the final ones."""
+        finals = [engine.State(name, engine.Kind.FINAL) for name in self._finals]
+        return [*super().tables(), *finals]
+
+    def request_preempt(self):
+        """Leave all states; those that call a server end when it has stopped."""
+        self.chart.leave()
+
+    def execute(self, parent_ud=None):
+        """Run the machine to its end."""
+        self.chart.enter()
+        outcome = super().execute(parent_ud)
+        if self.chart.failure is not None:
+            raise self.chart.failure
+        return outcome
+
+
+class Concurrence(Charted, smach.Concurrence):
+    """A state with regions, all of which are active while it is.
+
+    `on` has its transitions; `outcome_map` says which outcome of which region leads out of it by
+    which outcome, `outcomes` are those of internal transitions of the states around.
+    """
+
+    kind = engine.Kind.PARALLEL
+
+    def __init__(
+        self, on=(), outcome_map=None, outcomes=(), after=None, on_entry=None, on_exit=None
+    ):
+        own = self.describe(on, after, on_entry, on_exit)
+        ways = outcome_map or {}
+        smach.Concurrence.__init__(
+            self,
+            [*own, *ways, *outcomes, 'preempted'],
+            default_outcome='preempted',
+            outcome_map=ways,
+        )
+
+    def tables(self):
+        """The regions as the engine knows them."""
+        return [region.table() for region in self.get_children().values()]
+
+    def execute(self, parent_ud=None):
+        """Let all regions run until the state is left."""
+        activation = self.follow()
+        self.check_consistency()
+        self._child_outcomes = dict.fromkeys(self._states)
+        self.call_start_cbs()
+        threads = [
+            threading.Thread(name='concurrent_split:' + label, target=self._run, args=(label,))
+            for label in self._states
+        ]
+        for thread in threads:
+            thread.daemon = True
+            thread.start()
+        for thread in threads:
+            while thread.is_alive() and not smach.is_shutdown():
+                thread.join(0.05)
+        self.wait(activation)
+        ended = set(self._child_outcomes.items())
+        ways = [way for way, ends in self._outcome_map.items() if ended >= set(ends.items())]
+        outcome = activation.outcome or next(iter(ways), 'preempted')
+        self.call_termination_cbs(list(self._states), outcome)
+        return outcome
+
+    def _run(self, label):
+        try:
+            outcome = self._states[label].execute(self.userdata)
+        except Exception:
+            outcome = 'preempted'
+            self.chart.fail(smach.InvalidUserCodeError(traceback.format_exc()))
+        self._child_outcomes[label] = outcome
+        self.call_transition_cbs()

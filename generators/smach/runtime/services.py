@@ -1,0 +1,101 @@
+"""Services as states that can be left while they are called.
+
+A `smach_ros.ServiceState` waits for ever for a service that is not there, and cannot be preempted
+while it waits for an answer.
+"""
+
+import threading
+
+import rospy
+
+from .states import Activity
+
+# Default of a timeout in seconds, from the options of swarmc.
+_MISSING_SERVER = 60
+
+
+class ServiceState(Activity):
+    """Calls a service and waits for its answer.
+
+    `request_cb(userdata, request)` fills the request or returns another one;
+    `response_cb(userdata, response)` takes what is needed from the answer. The state is aborted
+    when there is no service within `~timeouts/missing_server` seconds, when the call fails, as it
+    does where the server dies, and when a callback fails. It ends with `refused` when a field
+    `success` of the answer is false. Left, it ends at once: an answer that comes later is dropped.
+    """
+
+    def __init__(
+        self,
+        name,
+        spec,
+        request=None,
+        request_cb=None,
+        response_cb=None,
+        refused='aborted',
+        **keywords,
+    ):
+        super().__init__(name, **keywords)
+        self._refused = refused
+        self._spec = spec
+        self._request = request
+        self._request_cb = request_cb
+        self._response_cb = response_cb
+        self._missing = rospy.get_param('~timeouts/missing_server', _MISSING_SERVER)
+
+    def call(self):
+        """Get the answer, or give up."""
+        request = self._spec._request_class() if self._request is None else self._request
+        request = self.ask(self._request_cb, request) or request
+        call = _Call(self.name, self._spec, request, self._missing, self._wake)
+        call.start()
+        while not self.preempt_requested() and not call.has_ended:
+            self._wake.wait()
+            self._wake.clear()
+        call.is_left = True
+        if self.preempt_requested():
+            return 'preempted', None
+        try:
+            response = call.answer()
+        except (rospy.ROSException, rospy.ServiceException) as error:
+            rospy.logerr('service %s: %s', self.name, error)
+            return 'aborted', None
+        outcome = 'succeeded'
+        if getattr(response, 'success', True) is False:
+            outcome = self._refused
+        if outcome == 'aborted':
+            rospy.logwarn('service %s was refused: %s', self.name, getattr(response, 'message', ''))
+        else:
+            self.ask(self._response_cb, response)
+        return outcome, response
+
+
+class _Call(threading.Thread):
+    """One call, in a thread that can be left alone with it; `is_left` says that it is."""
+
+    def __init__(self, name, spec, request, patience, wake):
+        super().__init__(name='service ' + name, daemon=True)
+        self.has_ended = self.is_left = False
+        self._service = name
+        self._spec = spec
+        self._request = request
+        self._patience = patience
+        self._wake = wake
+        self._response = self._error = None
+
+    def run(self):
+        """Wait for the service and call it."""
+        try:
+            rospy.wait_for_service(self._service, self._patience)
+            if not self.is_left:
+                self._response = rospy.ServiceProxy(self._service, self._spec)(self._request)
+        except Exception as error:
+            self._error = error
+        self.has_ended = True
+        if not self.is_left:
+            self._wake.set()
+
+    def answer(self):
+        """The response; raises what went wrong."""
+        if self._error is not None:
+            raise self._error
+        return self._response
