@@ -14,9 +14,15 @@ from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 from swarmdsl.project.loader import Project, load
 
+from .children import pytest_timeout_set_timer, restore_interrupts
+
+__all__ = ["pytest_timeout_set_timer"]  # a hook
+
 ROOT = Path(__file__).resolve().parents[1]
 # What targets make has tests of its own, which are for ROS.
 collect_ignore = ["golden", "skeleton/golden"]
+
+restore_interrupts()
 
 # What is made by chance is the same in each run; `--hypothesis-profile chance` makes others.
 settings.register_profile(
