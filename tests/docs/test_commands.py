@@ -23,9 +23,10 @@ def test_commands(page: Page, tmp_path: Path) -> None:
     """Follow a page from top to bottom in a folder that has the examples."""
     shutil.copytree(ROOT / "examples", tmp_path / "examples")
     walk = Walk(tmp_path)
-    for block in page.blocks:
-        if "needs" not in block.attributes:
-            walk.follow(block)
+    blocks = [block for block in page.blocks if "needs" not in block.attributes]
+    assert blocks
+    for block in blocks:
+        walk.follow(block)
 
 
 def test_there_are_commands() -> None:

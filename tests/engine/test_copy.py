@@ -38,7 +38,7 @@ def test_it_imports_the_standard_library_and_itself(module: Path) -> None:
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda path: path.name)
 def test_it_is_written_in_the_python_of_ros_humble(module: Path) -> None:
-    ast.parse(module.read_text(encoding="utf-8"), feature_version=(3, 10))
+    assert ast.parse(module.read_text(encoding="utf-8"), feature_version=(3, 10)).body
 
 
 def test_a_copy_runs(tmp_path: Path) -> None:

@@ -147,7 +147,8 @@ def test_descriptions_of_the_wrong_kind() -> None:
             {"name": "f", "api": {"comm_model": {"definition": {"class": wrong, "goal": wrong}}}},
         ):
             content = {"functions": [described], "sensors/actuators": [described, wrong]}
-            said_of_json(json.dumps(content))
+            names = {name for name, _, _ in said_of_json(json.dumps(content))}
+            assert names, content
 
 
 def test_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -37,7 +37,7 @@ PLACES = (
 )
 
 
-def compare(text: str) -> bool:
+def check_same(text: str) -> bool:
     """Parse a text with expressions both ways and compare; return whether all is right."""
     made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
     expected = oracle.parse(text)
@@ -60,12 +60,12 @@ def test_sentences_and_mutants(seed: int) -> None:
     right = 0
     for _ in range(150):
         expressions = [sentences.sentence("EXPRESSION") for _ in range(5)]
-        right += compare(filled(dice.choice(PLACES), expressions))
+        right += check_same(filled(dice.choice(PLACES), expressions))
         mutants = [
             dice.choice(MUTATIONS)(text, dice) if re.search(r"\w", text) else text
             for text in expressions
         ]
-        compare(filled(dice.choice(PLACES), mutants))
+        check_same(filled(dice.choice(PLACES), mutants))
     assert 5 < right < 150
 
 
@@ -74,7 +74,7 @@ def test_sentences_and_mutants(seed: int) -> None:
     st.lists(st.lists(st.sampled_from(TOKENS), min_size=1, max_size=9), min_size=5, max_size=5),
 )
 def test_random_tokens(place: str, expressions: list[list[str]]) -> None:
-    compare(filled(place, [" ".join(tokens) for tokens in expressions]))
+    check_same(filled(place, [" ".join(tokens) for tokens in expressions]))
 
 
 OPERAND = st.sampled_from(("a", "1", "2 s", '"t"', "true", "event.x", "f(a, b)", "not a", "-a"))
@@ -94,8 +94,8 @@ OPERATOR = st.sampled_from(("and", "or", "==", "<", "+", "-", "*", "%", "and not
     )
 )
 def test_precedence(text: str) -> None:
-    compare(f"const A : T = {text}")
-    compare_faults(text)
+    check_same(f"const A : T = {text}")
+    check_same_faults(text)
 
 
 def faults(text: str) -> list[Diagnostic]:
@@ -105,7 +105,7 @@ def faults(text: str) -> list[Diagnostic]:
     return list(report)
 
 
-def compare_faults(text: str) -> None:
+def check_same_faults(text: str) -> None:
     """The first fault is where Lark stops."""
     found = [fault.primary for fault in faults(text) if fault.name == "syntax-error"]
     place = lark_error(text)

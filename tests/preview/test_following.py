@@ -71,7 +71,7 @@ class Page:
     def told(self) -> Any:
         return self._told.get(timeout=PATIENCE)
 
-    def until(self, wanted: Any) -> None:
+    def wait_until(self, wanted: Any) -> None:
         """Wait until it is told so; news that come fast are told together."""
         found: Any = {}
         while found != wanted:
@@ -119,11 +119,11 @@ def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> 
         file.write(step("dog[0]", "Shut")[-10:])
     assert page.told() == {"dog[0]": ["Shut"]}
     trace.write_text(step("dog[1]", "Lie"), encoding="utf-8")
-    page.until({"dog[0]": None, "dog[1]": ["Lie"]})  # it begins anew
+    page.wait_until({"dog[0]": None, "dog[1]": ["Lie"]})  # it begins anew
     other = tmp_path / "other.jsonl"
     other.write_text(step("dog[2]", "Patrol.Walk"), encoding="utf-8")
     other.replace(trace)
-    page.until({"dog[1]": None, "dog[2]": ["Patrol.Walk"]})
+    page.wait_until({"dog[1]": None, "dog[2]": ["Patrol.Walk"]})
     assert wrong == []
 
 
@@ -160,7 +160,7 @@ def test_of_several_machines_alone_each_is_called_as_its_trace_too(
     for name in names:
         Path(name).write_text(step(None, "Lie"), encoding="utf-8")
     follow(names, news, pytest.fail)
-    Page(news).until({f"Guarding ({name})": ["Lie"] for name in names})
+    Page(news).wait_until({f"Guarding ({name})": ["Lie"] for name in names})
 
 
 def test_a_line_that_is_none_of_a_trace_is_told_once(news: News, tmp_path: Path) -> None:

@@ -143,7 +143,8 @@ def test_linters_of_ros_find_nothing(
 def test_python_of_humble_reads_it(generate: Generate) -> None:
     for path, file in generate(MODEL).items():
         if path.endswith(".py"):
-            ast.parse(file.text, path, feature_version=(3, 10))
+            tree = ast.parse(file.text, path, feature_version=(3, 10))
+            assert tree.body or not file.text.strip(), path
 
 
 def test_the_manifest_has_all_that_is_needed(generate: Generate) -> None:

@@ -64,11 +64,14 @@ def test_an_action(read_well: Read) -> None:
 
 @pytest.mark.parametrize(("text", "kind"), [("", "msg"), ("---", "srv"), ("---\n---\n", "action")])
 def test_empty_parts(text: str, kind: str, read_well: Read) -> None:
-    read_well(text, kind)
+    declaration = read_well(text, kind).declaration
+    assert not [node for node in walk(declaration) if isinstance(node, Field)]
 
 
 def test_parts_may_use_the_same_names(read_well: Read) -> None:
-    read_well("uint8 OK=0\nint32 id\n---\nuint8 OK=0\nint32 id\n", "srv")
+    found = read_well("uint8 OK=0\nint32 id\n---\nuint8 OK=0\nint32 id\n", "srv").declaration
+    assert isinstance(found, ServiceType)
+    assert types(found.request) == types(found.response) == {"id": "int32"}
 
 
 @pytest.mark.parametrize(

@@ -58,4 +58,4 @@ def test_without_a_rest_garbage_is_looked_for_after_many_messages(collected, mon
     monkeypatch.setattr(server, "_MOST_MESSAGES", 3)
     monkeypatch.setattr(server, "_REST", 60)
     ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
-    run(INITIALIZE, ask, ask, until=collected)
+    assert '"id": 2' in run(INITIALIZE, ask, ask, until=collected)

@@ -49,12 +49,14 @@ def test_the_server_of_the_extension_runs_with_any_python(window: Window) -> Non
     window.open("behaviours.swarm")
     window.server(__version__)
     window.found("the extension")
+    expect(window.status("swarmdsl.swarm.swarmdsl")).to_contain_text(__version__)
 
 
 def test_hover(window: Window) -> None:
     window.place("behaviours.swarm", "uav_coverage(")
     hover = window.page.locator(".monaco-hover .hover-contents", has_text="Sweep the whole area")
     window.again(lambda: window.command("Show or Focus Hover"), hover.last)
+    expect(hover.last).to_be_visible()
 
 
 def test_definition(window: Window) -> None:
@@ -62,6 +64,7 @@ def test_definition(window: Window) -> None:
     window.again(lambda: window.press("F12"), window.tab("functions.swarm"))
     line = text(window, "functions.swarm").split("\n").index("function uav_coverage : swarm {") + 1
     window.at(line, len("function ") + 1)
+    expect(window.tab("functions.swarm")).to_have_count(1)
 
 
 def test_references(window: Window) -> None:
@@ -119,6 +122,7 @@ def test_formatting(window: Window) -> None:
     window.open("sar.swarm")
     window.command("Format Document")
     window.saved("sar.swarm", lambda now: now == before)
+    assert file.read_text(encoding="utf-8") == before
 
 
 def test_outline(window: Window) -> None:
@@ -150,6 +154,7 @@ def test_uses_stand_above_a_declaration_and_lead_there(window: Window) -> None:
     lens = window.page.locator(".codelens-decoration a", has_text="1 reference").first
     window.again(lens.click, window.page.locator(".zone-widget"))
     window.press("Escape")
+    expect(window.page.locator(".zone-widget")).to_have_count(0)
 
 
 def test_the_preview_follows_the_text_and_leads_to_it(
