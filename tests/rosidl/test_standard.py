@@ -160,11 +160,10 @@ def test_places_are_in_the_interface() -> None:
     assert (stamp.name.span.line, stamp.name.span.text) == (2, "stamp")
 
 
-def test_nothing_is_read_before_it_is_asked_for_and_then_fast() -> None:
+def test_nothing_is_read_before_it_is_asked_for_and_then_without_parsers() -> None:
     program = """
 import sys
 from pathlib import Path
-from time import process_time
 import swarmdsl.project.rosidl.interface_file
 from swarmdsl.syntax.types import Named
 
@@ -173,17 +172,8 @@ original = Path.read_text
 Path.read_text = lambda self, **options: (read.append(self.name), original(self, **options))[1]
 from swarmdsl.project.rosidl import standard
 assert read == [], read
-start = process_time()
 assert standard.lookup(Named("geometry_msgs", "PoseStamped"))
-print(process_time() - start)
 assert read == list(standard.FILES), read
 assert not {"numpy", "rosbags", "textx", "lxml"} & set(sys.modules)
 """
-    took = min(
-        float(
-            subprocess.run([sys.executable, "-c", program], check=True, capture_output=True).stdout
-        )
-        for _ in range(3)
-    )
-
-    assert took < 0.05  # 2 ms on an idle machine
+    assert subprocess.run([sys.executable, "-c", program]).returncode == 0

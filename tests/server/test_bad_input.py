@@ -3,7 +3,6 @@
 import json
 import subprocess
 import sys
-import time
 
 import pytest
 
@@ -170,14 +169,14 @@ def test_two_editors_at_once(tmp_path):
             server.process.communicate(timeout=60)
 
 
+@pytest.mark.timeout(60)
 def test_a_file_of_5_mb(raw, tmp_path):
     raw.initialize(tmp_path)
     path = tmp_path / "large.swarm"
     text = "const A : int32 = 5 // much\n" * 190_000
-    start = time.monotonic()
     raw.open(path, text)
     [found] = raw.findings(path)
-    assert (found["code"], time.monotonic() - start < 60) == ("SW1217", True)
+    assert found["code"] == "SW1217"
     raw.open(path, MODEL)
     assert raw.findings(path) == []
 

@@ -542,7 +542,7 @@ def test_timeout(robot: Run) -> None:
     before = time.monotonic()
     work.start()
     assert work.ended() == "Late"
-    assert 0.11 <= time.monotonic() - before < 30
+    assert time.monotonic() - before >= 0.11
     assert work.world.called() == ["work", "rest"]
 
 

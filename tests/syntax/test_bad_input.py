@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import time
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -15,8 +14,8 @@ from swarmdsl.driver import pipeline
 
 START = "event Start : std_msgs/Empty\n"
 LONG = 1_000_000
-# The slowest of these takes a tenth of it on a machine of today.
-SECONDS = 60
+# The slowest of these takes a tenth of it.
+soon = pytest.mark.timeout(60)
 
 Check = Callable[[str | bytes], list[tuple[str, int, int]]]
 
@@ -107,6 +106,7 @@ def test_any_character_may_stand_in_comments_and_texts(check: Check) -> None:
     assert check(f"// \u200b§🚁\n{text}") == []
 
 
+@soon
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -135,11 +135,8 @@ def test_any_character_may_stand_in_comments_and_texts(check: Check) -> None:
 def test_very_long_lines(
     check: Check, text: str, expected: list[tuple[str, int, int]] | None
 ) -> None:
-    start = time.monotonic()
-    found = check(text)
-
-    assert found == ([("nested-too-deeply", 1, 31)] if expected is None else expected)
-    assert time.monotonic() - start < SECONDS
+    expected = [("nested-too-deeply", 1, 31)] if expected is None else expected
+    assert check(text) == expected
 
 
 def nested_states(depth: int) -> str:
@@ -297,14 +294,13 @@ def test_a_chain_of_types(check: Check) -> None:
     assert check(f"{structs}struct S500 {{ next : S0 }}\n") == [("type-cycle", 501, 22)]
 
 
+@soon
 def test_a_machine_of_two_thousand_states(check: Check) -> None:
     states = "".join(f"state S{i} {{ on Start -> S{i + 1} }}\n" for i in range(2000))
     text = f"{START}statemachine M {{\ninitial S0\n{states}final S2000\n}}\n"
-    start = time.monotonic()
 
     assert check(text) == []
     assert check(text.replace("final S2000", "final End")) == [("unresolved-name", 2003, 27)]
-    assert time.monotonic() - start < SECONDS
 
 
 def test_two_thousand_mistakes(check: Check) -> None:

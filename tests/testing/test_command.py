@@ -7,7 +7,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Callable
 from io import StringIO
 from pathlib import Path
@@ -286,7 +285,6 @@ def test_an_interrupt_tells_what_is_known(folder: Path) -> None:
         assert process.stderr is not None
         while "b.swarmtest.toml" not in process.stdout.readline():
             assert process.poll() is None
-        time.sleep(0.2)
         process.send_signal(signal.SIGINT)
         err = process.stderr.read()
 
