@@ -7,6 +7,9 @@ BIN := $(VENV)/bin
 READY := $(VENV)/.ready
 # More for pytest: make test ARGS="-x tests/syntax"
 ARGS :=
+# How many tests run at the same time: make test WORKERS=1
+WORKERS := auto
+PARALLEL = $(BIN)/pytest -n $(WORKERS) --dist loadfile
 MUTANTS ?= 10000
 BENCH_READY := benchmarks/node_modules/.ready
 EXTENSION := editors/vscode
@@ -18,7 +21,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
+.PHONY: demo help test test-long test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
@@ -30,8 +33,11 @@ demo: $(READY) ## Compile an example, show what was made, and simulate it.
 help: ## List what can be made.
 	@sed -n 's/^\([a-z0-9-]*\):.*## /\1: /p' Makefile
 
-test: $(READY) ## Run the tests.
-	$(BIN)/pytest $(ARGS)
+test: $(READY) ## Run the tests, but for those that take long.
+	$(PARALLEL) -m "not long" $(ARGS)
+
+test-long: $(READY) ## Run the tests that take long: they compile C++ and build the wheel.
+	$(PARALLEL) -m long $(ARGS)
 
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
 	$(BIN)/pytest tests/ros1 $(ARGS)

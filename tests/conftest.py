@@ -15,8 +15,18 @@ from swarmdsl.ir import System
 from swarmdsl.project.loader import Project, load
 
 from .children import pytest_timeout_set_timer, restore_interrupts
+from .scheduling import (
+    pytest_collection_finish,
+    pytest_collection_modifyitems,
+    pytest_xdist_make_scheduler,
+)
 
-__all__ = ["pytest_timeout_set_timer"]  # a hook
+__all__ = [  # hooks
+    "pytest_collection_finish",
+    "pytest_collection_modifyitems",
+    "pytest_timeout_set_timer",
+    "pytest_xdist_make_scheduler",
+]
 
 ROOT = Path(__file__).resolve().parents[1]
 # What targets make has tests of its own, which are for ROS.

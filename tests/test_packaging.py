@@ -16,7 +16,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 
-pytestmark = pytest.mark.packaging
+pytestmark = [pytest.mark.long, pytest.mark.packaging]
 
 
 def run(*command: object, cwd: Path) -> "subprocess.CompletedProcess[str]":

@@ -1,5 +1,6 @@
 """A server for all tests of a module, which its client asks as editors do."""
 
+import gc
 import sys
 
 import pytest
@@ -11,6 +12,12 @@ from .editor import Editor
 from .model import MODEL, ROVER
 
 SERVER = [sys.executable, "-m", "swarmdsl", "lsp"]
+
+
+@pytest.fixture(autouse=True)
+def stays_frozen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Keep what pytest has made exempt from the garbage collections of a server in this process."""
+    monkeypatch.setattr(gc, "unfreeze", lambda: None)
 
 
 @pytest_lsp.fixture(

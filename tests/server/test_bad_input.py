@@ -224,7 +224,7 @@ def test_a_file_that_is_renamed(tmp_path):
 
 def test_nothing_is_kept_of_files_that_were_closed(tmp_path):
     models = Models()
-    for number in range(30):
+    for number in range(3):
         path = tmp_path / str(number) / "a.swarm"
         models.edit(path, MODEL)
         assert models.file(path) is not None

@@ -1,0 +1,48 @@
+"""Hooks that make the tests fast: distribution to workers, order, garbage collection."""
+
+from __future__ import annotations
+
+import gc
+from typing import Any
+
+import pytest
+
+# Files that write to one folder of the checkout, or share a fixture that is slow to make.
+TOGETHER = ("tests/editor/",)
+
+
+def unit(nodeid: str) -> str:
+    """The file of a test, or the folder whose tests share a worker."""
+    file = nodeid.partition("::")[0]
+    return next((folder for folder in TOGETHER if file.startswith(folder)), file)
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Run each file on one worker for `--dist loadfile`, so that its fixtures are made once."""
+    if config.getoption("dist") != "loadfile":
+        return None
+    from xdist.scheduler import LoadFileScheduling
+
+    class Scheduling(LoadFileScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return unit(nodeid)
+
+    config.option.loadscopereorder = False  # the order of `pytest_collection_modifyitems`
+    return Scheduling(config, log)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Begin with the slow tests on several workers, so that these end at about the same time."""
+    if hasattr(config, "workerinput"):
+        items.sort(key=lambda item: item.get_closest_marker("long") is None)
+
+
+def pytest_collection_finish() -> None:
+    """Exempt what pytest has made so far from garbage collection.
+
+    Programs under test collect garbage, which would walk all of it each time.
+    """
+    gc.collect()
+    gc.freeze()
