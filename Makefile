@@ -21,7 +21,7 @@ ROS2 ?= $(CURDIR)/.ros2
 # The time in the package of the extension: the same commit gives the same bytes.
 SOURCE_DATE_EPOCH ?= $(shell git log -1 --format=%ct)
 
-.PHONY: demo help test test-long test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
+.PHONY: demo help test test-long test-all test-ros1 ros2 test-ros2 test-editor vscode agreement check fmt docs bench fuzz bless parser dist vsix clean
 
 demo: $(READY) ## Compile an example, show what was made, and simulate it.
 	$(BIN)/swarmc build examples/search_and_rescue --option scxml.profile=portable -o out
@@ -38,6 +38,10 @@ test: $(READY) ## Run the tests, but for those that take long.
 
 test-long: $(READY) ## Run the tests that take long: they compile C++ and build the wheel.
 	$(PARALLEL) -m long $(ARGS)
+
+test-all: $(VENV)/.agreement $(VENV)/.docs $(EXTENSION_READY) vscode ## Run all tests, with ROS 2, VS Code and other engines.
+	$(BIN)/python tests/ros2/environment.py $(ROS2)
+	SWARMDSL_ROS2=$(ROS2) $(PARALLEL) $(ARGS)
 
 test-ros1: $(READY) ## Run generated SMACH nodes in a graph of ROS 1, which Debian's packages bring.
 	$(BIN)/pytest tests/ros1 $(ARGS)

@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+import swarmdsl
+
 ROOT = Path(__file__).resolve().parents[1]
 
 pytestmark = [pytest.mark.long, pytest.mark.packaging]
@@ -52,9 +54,12 @@ def python(folder: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def wheel(folder: Path, python: Path) -> Path:
-    """The wheel, made from the source distribution as it is for a release."""
-    run_ok(sys.executable, "-m", "build", "--outdir", folder / "dist", ROOT, cwd=folder)
-    (wheel,) = (folder / "dist").glob("*.whl")
+    """The wheel of `make dist`, made from the source distribution as it is for a release."""
+    made = os.environ.get("SWARMDSL_DIST")
+    dist = Path(made) if made else folder / "dist"
+    if made is None:
+        run_ok(sys.executable, "-m", "build", "--outdir", dist, ROOT, cwd=folder)
+    (wheel,) = dist.glob(f"*-{swarmdsl.__version__}-*.whl")
     return wheel
 
 
@@ -97,6 +102,7 @@ def test_the_package_is_the_installed_one(installed, folder):
         installed / "python", "-c", "import swarmdsl; print(swarmdsl.__file__)", cwd=folder
     )
     assert str(folder / "venv") in shown
+    assert swarmdsl.__version__ in run_ok(installed / "swarmc", "--version", cwd=folder)
 
 
 def test_examples_build_from_another_folder(installed, folder):

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from ..ros2.domains import free_domain
 from .pages import ROOT, Block, Page
 from .walk import Walk, commands, matches
 
@@ -66,6 +67,8 @@ def test_what_is_started_is_there(
             assert len(list(places)) == 1, f"{command} {package} {name}"
 
 
+@pytest.mark.long
+@pytest.mark.timeout(660)
 def test_on_ros_2(walked: Path) -> None:
     """Build the workspace, let two drones fly, and hold what they did against the model."""
     ros = os.environ.get("SWARMDSL_ROS2")
@@ -93,21 +96,21 @@ def test_on_ros_2(walked: Path) -> None:
         "COLCON_DEFAULTS_FILE": str(walked / "colcon.yaml"),
         "FASTDDS_DEFAULT_PROFILES_FILE": str(ROOT / "tests" / "ros2" / "loopback.xml"),
         "FASTRTPS_DEFAULT_PROFILES_FILE": str(ROOT / "tests" / "ros2" / "loopback.xml"),
-        "ROS_DOMAIN_ID": str(20 + os.getpid() % 80),
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "SYSTEM_DEFAULT",
         "ROS_LOG_DIR": str(walked / "log"),
     }
 
-    run = subprocess.run(
-        ["bash", "-e", "-c", "\n".join(done)],
-        cwd=walked,
-        env=environment,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        timeout=600,
-        check=False,
-    )
+    with free_domain() as domain:
+        run = subprocess.run(
+            ["bash", "-e", "-c", "\n".join(done)],
+            cwd=walked,
+            env={**environment, "ROS_DOMAIN_ID": str(domain)},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=600,
+            check=False,
+        )
 
     assert run.returncode == 0, run.stdout
     assert matches(run.stdout, f"...\n{shown}"), run.stdout

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import importlib.util
-import itertools
 import json
 import os
 import sys
@@ -24,6 +23,8 @@ from swarmdsl.codegen.registry import load
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
 from swarmdsl.syntax.types import DURATION
+
+from .domains import free_domain
 
 HERE = Path(__file__).parent
 
@@ -114,16 +115,14 @@ def variant(tmp_path: Path) -> Callable[..., Path]:
     return lambda model, **options: write_package(root / model, tmp_path / "variant", **options)
 
 
-_domains = itertools.count(os.getpid())
-
-
 @pytest.fixture
 def ros(ros_folder: Path, packages: list[Path], tmp_path: Path) -> Iterator[Any]:
     """Processes of ROS in a domain of their own."""
     harness = load_module("harness")
-    made = harness.Ros(ros_folder, packages, 20 + next(_domains) % 80, tmp_path)
-    yield made
-    made.close()
+    with free_domain() as domain:
+        made = harness.Ros(ros_folder, packages, domain, tmp_path)
+        yield made
+        made.close()
     for number, node in enumerate(made.nodes):
         if node.trace:
             _agrees(node, tmp_path / f"replay_{number}.toml")

@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,7 @@ import pytest
 
 from swarmdsl.cli import run as swarmc
 
+from ..ros2.domains import free_domain
 from .conftest import MODEL, load_module
 
 HERE = Path(__file__).parent
@@ -76,7 +78,9 @@ def test_cpp_goals_end_on_stubs(cpp: Path, tmp_path: Path, optimisation: str) ->
 
 
 @pytest.fixture(scope="module")
-def ros2(write: Write, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+def ros2(
+    write: Write, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Path, dict[str, str]]]:
     """The Python of an environment with ROS 2, and the variables with the interfaces built."""
     given = os.environ.get("SWARMDSL_ROS2")
     if given is None:
@@ -89,9 +93,9 @@ def ros2(write: Write, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
     shutil.copytree(folder / "made" / "demo", folder / "ws" / "src" / "demo")
     environment.build(folder, "demo")
     harness = load_module("skeleton_harness", ROS2 / "harness.py")
-    domain = 20 + os.getpid() % 80
-    ros = harness.Ros(folder, [], domain, folder)
-    return ros.python, {**ros.environment, "ROS_LOG_DIR": str(folder / "log")}
+    with free_domain() as domain:
+        ros = harness.Ros(folder, [], domain, folder)
+        yield ros.python, {**ros.environment, "ROS_LOG_DIR": str(folder / "log")}
 
 
 @pytest.fixture
@@ -305,16 +309,15 @@ def test_a_message_goes_through_connectors(
     path = made / "lab_bringup" / "launch" / "uav.launch.py"
     nodes = launching.launch(path, packages, monkeypatch.setitem, namespace="seeing")
     harness = load_module("skeleton_harness", ROS2 / "harness.py")
-    domain = 20 + (os.getpid() + 1) % 80
-    ros = harness.Ros(Path(given), [made / "camera", made / "stereo"], domain, tmp_path)
-    try:
+    with ExitStack() as stack:
+        domain = stack.enter_context(free_domain())
+        ros = harness.Ros(Path(given), [made / "camera", made / "stereo"], domain, tmp_path)
+        stack.callback(ros.close)
         for node in nodes:
             if node["package"] != "memory":
                 ros.start("-m", f"{node['package']}.node", "--ros-args", *_as_arguments(node))
         witness = ros.start("-c", WITNESS, "/seeing/range/depth", stdout=subprocess.PIPE)
         assert witness.communicate(timeout=60)[0].split() == ["24.0"]
-    finally:
-        ros.close()
 
 
 def _as_arguments(node: dict[str, Any]) -> Iterator[str]:
