@@ -6,6 +6,8 @@ import gc
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 # Files that write to one folder of the checkout, or share a fixture that is slow to make.
 TOGETHER = ("tests/editor/",)
@@ -44,5 +46,12 @@ def pytest_collection_finish() -> None:
 
     Programs under test collect garbage, which would walk all of it each time.
     """
+    _begin_hypothesis()
     gc.collect()
     gc.freeze()
+
+
+@settings(max_examples=1)
+@given(st.none())
+def _begin_hypothesis(_: None) -> None:
+    """Let Hypothesis register its source of chance, for which it asks the garbage collector."""
