@@ -18,59 +18,65 @@
   :type 'integer
   :safe #'integerp)
 
+;; made by `make parser`
 (defconst swarm--keywords
-  '("action" "actuator" "after" "behavior" "choice" "communication" "connect" "const"
+  '("action" "actuator" "after" "and" "behavior" "choice" "communication" "connect" "const"
     "controller" "do" "done" "else" "endless" "entry" "enum" "environment" "event" "exit"
     "extends" "final" "fitness" "function" "gives" "history" "import" "in" "initial" "inout"
-    "member" "message" "monitor" "on" "operation" "optimize" "out" "package" "parallel" "param"
-    "region" "send" "sensor" "service" "state" "statemachine" "struct" "swarm" "type" "var"
-    "virtual" "and" "not" "or")
-  "Words that are names nowhere.")
+    "member" "message" "monitor" "not" "on" "operation" "optimize" "or" "out" "package" "parallel"
+    "param" "region" "send" "sensor" "service" "state" "statemachine" "struct" "swarm" "type"
+    "var" "virtual")
+  "Words that cannot be names.")
 
-(defconst swarm--constants '("aborted" "preempted" "succeeded" "false" "true"))
+(defconst swarm--constants
+  '("aborted" "false" "preempted" "succeeded" "true"))
 
 (defconst swarm--types
-  '("bool" "byte" "char" "duration" "float32" "float64" "int8" "int16" "int32" "int64" "string"
-    "time" "uint8" "uint16" "uint32" "uint64" "wstring"))
+  '("bool" "byte" "char" "int8" "uint8" "int16" "uint16" "int32" "uint32" "int64" "uint64"
+    "float32" "float64" "string" "wstring" "time" "duration"))
+
+(defconst swarm--naming
+  '("actuator" "choice" "communication" "const" "controller" "enum" "environment" "event" "final"
+    "fitness" "history" "member" "operation" "region" "sensor" "state" "statemachine" "struct"
+    "type" "virtual")
+  "Words that the name of a new element follows.")
 
 (defconst swarm--contextual
-  '(("\\_<internal\\_>[ \t]+\\(?:on\\|after\\|monitor\\)" . "\\_<internal\\_>")
-    ("(\\s-*by\\_>\\|\\_<gives\\s-+by\\_>" . "\\_<by\\_>")
-    ("\\_<deep\\_>[ \t]+history" . "\\_<deep\\_>")
-    ("\\_<\\(?:goal\\|result\\|feedback\\|request\\|response\\)\\_>\\s-*{"
-     . "\\_<\\(?:goal\\|result\\|feedback\\|request\\|response\\)\\_>")
-    (":\\s-*abstraction\\_>\\s-*{" . "\\_<abstraction\\_>")
-    ("\\_<import\\s-+ros\\s-*\"" . "\\_<ros\\_>")
-    ("^\\s-*\\(?:maximize\\|minimize\\|steps\\|evaluations\\|seed\\)\\s-+[-(0-9A-Za-z]"
-     . "\\_<\\(?:maximize\\|minimize\\|steps\\|evaluations\\|seed\\)\\_>")
-    ("\\_<count\\s-+of\\_>" . "\\_<count\\s-+of\\_>")
-    ("\\_<step\\s-+[-(0-9A-Za-z]" . "\\_<step\\_>")
-    ("^\\s-*\\(?:world\\s-*\"\\|size\\s-+[0-9]\\)" . "\\_<\\(?:world\\|size\\)\\_>")
-    ("[kcm]?m\\s-+x\\s-+[0-9]" . "\\_<x\\_>"))
-  "Words that are keywords at some places: what such a place looks like, and the word in it.")
-
-(defun swarm--contextual (place word)
-  "Colour what matches WORD where PLACE does."
-  `(,place (0 (save-match-data
-                (let ((end (match-end 0)))
-                  (goto-char (match-beginning 0))
-                  (when (re-search-forward ,word end t)
-                    (put-text-property (match-beginning 0) (match-end 0)
-                                       'face 'font-lock-keyword-face))
-                  (goto-char end)
-                  nil)))))
+  '("\\_<\\(abstraction\\)\\_>[ \t]*[{]"
+    "\\_<\\(by\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(count\\)\\_>[ \t]*\\(?:of\\)\\_>"
+    "\\_<\\(deep\\)\\_>[ \t]*\\(?:history\\)\\_>"
+    "\\_<\\(evaluations\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(feedback\\)\\_>[ \t]*[{]"
+    "\\_<\\(goal\\)\\_>[ \t]*[{]"
+    "\\_<\\(internal\\)\\_>[ \t]*\\(?:\\(?:after\\|monitor\\|on\\)\\_>\\|[\\[]\\)"
+    "\\_<\\(maximize\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(minimize\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(of\\)\\_>[ \t]*[A-Za-z_]"
+    "\\_<\\(request\\)\\_>[ \t]*[{]"
+    "\\_<\\(response\\)\\_>[ \t]*[{]"
+    "\\_<\\(result\\)\\_>[ \t]*[{]"
+    "\\_<\\(ros\\)\\_>[ \t]*[0-9\"]"
+    "\\_<\\(seed\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(size\\)\\_>[ \t]*[0-9\"]"
+    "\\_<\\(step\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(steps\\)\\_>[ \t]*[(A-Za-z_0-9\"-]"
+    "\\_<\\(world\\)\\_>[ \t]*[0-9\"]"
+    "\\_<\\(x\\)\\_>[ \t]*[0-9\"]")
+  "Words that are keywords only before certain others.")
+;; end
 
 (defconst swarm--font-lock
   `(("\\.\\(done\\)\\_>" 1 font-lock-keyword-face)
     ;; A field may have the name of a keyword.
     ("\\.[ \t]*\\([A-Za-z_][A-Za-z0-9_]*\\)" 1 font-lock-variable-name-face)
-    ("\\_<\\(?:statemachine\\|state\\|region\\|choice\\|final\\|history\\|member\\|sensor\\|actuator\\|controller\\|virtual\\|struct\\|enum\\|event\\|fitness\\|environment\\)[ \t]+\\([A-Za-z_][A-Za-z0-9_]*\\)"
-     1 font-lock-type-face)
+    (,(concat (regexp-opt swarm--naming 'symbols) "[ \t]+\\([A-Za-z_][A-Za-z0-9_]*\\)")
+     2 font-lock-type-face)
     ("\\_<\\(?:function\\|do\\)[ \t]+\\([A-Za-z_][A-Za-z0-9_.]*\\)" 1 font-lock-function-name-face)
     ("\\(?:[ \t]\\|[({,]\\s-*\\)\\([A-Za-z_][A-Za-z0-9_]*\\)[ \t]*\\(?::\\|=>\\|=[^=]\\)"
      1 font-lock-variable-name-face)
     ("\\_<[A-Za-z_][A-Za-z0-9_]*/[A-Za-z_][A-Za-z0-9_]*\\_>" . font-lock-type-face)
-    ,@(mapcar (lambda (each) (swarm--contextual (car each) (cdr each))) swarm--contextual)
+    ,@(mapcar (lambda (regexp) `(,regexp 1 font-lock-keyword-face)) swarm--contextual)
     (,(regexp-opt swarm--types 'symbols) . font-lock-type-face)
     (,(regexp-opt swarm--constants 'symbols) . font-lock-constant-face)
     (,(regexp-opt swarm--keywords 'symbols) . font-lock-keyword-face)))

@@ -1,35 +1,7 @@
-" Colours for .swarm files. Words that are keywords at some places only are coloured there.
+" Colours for .swarm files. Contextual keywords are matched with the token after them.
 if exists("b:current_syntax")
   finish
 endif
-
-syn keyword swarmDeclaration action actuator behavior choice communication connect const controller
-syn keyword swarmDeclaration entry enum environment event exit extends final fitness function history
-syn keyword swarmDeclaration in initial inout member message operation optimize out parallel param
-syn keyword swarmDeclaration region sensor service state statemachine struct swarm type var virtual
-syn keyword swarmDeclaration endless
-syn keyword swarmStatement after do done else gives monitor on send
-syn keyword swarmInclude import package
-syn keyword swarmOutcome aborted preempted succeeded
-syn keyword swarmOperator and not or
-syn keyword swarmBoolean false true
-syn keyword swarmType bool byte char duration float32 float64 int8 int16 int32 int64
-syn keyword swarmType string time uint8 uint16 uint32 uint64 wstring
-
-" Such words may be names elsewhere.
-syn match swarmStatement "\<internal\>\ze\s\+\%(on\|after\|monitor\)\>"
-syn match swarmStatement "(\s*\zsby\>"
-syn match swarmStatement "\%(\<gives\s\+\)\@<=by\>"
-syn match swarmDeclaration "\<deep\>\ze\s\+history\>"
-syn match swarmDeclaration "\<\%(goal\|result\|feedback\|request\|response\)\>\ze\s*{"
-syn match swarmDeclaration ":\s*\zs\%(abstraction\|swarm\)\>\ze\s*{"
-syn match swarmInclude "\%(\<import\s\+\)\@<=ros\>\ze\s*\""
-syn match swarmStatement "^\s*\zs\%(maximize\|minimize\)\>"
-syn match swarmStatement "^\s*\zs\%(steps\|evaluations\|seed\)\>\ze\s\+[0-9(A-Za-z]"
-syn match swarmStatement "\<count\s\+of\>"
-syn match swarmStatement "\<step\>\ze\s\+[-0-9(A-Za-z]"
-syn match swarmStatement "^\s*\zs\%(world\s*\ze\"\|size\ze\s\+\d\)"
-syn match swarmStatement "\%(\<\%(km\|cm\|mm\|m\)\s\+\)\@<=x\>\ze\s\+\d"
 
 syn match swarmType "\<\h\w*/\h\w*\>"
 syn match swarmFunction "\%(\<\%(function\|do\)\)\@<=\s\+\h[A-Za-z0-9_.]*"
@@ -37,7 +9,43 @@ syn match swarmArrow "->\|=>"
 " A field of any name: the word behind a dot, or before a colon or an equals sign, is none.
 syn match swarmField "\.\s*\%(done\>\)\@!\h\w*"
 syn match swarmField "\%(\s\|[({,]\_s*\)\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
-syn match swarmName "\%(\<\%(statemachine\|state\|region\|choice\|final\|history\|member\|sensor\|actuator\|controller\|virtual\|struct\|enum\|event\|fitness\|environment\)\)\@<=\s\+\h\w*"
+
+" made by `make parser`
+syn keyword swarmDeclaration action actuator behavior choice communication connect const controller
+syn keyword swarmDeclaration endless entry enum environment event exit extends final fitness
+syn keyword swarmDeclaration function history initial inout member message operation optimize out
+syn keyword swarmDeclaration parallel param region sensor service state statemachine struct swarm
+syn keyword swarmDeclaration type var virtual
+syn keyword swarmInclude import package
+syn keyword swarmStatement after do done else gives in monitor on send
+syn keyword swarmOutcome aborted preempted succeeded
+syn keyword swarmOperator and not or
+syn keyword swarmBoolean false true
+syn keyword swarmType bool byte char int8 uint8 int16 uint16 int32 uint32 int64 uint64 float32
+syn keyword swarmType float64 string wstring time duration
+syn match swarmDeclaration #\<abstraction\>\ze[ \t]*[{]#
+syn match swarmStatement #\<by\>\ze[ \t]*[A-Za-z_]#
+syn match swarmStatement #\<count\>\ze[ \t]*\%(of\)\>#
+syn match swarmDeclaration #\<deep\>\ze[ \t]*\%(history\)\>#
+syn match swarmStatement #\<evaluations\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmDeclaration #\<feedback\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<goal\>\ze[ \t]*[{]#
+syn match swarmStatement #\<internal\>\ze[ \t]*\%(\%(after\|monitor\|on\)\>\|[\[]\)#
+syn match swarmStatement #\<maximize\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<minimize\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<of\>\ze[ \t]*[A-Za-z_]#
+syn match swarmDeclaration #\<request\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<response\>\ze[ \t]*[{]#
+syn match swarmDeclaration #\<result\>\ze[ \t]*[{]#
+syn match swarmInclude #\<ros\>\ze[ \t]*[0-9"]#
+syn match swarmStatement #\<seed\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<size\>\ze[ \t]*[0-9"]#
+syn match swarmStatement #\<step\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<steps\>\ze[ \t]*[(A-Za-z_0-9"-]#
+syn match swarmStatement #\<world\>\ze[ \t]*[0-9"]#
+syn match swarmStatement #\<x\>\ze[ \t]*[0-9"]#
+syn match swarmName #\%(\<\%(actuator\|choice\|communication\|const\|controller\|enum\|environment\|event\|final\|fitness\|history\|member\|operation\|region\|sensor\|state\|statemachine\|struct\|type\|virtual\)\)\@<=\s\+\h\w*#
+" end
 
 syn match swarmNumber "\<\d\+\%(\.\d\+\)\=\%([eE][+-]\=\d\+\)\=\%(\s*\%(us\|ms\|s\|min\|h\|km\|cm\|mm\|m\)\>\)\="
 syn match swarmEscape "\\." contained

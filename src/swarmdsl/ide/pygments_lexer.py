@@ -20,33 +20,16 @@ from pygments.token import (
     Whitespace,
 )
 
-from swarmdsl.syntax.errors.hints import keywords
+from swarmdsl.syntax.parser.keywords import CONTEXTUAL, GROUPS, NAMING, RESERVED
 from swarmdsl.syntax.types import PRIMITIVES
 
-_OUTCOMES = ("aborted", "preempted", "succeeded")
-_TRUTH = ("true", "false")
-_OPERATORS = ("and", "or", "not")
 _NAME = r"[A-Za-z_]\w*"
-_NAMED = (
-    "statemachine|state|region|choice|final|history|member|sensor|actuator|controller|virtual"
-    "|struct|enum|event|fitness|environment"
-)
-_RESERVED = sorted(keywords() - {*_OUTCOMES, *_TRUTH, *_OPERATORS})
-# Words that are keywords where these follow or stand before them, and may be names elsewhere.
-_CONTEXTUAL = (
-    r"internal(?=\s+(?:on|after|monitor)\b)",
-    r"deep(?=\s+history\b)",
-    r"(?:goal|result|feedback|request|response)(?=\s*\{)",
-    r"(?:abstraction)(?=\s*\{)",
-    r"ros(?=\s*\")",
-    r"by(?=\s+[A-Za-z_]\w*\s*(?:\)|$))",
-    r"(?:maximize|minimize|steps|evaluations|seed|step)(?=\s+[-(\dA-Za-z])",
-    r"count(?=\s+of\b)",
-    r"of(?=\s+[A-Za-z_]\w*\s+in\b)",
-    r"world(?=\s*\")",
-    r"size(?=\s+\d)",
-    r"x(?=\s+\d)",
-)
+_NAMED = "|".join(sorted(NAMING))
+_DECLARATIONS = sorted(RESERVED - frozenset().union(*GROUPS.values()))
+
+
+def _words(group: str) -> Any:
+    return words(sorted(GROUPS[group] & RESERVED), suffix=r"\b")
 
 
 class SwarmLexer(RegexLexer):  # type: ignore[misc]
@@ -73,7 +56,7 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
             (rf"{_NAME}(?=\s*=(?!=))", Name.Attribute),
             (r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?(?:[ \t]*(?:us|ms|s|min|h|km|cm|mm|m)\b)?", Number),
             (rf"({_NAME})(/)({_NAME})", bygroups(Name.Namespace, Punctuation, Name.Class)),
-            *((rf"\b{word}", Keyword) for word in _CONTEXTUAL),
+            *((rf"\b{word}\b(?=[ \t]*{follow})", Keyword) for word, follow in CONTEXTUAL.items()),
             (
                 rf"(function|do)(\s+)({_NAME}(?:\.{_NAME})*)",
                 bygroups(Keyword, Whitespace, Name.Function),
@@ -82,11 +65,12 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
                 rf"({_NAMED})(\s+)({_NAME})",
                 bygroups(Keyword, Whitespace, Name.Class),
             ),
-            (words(("package", "import"), suffix=r"\b"), Keyword.Namespace),
-            (words(_OUTCOMES, suffix=r"\b"), Name.Constant),
-            (words(_TRUTH, suffix=r"\b"), Keyword.Constant),
-            (words(_OPERATORS, suffix=r"\b"), Operator.Word),
-            (words(_RESERVED, suffix=r"\b"), Keyword),
+            (_words("include"), Keyword.Namespace),
+            (_words("outcome"), Name.Constant),
+            (_words("boolean"), Keyword.Constant),
+            (_words("operator"), Operator.Word),
+            (_words("statement"), Keyword),
+            (words(_DECLARATIONS, suffix=r"\b"), Keyword),
             (_NAME, Name),
             (r"->|=>|==|!=|<=|>=|[-+*/%<>=]", Operator),
             (r"\.\.|[{}()\[\],:.]", Punctuation),

@@ -6,14 +6,14 @@ import re
 from collections.abc import Callable
 
 from swarmdsl.base.naming import camel_case, snake_case
-from swarmdsl.syntax.errors.hints import keywords
+from swarmdsl.syntax.parser.keywords import RESERVED
 
 _PLAIN = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def is_plain(name: str) -> bool:
     """Whether only its style may have to change for the language to take it."""
-    return _PLAIN.fullmatch(name) is not None and name not in keywords()
+    return _PLAIN.fullmatch(name) is not None and name not in RESERVED
 
 
 class Names:
@@ -44,7 +44,7 @@ class Names:
         name = self.style(re.sub(r"[^A-Za-z0-9]+", "_", ascii_))
         if not name or not name[0].isalpha():
             name = self.style(f"n_{name}") if name else self.style("unnamed")
-        if name in keywords():
+        if name in RESERVED:
             name += "_"
         number, free = self.numbers.get(name, 1), name
         while free in self.taken:

@@ -15,22 +15,27 @@ from itertools import pairwise
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Model, references, walk
+from swarmdsl.syntax.parser.keywords import CATEGORIES, CLAUSES, MODIFIERS, TOP_LEVEL
 from swarmdsl.syntax.parser.result import Parsed
 from swarmdsl.syntax.recovery.brackets import outermost
 
-# Where a top-level declaration starts: a keyword in the first column, or what looks like
-# one with a slip in it (`Event Start :`).
+# Clauses of the first line of a declaration, such as `extends`.
+_CLAUSES = sorted(word for word, owners in CLAUSES.items() if owners <= TOP_LEVEL)
+# A keyword of a declaration in the first column, or what looks like one that is misspelled
+# (`Event Start :`).
 _START = re.compile(
-    r"^(?=(?:package|import|struct|enum|type|const|message|service|action|swarm|event|function|"
-    r"sensor|actuator|controller|virtual|member|endless|statemachine|environment|fitness|"
-    r"optimize)\b|(?!extends\b)[A-Za-z]+[ \t]+[A-Za-z_]\w*[ \t]*[:{])",
+    rf"^(?=(?:{'|'.join(sorted(TOP_LEVEL))})\b"
+    rf"|(?!(?:{'|'.join(_CLAUSES)})\b)[A-Za-z]+[ \t]+[A-Za-z_]\w*[ \t]*[:{{])",
     re.MULTILINE,
 )
-# What goes on behind these words on a line of its own is no declaration by itself.
-_GOES_ON = {
-    "swarm": re.compile("event"),
-    "endless": re.compile("statemachine"),
-    ":": re.compile(r"swarm\s*\{"),
+# A keyword of a declaration that continues the line above, by the end of that line.
+_CONTINUATIONS = {
+    **{
+        modifier: re.compile("|".join(targets))
+        for modifier, targets in MODIFIERS.items()
+        if targets <= TOP_LEVEL
+    },
+    ":": re.compile(rf"(?:{'|'.join(CATEGORIES)})\s*\{{"),
 }
 
 _BRACKET = re.compile(r"[{}()\[\]]")
@@ -89,7 +94,7 @@ def _continues(before: str, code: str, start: int) -> bool:
     """Whether what stands at the start of a line belongs to the declaration before it."""
     return any(
         before.endswith(last) and after.match(code, start) is not None
-        for last, after in _GOES_ON.items()
+        for last, after in _CONTINUATIONS.items()
     )
 
 

@@ -21,7 +21,7 @@ from swarmdsl.codegen.swarm_printer.names import Names, all_parts, make_names, o
 from swarmdsl.codegen.swarm_printer.normal import normalized
 from swarmdsl.codegen.swarm_printer.reuse import find_reuse
 from swarmdsl.ir import System
-from swarmdsl.syntax.errors.hints import keywords
+from swarmdsl.syntax.parser.keywords import RESERVED
 
 T = TypeVar("T")
 
@@ -99,7 +99,7 @@ def _taken(items: deque[T], wanted: Callable[[T], bool]) -> Iterator[T]:
 
 def _is_package_name(name: str) -> bool:
     """Whether it can stand after `package`."""
-    return _PACKAGE_NAME.fullmatch(name) is not None and name.partition(".")[0] not in keywords()
+    return _PACKAGE_NAME.fullmatch(name) is not None and name.partition(".")[0] not in RESERVED
 
 
 __all__ = ["UnprintableError", "normalized", "print_system"]

@@ -16,7 +16,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Field, Node, Parameter
-from swarmdsl.syntax.errors.hints import keywords
+from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Whatever is called so at another place is found by its type only.
@@ -45,7 +45,7 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     found = renamable(workspace, file, offset)
     if not _NAME.fullmatch(name):
         raise RefusedError(f"`{name}` is no name: it has letters, digits and `_`")
-    if name in keywords():
+    if name in RESERVED:
         raise RefusedError(f"`{name}` is a word of the language")
     spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
     if any(span.text != found.span.text for span in spans):

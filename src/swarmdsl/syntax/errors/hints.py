@@ -7,6 +7,7 @@ import unicodedata
 
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.foreign_tokens import mark
+from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.types import PRIMITIVES
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
@@ -54,20 +55,13 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
     if said := mark(token):
         return said
     # A keyword with a slip in it was taken for the name of a part or field.
-    slip, meant = (last, keywords()) if "`:`" in expected else (token, _literals(expected))
+    slip, meant = (last, RESERVED) if "`:`" in expected else (token, _literals(expected))
     keyword = closest(slip, meant, _SLIP)
     return f"did you mean `{keyword}`?" if keyword and keyword != slip else None
 
 
 def _literals(expected: set[str]) -> list[str]:
     return [word.strip("`") for word in expected if re.fullmatch(r"`[a-z]+`", word)]
-
-
-def keywords() -> frozenset[str]:
-    """The reserved words."""
-    from swarmdsl.syntax.parser.generated import RESERVED  # which needs modules that need this one
-
-    return RESERVED
 
 
 def strange_character(character: str) -> str | None:

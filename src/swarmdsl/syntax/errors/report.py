@@ -11,7 +11,8 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.errors.delayed import noticed_late
 from swarmdsl.syntax.errors.foreign_statements import habit
 from swarmdsl.syntax.errors.foreign_tokens import foreign
-from swarmdsl.syntax.errors.hints import advice, keywords, strange_character
+from swarmdsl.syntax.errors.hints import advice, strange_character
+from swarmdsl.syntax.parser.keywords import FIRST, RESERVED
 from swarmdsl.syntax.parser.patched_text import Draft
 
 # How terminals of the grammar are called when one of them is missing.
@@ -35,16 +36,14 @@ TERMINALS = {
     "PRIMARY": "a value",
     "EOF": "the end of the file",
 }
-# What to call several possibilities, where all of them are there; the first that fits.
+# A phrase for several keywords, where all of them are expected; the first that fits.
 _GROUPS = {
-    "a declaration": "struct enum type const message service action swarm event function "
-    "sensor actuator controller virtual member endless statemachine environment fitness optimize",
-    "a trigger": "aborted done preempted succeeded",
-    "an item of a state": "do entry exit on after monitor internal initial state parallel choice "
-    "deep history final",
-    "an item of a state machine": "param var initial state parallel choice deep history final",
-    "an item of a region": "initial state parallel choice deep history final",
-    "an item of a member": "behavior communication inout in out param connect",
+    "a declaration": FIRST["Declaration"] | FIRST["Optimization"],
+    "a trigger": FIRST["Trigger"],
+    "an item of a state": FIRST["StateItem"],
+    "an item of a state machine": FIRST["MachineItem"],
+    "an item of a region": FIRST["RegionItem"],
+    "an item of a member": FIRST["MemberItem"],
 }
 # Left out when these are possible: they say it all.
 _IMPLIED = {
@@ -118,7 +117,7 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
     elif (
         found
         and wants_name
-        and found[0] in keywords()
+        and found[0] in RESERVED
         and (not new_line or _COLON.match(text, found.end()))
     ):
         report.report(
@@ -166,7 +165,7 @@ def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:
     """
     general = []
     for phrase, members in _GROUPS.items():
-        group = {f"`{word}`" for word in members.split()}
+        group = {f"`{word}`" for word in members}
         if group <= words:
             words = words - group
             general.append(phrase)

@@ -1,9 +1,28 @@
-"""Write `parser/generated.py`: `python -m swarmdsl.syntax.pegen`, or `make parser`."""
+"""Write all files that are made from the grammar: `make parser`."""
 
 from __future__ import annotations
 
-from swarmdsl.syntax.pegen.metamodel import metamodel
-from swarmdsl.syntax.pegen.swarm_actions import PATH, parser
+import sys
+
+from swarmdsl.syntax.pegen.outputs import GrammarError, outputs
+
+
+def main() -> int:
+    """Write the files; return the exit code."""
+    try:
+        files, missing = outputs()
+    except GrammarError as error:
+        print(error, file=sys.stderr)  # noqa: T201
+        print("Nothing was written.", file=sys.stderr)  # noqa: T201
+        return 1
+    for path, text in files.items():
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+            print(f"wrote {path}")  # noqa: T201
+    for message in missing:
+        print(f"to do: {message}")  # noqa: T201
+    return 0
+
 
 if __name__ == "__main__":
-    PATH.write_text(parser(metamodel()), encoding="utf-8")
+    sys.exit(main())

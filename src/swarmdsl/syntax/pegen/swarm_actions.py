@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from pathlib import Path
-from typing import Any
 
 from swarmdsl.base.resources import grammar_checksum
 from swarmdsl.syntax.ast import NODES, Documented, Node
 from swarmdsl.syntax.pegen.actions import Target
-from swarmdsl.syntax.pegen.grammar import read
+from swarmdsl.syntax.pegen.grammar import Grammar
 from swarmdsl.syntax.pegen.module import definitions
-
-PATH = Path(__file__).parents[1] / "parser" / "generated.py"
 
 
 def _values(node: type[Node]) -> dict[str, str]:
@@ -60,7 +56,7 @@ LANGUAGE = Language(TOKENS, RESERVED)
 '''
 
 
-def parser(metamodel: Any) -> str:
-    """The source of the parser for a textX metamodel; raises UnsupportedError."""
-    text, nodes = definitions(read(metamodel), TARGET)
+def parser(grammar: Grammar) -> str:
+    """Source of the parser; raises UnsupportedError."""
+    text, nodes = definitions(grammar, TARGET)
     return _HEAD.format(checksum=grammar_checksum(), definitions=text, classes=", ".join(nodes))

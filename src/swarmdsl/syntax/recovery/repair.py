@@ -12,9 +12,9 @@ import re
 from collections.abc import Callable, Iterator
 
 from swarmdsl.base.records import dataclass, replace
-from swarmdsl.syntax.errors.hints import keywords
 from swarmdsl.syntax.errors.report import TOKEN, Failure
 from swarmdsl.syntax.errors.substitutions import replacement
+from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.parser.patched_text import Draft, Repair
 from swarmdsl.syntax.recovery.statements import Statement
 
@@ -184,7 +184,7 @@ def _changes(text: str, failure: Failure) -> Iterator[_Change]:
         if meant := replacement(expected, text, at):
             # A name that is written otherwise is another name.
             yield _Change(Repair(*meant), "_" not in meant[2], help=f"write `{meant[2].strip()}`")
-        if found[0] in keywords() and expected & {"IDENT", "QNAME", "TYPENAME"}:
+        if found[0] in RESERVED and expected & {"IDENT", "QNAME", "TYPENAME"}:
             yield _Change(Repair(at, found.end(), "_" * len(found[0])))
         if not found[0][0].isalnum():
             yield _Change(Repair(at, found.end(), " " * len(found[0])), found[0] in ";,")

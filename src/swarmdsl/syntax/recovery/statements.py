@@ -11,6 +11,13 @@ import re
 from collections.abc import Iterable, Iterator
 
 from swarmdsl.base.records import dataclass
+from swarmdsl.syntax.parser.keywords import (
+    BEFORE_NAMES,
+    CLAUSES,
+    MODIFIERS,
+    STATEMENTS,
+    TOP_LEVEL,
+)
 
 _TOKEN = re.compile(
     r'(?P<comment>//[^\n]*|/\*(?s:.*?)(?:\*/|\Z))|(?P<text>"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?)'
@@ -22,29 +29,18 @@ def _words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-_STARTS = _words(
-    "do entry exit on after monitor internal initial state parallel choice deep history final "
-    "region var param connect"
+# These begin a statement only at the start of a line, or after a modifier of theirs. People who
+# write `on after 5 s` mean one statement.
+_NOT_AFTER: dict[str, set[str]] = {"after": {"on"}}
+for _modifier, _targets in MODIFIERS.items():
+    for _target in _targets:
+        _NOT_AFTER.setdefault(_target, set()).add(_modifier)
+_CONTINUATIONS = CLAUSES.keys() | _words(
+    "-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or {"
 )
-# These begin a statement only at the start of a line, or are the second word of one.
-_NOT_AFTER = {
-    "state": {"parallel"}, "history": {"deep"}, "param": set(), "on": {"internal"},
-    "after": {"internal", "on"}, "monitor": {"internal"}, "done": {"."},
-}  # fmt: skip
-_GOES_ON = _words("-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or extends gives { on")
-# What a keyword cannot begin a statement after: it stands there as a name, or belongs to it.
-_LEAD = _words(
-    "< -> => = : . , ( [ - / swarm endless extends initial do on send by struct enum type const "
-    "message service action event function sensor actuator controller virtual member statemachine "
-    "environment fitness optimize state region choice history final var param connect behavior "
-    "in out inout operation package import"
-)
-_HAS_TOPIC = _words("event swarm in out inout")
+# After these a keyword is a name, or belongs to them.
+_LEADS = BEFORE_NAMES | (MODIFIERS.keys() - STATEMENTS) | _words("< -> => = : . , ( [ - /")
 _NEXT = re.compile(r"[ \t]*(\S?)")
-_DECLARES = _words(
-    "struct enum const message service action swarm event function sensor actuator controller "
-    "virtual member endless statemachine environment fitness optimize import package"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,12 +163,12 @@ def _begins(
     current: _Open,
 ) -> bool:
     """Whether a token begins a statement although one is open."""
-    if word in _STARTS and last not in _NOT_AFTER.get(word, ()):
+    if word in STATEMENTS and last not in _NOT_AFTER.get(word, ()):
         found = _NEXT.match(text, token.end())
         follows = found[1] if found else ""
-        if not (word == "on" and (follows == '"' or current.word in _HAS_TOPIC) and not first):
-            return first or (follows not in ("", ":", "=", ".", ",", ")") and last not in _LEAD)
+        if not (word == "on" and (follows == '"' or current.word in CLAUSES["on"]) and not first):
+            return first or (follows not in ("", ":", "=", ".", ",", ")") and last not in _LEADS)
     if not first:
-        declares = word in _DECLARES and current.word in _DECLARES and not current.brackets
-        return declares and column == 0 and last not in _LEAD
-    return current.brackets <= 0 and word not in _GOES_ON and column <= current.column
+        declares = word in TOP_LEVEL and current.word in TOP_LEVEL and not current.brackets
+        return declares and column == 0 and last not in _LEADS
+    return current.brackets <= 0 and word not in _CONTINUATIONS and column <= current.column

@@ -7,7 +7,7 @@ import re
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
-from swarmdsl.syntax.errors.hints import keywords
+from swarmdsl.syntax.parser.keywords import RESERVED
 
 _CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*")
 _SNAKE = re.compile(r"[a-z][a-z0-9_]*")
@@ -26,10 +26,10 @@ def check_type_name(name: str, kind: str, report: Diagnostics) -> None:
     """
     better = camel_case(name)
     small = snake_case(name)
-    if not _CAMEL.fullmatch(name) or name in keywords():
+    if not _CAMEL.fullmatch(name) or name in RESERVED:
         usable = _CAMEL.fullmatch(better) is not None
         _report(name, kind, f"call it `{better}`" if usable else "write it `LikeThis`", report)
-    elif small in keywords():
+    elif small in RESERVED:
         _report(name, kind, f"`{small}` is a word of the language: say more", report)
 
 
@@ -37,9 +37,9 @@ def check_project_name(name: str, report: Diagnostics) -> None:
     """Report a name that neither a package of the model nor one of ROS can have."""
     package = snake_case(name)
     if name != package and name != package.replace("_", "-"):
-        usable = _SNAKE.fullmatch(package) is not None and package not in keywords()
+        usable = _SNAKE.fullmatch(package) is not None and package not in RESERVED
         _report(name, "a project", f"call it `{package}`" if usable else _HOW, report)
-    elif not _SNAKE.fullmatch(package) or package in keywords():
+    elif not _SNAKE.fullmatch(package) or package in RESERVED:
         _report(name, "a project", _HOW, report)
 
 

@@ -1,0 +1,83 @@
+"""Keywords by role: made from grammar/*.tx by `make parser`, not to be edited."""
+
+from __future__ import annotations
+
+# Words that cannot be names.
+RESERVED = frozenset(['aborted', 'action', 'actuator', 'after', 'and', 'behavior', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'done', 'else', 'endless', 'entry', 'enum', 'environment', 'event', 'exit', 'extends', 'false', 'final', 'fitness', 'function', 'gives', 'history', 'import', 'in', 'initial', 'inout', 'member', 'message', 'monitor', 'not', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'parallel', 'param', 'preempted', 'region', 'send', 'sensor', 'service', 'state', 'statemachine', 'struct', 'succeeded', 'swarm', 'true', 'type', 'var', 'virtual'])
+# Words that are keywords only where the grammar expects them, with a pattern of what follows them.
+CONTEXTUAL = {
+    'abstraction': '[{]',
+    'by': '[A-Za-z_]',
+    'count': '(?:of)\\b',
+    'deep': '(?:history)\\b',
+    'evaluations': '[(A-Za-z_0-9"-]',
+    'feedback': '[{]',
+    'goal': '[{]',
+    'internal': '(?:(?:after|monitor|on)\\b|[\\[])',
+    'maximize': '[(A-Za-z_0-9"-]',
+    'minimize': '[(A-Za-z_0-9"-]',
+    'of': '[A-Za-z_]',
+    'request': '[{]',
+    'response': '[{]',
+    'result': '[{]',
+    'ros': '[0-9"]',
+    'seed': '[(A-Za-z_0-9"-]',
+    'size': '[0-9"]',
+    'step': '[(A-Za-z_0-9"-]',
+    'steps': '[(A-Za-z_0-9"-]',
+    'world': '[0-9"]',
+    'x': '[0-9"]',
+}
+# The first keywords of the alternatives of a rule.
+FIRST = {
+    'ComponentItem': frozenset(['behavior', 'in', 'inout', 'operation', 'out', 'param']),
+    'Declaration': frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'member', 'message', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual']),
+    'Effect': frozenset(['event', 'false', 'not', 'send', 'true']),
+    'EnvironmentItem': frozenset(['size', 'world']),
+    'FitnessItem': frozenset(['in', 'maximize', 'minimize', 'param']),
+    'FunctionItem': frozenset(['action', 'in', 'out', 'param', 'service']),
+    'Import': frozenset(['import']),
+    'MachineItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'param', 'state', 'var']),
+    'MemberItem': frozenset(['behavior', 'communication', 'connect', 'in', 'inout', 'out', 'param']),
+    'Optimization': frozenset(['optimize']),
+    'OptimizationItem': frozenset(['count', 'evaluations', 'seed', 'steps']),
+    'Package': frozenset(['package']),
+    'ParallelItem': frozenset(['after', 'entry', 'exit', 'internal', 'monitor', 'on', 'region']),
+    'RegionItem': frozenset(['choice', 'deep', 'final', 'history', 'initial', 'parallel', 'state']),
+    'StateItem': frozenset(['after', 'choice', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'parallel', 'state']),
+    'SwarmItem': frozenset(['environment', 'fitness']),
+    'Trigger': frozenset(['aborted', 'done', 'preempted', 'succeeded']),
+    'Vertex': frozenset(['choice', 'deep', 'final', 'history', 'parallel', 'state']),
+}
+# Keywords of sections of a file: of its header, its declarations, its optimizations.
+TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'optimize', 'package', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
+# Keywords of items in blocks: each begins a statement wherever it stands.
+STATEMENTS = frozenset(['after', 'behavior', 'choice', 'communication', 'connect', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'operation', 'parallel', 'param', 'region', 'state', 'var'])
+# Keywords before the keyword of a statement, by the keywords that can follow them.
+MODIFIERS = {
+    'deep': frozenset(['history']),
+    'endless': frozenset(['statemachine']),
+    'internal': frozenset(['after', 'monitor', 'on']),
+    'parallel': frozenset(['state']),
+    'swarm': frozenset(['event']),
+}
+# Keywords of optional clauses, by the first keywords of the statements that have them.
+CLAUSES = {
+    'extends': frozenset(['actuator', 'controller', 'member', 'sensor', 'virtual']),
+    'gives': frozenset(['do']),
+    'on': frozenset(['event', 'in', 'inout', 'out', 'swarm']),
+}
+# Keywords that the name of a new element follows.
+NAMING = frozenset(['actuator', 'choice', 'communication', 'const', 'controller', 'enum', 'environment', 'event', 'final', 'fitness', 'function', 'history', 'member', 'operation', 'region', 'sensor', 'state', 'statemachine', 'struct', 'type', 'virtual'])
+# Keywords by what they are for, where that is more special than a declaration.
+GROUPS = {
+    'include': frozenset(['import', 'package', 'ros']),
+    'statement': frozenset(['after', 'by', 'count', 'do', 'done', 'else', 'evaluations', 'gives', 'in', 'internal', 'maximize', 'minimize', 'monitor', 'of', 'on', 'seed', 'send', 'size', 'step', 'steps', 'world', 'x']),
+    'outcome': frozenset(['aborted', 'preempted', 'succeeded']),
+    'operator': frozenset(['and', 'not', 'or']),
+    'boolean': frozenset(['false', 'true']),
+}
+# Keywords of declarations that can follow `:`, as categories.
+CATEGORIES = frozenset(['swarm'])
+# Keywords that a name can follow.
+BEFORE_NAMES = frozenset(['action', 'actuator', 'after', 'and', 'behavior', 'by', 'choice', 'communication', 'connect', 'const', 'controller', 'do', 'enum', 'environment', 'evaluations', 'event', 'extends', 'final', 'fitness', 'function', 'history', 'import', 'in', 'initial', 'inout', 'maximize', 'member', 'message', 'minimize', 'not', 'of', 'on', 'operation', 'optimize', 'or', 'out', 'package', 'param', 'region', 'seed', 'send', 'sensor', 'service', 'state', 'statemachine', 'step', 'steps', 'struct', 'swarm', 'type', 'var', 'virtual'])
