@@ -1,4 +1,4 @@
-"""What declarations use of each other, and which belong to a system."""
+"""Usage of declarations by others, and the declarations that a system reaches."""
 
 from __future__ import annotations
 
@@ -23,35 +23,38 @@ from swarmdsl.syntax.types import Array, Named
 
 
 @dataclass(frozen=True)
-class Uses:
-    """What the names in a declaration mean; not `complete` where one of them means nothing."""
+class Usage:
+    """Nodes and types that a declaration uses; not `complete` if a name was not resolved."""
 
     nodes: frozenset[Node]
     types: frozenset[Named]
     complete: bool
 
 
-class UsesOfAll(dict[TopLevel, Uses]):
-    """What each declaration uses, looked for when it is first asked for."""
+class UsageCache(dict[TopLevel, Usage]):
+    """Usage of each declaration, computed on first use."""
 
-    def __missing__(self, owner: TopLevel) -> Uses:
-        self[owner] = found = _uses(owner)
+    def __missing__(self, owner: TopLevel) -> Usage:
+        self[owner] = found = _usage(owner)
         return found
 
-    def only(self, project: Project) -> UsesOfAll:
-        """The same without declarations that the project does not have any more."""
+    def restricted_to(self, project: Project) -> UsageCache:
+        """Return the cache without declarations that are no longer in the project."""
         owners = (*project.declarations(), *project.optimizations())
-        return UsesOfAll({owner: self[owner] for _, owner in owners if owner in self})
+        return UsageCache({owner: self[owner] for _, owner in owners if owner in self})
 
 
 def used_declarations(
-    project: Project, uses: UsesOfAll | None = None
+    project: Project, usage: UsageCache | None = None
 ) -> list[tuple[File, Declaration]]:
-    """All that the project declares itself, and what that leads to, in the order of the files."""
+    """Return the declarations of the project itself and those of libraries that they reach.
+
+    The order is that of the files.
+    """
     pairs = list(project.declarations())
     if not any(file.library for file in project.files):
         return pairs
-    uses = uses if uses is not None else UsesOfAll()
+    usage = usage if usage is not None else UsageCache()
     by_type: dict[Named, Declaration] = {}
     owners: dict[Node, Declaration] = {}
     own = own_interfaces(project)
@@ -70,7 +73,7 @@ def used_declarations(
     work += [optimization for _, optimization in project.optimizations()]
     used: set[TopLevel] = set(work)
     while work:
-        found = uses[work.pop()]
+        found = usage[work.pop()]
         of_library = {owners[node] for node in found.nodes & nodes}
         of_library.update(by_type[type_] for type_ in found.types & types)
         work += of_library - used
@@ -78,16 +81,16 @@ def used_declarations(
     return [(file, node) for file, node in pairs if node in used]
 
 
-def _uses(owner: TopLevel) -> Uses:
+def _usage(owner: TopLevel) -> Usage:
     refs = [ref.target for _, ref in references(owner)]
     names = [use.target for use in nodes_of(owner, NameUse) if use.name != "event"]
-    asked = [activity.owner for activity in nodes_of(owner, Activity)]
+    owners = [activity.owner for activity in nodes_of(owner, Activity)]
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)
     named = {element for element in elements if isinstance(element, Named)}
     actions = {made.action for element in named for made in ways_made(element)}
-    return Uses(
-        frozenset(node for node in (*refs, *names, *asked) if node is not None),
+    return Usage(
+        frozenset(node for node in (*refs, *names, *owners) if node is not None),
         frozenset(named | actions),
         None not in refs and None not in names,
     )

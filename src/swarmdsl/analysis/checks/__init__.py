@@ -1,10 +1,13 @@
-"""Every rule about a model whose names are resolved.
+"""Checks of a model whose names are resolved: the list of all passes.
 
-A declaration with a piece missing after a syntax error is passed over: what it seems to
-lack may stand in the piece.
+Passes that look for missing items skip declarations with a part that could not be parsed,
+since the missing item may be in that part.
 """
 
 from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
 
 from swarmdsl.analysis.checks.activities import check_activities
 from swarmdsl.analysis.checks.architecture import check_component, check_inheritance, check_member
@@ -26,23 +29,24 @@ from swarmdsl.analysis.checks.interfaces import (
     check_topics,
     check_values,
 )
-from swarmdsl.analysis.checks.livelock import Settling, check_settling
+from swarmdsl.analysis.checks.livelock import check_livelock
 from swarmdsl.analysis.checks.names import check_names, check_names_inside
 from swarmdsl.analysis.checks.optimization import (
     check_constant,
     check_fitness,
+    check_message_constants,
     check_optimization,
     check_optimizations,
 )
 from swarmdsl.analysis.checks.reachability import check_reachability
-from swarmdsl.analysis.checks.shadowed_transitions import check_order
+from swarmdsl.analysis.checks.shadowed_transitions import check_shadowed_transitions
 from swarmdsl.analysis.checks.structure import check_structure
 from swarmdsl.analysis.checks.style import check_style
-from swarmdsl.analysis.checks.submachines import check_submachines, reused_machines
+from swarmdsl.analysis.checks.submachines import check_submachines
 from swarmdsl.analysis.checks.transitions import check_transitions
-from swarmdsl.analysis.checks.unused import check_unused
-from swarmdsl.analysis.usage import used_declarations
+from swarmdsl.analysis.checks.unused import check_unused, collect_used
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
+from swarmdsl.base.records import replace
 from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
@@ -62,108 +66,106 @@ from swarmdsl.syntax.ast import (
     Swarm,
 )
 
+PROJECT_PASSES: Sequence[Callable[[Project, Context], None]] = (
+    check_names,
+    check_submachines,
+    check_inheritance,
+    check_message_cycles,
+    check_optimizations,
+    check_unused,
+    collect_used,
+    check_topics,
+    check_events,
+)
+"""Passes over a whole project, in order."""
+
+STATE_MACHINE_PASSES: Sequence[Callable[[StateMachine, Context], None]] = (
+    check_expressions,  # first: computes the conditions of the guards
+    check_structure,
+    check_transitions,
+    check_livelock,
+    check_shadowed_transitions,
+    check_reachability,
+    check_activities,
+    check_guards,
+    check_variables,
+    check_conflicts,
+    check_initialization,
+)
+
+COMMON_PASSES: Sequence[Callable[[Declaration, Context], None]] = (
+    check_values,
+    check_known,
+    check_style,
+)
+"""Passes over every declaration, before those of its kind."""
+
+PASSES: Mapping[type[Declaration], Sequence[Callable[[Any, Context], None]]] = {
+    Event: (check_event,),
+    Function: (check_function,),
+    Component: (check_component,),
+    Member: (check_member,),
+    StateMachine: STATE_MACHINE_PASSES,
+    Constant: (check_constant,),
+    EnumType: (check_enum,),
+    MessageType: (check_standard, check_message_constants),
+    ServiceType: (check_standard,),
+    ActionType: (check_standard,),
+    Fitness: (check_fitness,),
+    Swarm: (check_swarm,),
+    Environment: (check_environment,),
+}
+"""Passes over declarations, by kind, in order."""
+
 
 def validate(project: Project, report: Diagnostics) -> None:
-    """Run all rules."""
+    """Run all passes."""
     context = make_context(project, report)
-    check_together(project, context)
-    reused = reused_machines(context)
+    check_project(project, context)
     for file, declaration in project.declarations():
-        check_alone(file, declaration, context, reused=declaration in reused)
+        check_declaration(file, declaration, context)
     for _, optimization in project.optimizations():
         check_optimization(optimization, context)
 
 
-def check_together(project: Project, context: Context) -> None:
-    """Run the rules about all declarations together."""
-    check_names(project, context.report)
-    check_submachines(project, context)
-    check_inheritance(project, context.report)
-    check_message_cycles(context)
-    check_optimizations(project, context)
-    check_unused(project, context)
-    used = used_declarations(project, context.known.uses)
-    context.known.uses = context.known.uses.only(project)
-    check_topics(used, context.report)
-    check_events([node for _, node in used], context)
+def check_project(project: Project, context: Context) -> None:
+    """Run the passes over a whole project, which precede those over declarations."""
+    for run in PROJECT_PASSES:
+        run(project, context)
 
 
-def check_alone(file: File, declaration: Declaration, context: Context, *, reused: bool) -> None:
-    """Run the rules about one declaration and what it leads to.
-
-    Of a machine it must be known whether another one reuses it.
-    """
+def check_declaration(file: File, declaration: Declaration, context: Context) -> None:
+    """Run the passes over one declaration."""
     check_names_inside(declaration, context.report, file.parsed.lost_names)
     if declaration in file.parsed.damaged:
         return
     if file.library:
         _check_in_library(file, declaration, context)
-        return
-    _check(declaration, context)
-    if isinstance(declaration, StateMachine):
-        check_initialization(declaration, context, reused=reused)
+    else:
+        _run(declaration, context)
 
 
 def _check_in_library(file: File, declaration: Declaration, context: Context) -> None:
-    """Report errors only: whoever uses a library cannot mend what is a warning there."""
+    """Run the passes over a declaration of a library; users cannot fix its warnings."""
     found = Diagnostics()
-    _check(declaration, context.reporting_to(found))
-    # The files that `import ros` reads are mostly those of the same people.
+    _run(declaration, replace(context.reporting_to(found), errors_only=True))
+    # Files of `import ros` usually belong to the authors of the model.
     if not file.source.name.endswith(SUFFIX):
         check_known(declaration, context)
     context.report.include(one for one in found if one.severity is Severity.ERROR)
 
 
-def _check(declaration: Declaration, context: Context) -> None:
-    """Run the rules of a declaration."""
-    check_values(declaration, context)
-    check_known(declaration, context)
-    check_style(declaration, context)
-    match declaration:
-        case Event():
-            check_event(declaration, context)
-        case Function():
-            check_function(declaration, context)
-        case Component():
-            check_component(declaration, context)
-        case Member():
-            check_member(declaration, context)
-        case StateMachine():
-            # First of all: it makes conditions of the guards, which other rules compare.
-            check_expressions(declaration, context)
-            check_structure(declaration, context)
-            check_transitions(declaration, context)
-            settling = Settling(declaration, context)
-            check_settling(declaration, settling, context)
-            check_order(declaration, settling, context)
-            check_reachability(declaration, context)
-            check_activities(declaration, context)
-            check_guards(declaration, settling, context)
-            check_variables(declaration, context)
-            check_conflicts(declaration, context)
-        case Constant():
-            check_constant(declaration, context)
-        case ServiceType() | ActionType():
-            check_standard(declaration, context)
-        case MessageType():
-            check_standard(declaration, context)
-            for constant in declaration.constants:
-                check_constant(constant, context)
-        case EnumType():
-            check_enum(declaration, context)
-        case Fitness():
-            check_fitness(declaration, context)
-        case Swarm():
-            check_swarm(declaration, context)
-        case Environment():
-            check_environment(declaration, context)
+def _run(declaration: Declaration, context: Context) -> None:
+    for run in COMMON_PASSES:
+        run(declaration, context)
+    for run in PASSES.get(type(declaration), ()):
+        run(declaration, context)
 
 
 __all__ = [
-    "check_alone",
+    "check_declaration",
     "check_optimization",
-    "check_together",
+    "check_project",
     "make_context",
-    "reused_machines",
     "validate",
 ]

@@ -1,4 +1,4 @@
-"""What the parts of a state machine read and write, in the order in which they do."""
+"""Accesses to variables (reads and writes) in the parts of a state machine, in order."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from swarmdsl.syntax.ast import (
 
 @dataclass(frozen=True, slots=True)
 class Read:
-    """A variable is read; `test` says that it is in a guard."""
+    """Read of a variable; `test` is True in a guard."""
 
     variable: Variable
     span: Span
@@ -43,21 +43,21 @@ class Read:
 
 @dataclass(frozen=True, slots=True)
 class Write:
-    """A variable, or a field of it, is written."""
+    """Write of a variable or a field of it."""
 
     variable: Variable
 
 
-Step = Read | Write
+Access = Read | Write
 
 
-def stores_of(machine: StateMachine) -> list[Assignment | ResultMapping]:
-    """What stores a value in a variable."""
+def storing_nodes(machine: StateMachine) -> list[Assignment | ResultMapping]:
+    """Return the nodes that store a value in a variable."""
     return [*nodes_of(machine, Assignment), *nodes_of(machine, ResultMapping)]
 
 
-def while_active(vertex: Vertex) -> list[Step]:
-    """What is read as soon as a state is entered: its goal, its params and its delays."""
+def accesses_on_activation(vertex: Vertex) -> list[Access]:
+    """Return the reads when a state becomes active: of its activity, params and delays."""
     if not isinstance(vertex, (State, Parallel)):
         return []
     arguments = list(vertex.bindings) if isinstance(vertex, State) else []
@@ -69,11 +69,11 @@ def while_active(vertex: Vertex) -> list[Step]:
             case Transition():
                 values += [each.delay for each in item.triggers if isinstance(each, TimeTrigger)]
     values += [argument.value for argument in arguments]
-    return [step for value in values for step in reads(value)]
+    return [read for value in values for read in reads(value)]
 
 
-def results(trigger: Trigger | None, state: State | Parallel) -> list[Step]:
-    """What the end of an activity stores before its transition is looked at."""
+def result_accesses(trigger: Trigger | None, state: State | Parallel) -> list[Access]:
+    """Return the writes of an ended activity, which precede the guards of its transitions."""
     if not isinstance(trigger, OutcomeTrigger) or trigger.outcome != "succeeded":
         return []
     return [
@@ -85,29 +85,35 @@ def results(trigger: Trigger | None, state: State | Parallel) -> list[Step]:
     ]
 
 
-def on(kind: type[Entry] | type[Exit], state: State | Parallel) -> list[Step]:
-    """What a state does when it is entered, or left."""
+def action_accesses(kind: type[Entry] | type[Exit], state: State | Parallel) -> list[Access]:
+    """Return the accesses of the entry or exit actions of a state."""
     return [
-        step for item in state.items if isinstance(item, kind) for step in in_order(item.effects)
+        access
+        for item in state.items
+        if isinstance(item, kind)
+        for access in effect_accesses(item.effects)
     ]
 
 
-def in_order(effects: list[Effect]) -> list[Step]:
-    """The steps of effects; a variable that is counted on from its own value starts as zero."""
-    found: list[Step] = []
+def effect_accesses(effects: list[Effect]) -> list[Access]:
+    """Return the accesses of effects.
+
+    An assignment from the own value (`n = n + 1`) is no read: `n` starts as zero.
+    """
+    found: list[Access] = []
     for effect in effects:
         match effect:
             case Send(arguments=arguments):
-                found += [step for argument in arguments for step in reads(argument.value)]
+                found += [read for argument in arguments for read in reads(argument.value)]
             case Assignment(target=target, value=value):
                 stored = _variables(target.tree)
-                found += [step for step in reads(value) if step.variable not in stored]
+                found += [read for read in reads(value) if read.variable not in stored]
                 found += [Write(variable) for variable in stored]
     return found
 
 
 def reads(value: Expression | None, *, test: bool = False) -> Iterator[Read]:
-    """What an expression reads."""
+    """Yield the reads of an expression."""
     if value is None or isinstance(value.tree, Value):
         return
     for use in walk(value):
@@ -116,7 +122,7 @@ def reads(value: Expression | None, *, test: bool = False) -> Iterator[Read]:
 
 
 def _variables(target: Node | None) -> list[Variable]:
-    """The variable that an assignment stores in."""
+    """Variables that the target of an assignment names."""
     uses = walk(target) if target is not None else ()
     return [
         use.target for use in uses if isinstance(use, NameUse) and isinstance(use.target, Variable)

@@ -56,7 +56,7 @@ def _check_activity(activity: Activity, context: Context) -> None:
     sent: list[Field] | None = None
     received: list[Field] | None = None
     words = ("", "")
-    if known in context.damaged:
+    if known in context.incomplete:
         known = None
     match known:
         case ActionType():

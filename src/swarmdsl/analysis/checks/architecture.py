@@ -60,7 +60,7 @@ def check_ports(owner: Component | Member, context: Context) -> None:
             check_graph_name(item.topic, "a topic", context)
 
 
-def check_inheritance(project: Project, report: Diagnostics) -> None:
+def check_inheritance(project: Project, context: Context) -> None:
     """No component and no member extends itself, through however many others, or very many."""
     owners = [o for _, o in project.declarations() if isinstance(o, (Component, Member))]
 
@@ -68,18 +68,18 @@ def check_inheritance(project: Project, report: Diagnostics) -> None:
         if owner.base is not None and owner.base.target is not None:
             yield owner.base.span, owner.base.target
 
-    endless = False
+    has_cycles = False
     for owner, spans in cycles(owners, bases):
-        endless = True
+        has_cycles = True
         *way, last = spans
-        report.report(
+        context.report.report(
             "inheritance-cycle",
             last,
             name=owner.name,
             related=tuple(Label(span, "by way of this") for span in way),
         )
-    if not endless:
-        _check_depth(owners, report)
+    if not has_cycles:
+        _check_depth(owners, context.report)
 
 
 def _check_depth(owners: list[Component | Member], report: Diagnostics) -> None:
@@ -160,7 +160,7 @@ def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Co
 def _check_part(part: Part, context: Context) -> None:
     context.check_repeated((value.name for value in part.values), "param")
     component = part.component.target
-    if component is None or component in context.damaged:
+    if component is None or component in context.incomplete:
         return
     params = {str(param.name): param for param in all_items(component, Param)}
     for value in part.values:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Hashable, Iterator, Mapping, Sequence
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import condition_of, possible
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of, satisfiable
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import awaited, heard_on
 from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
@@ -36,20 +36,22 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
     parallels = nodes_of(machine, Parallel)
     if not parallels:
         return
-    outline = context.outline(machine)
+    hierarchy = context.hierarchy(machine)
     inside: dict[Region, list[Transition]] = {region: [] for region in nodes_of(machine, Region)}
-    for state, transitions in outline.transitions.items():
-        for outer in outline.around(state):
+    for state, transitions in hierarchy.transitions.items():
+        for outer in hierarchy.ancestors(state):
             if isinstance(outer, Region):
                 inside[outer] += transitions
     for found in inside.values():
         found.sort(key=lambda transition: transition.span.start)
     for parallel in parallels:
-        _check_ways_out(parallel, inside, outline, context)
-        _check_stored(parallel, inside, outline, context)
+        _check_ways_out(parallel, inside, hierarchy, context)
+        _check_stored(parallel, inside, hierarchy, context)
 
 
-def _check_stored(parallel: Parallel, inside: _Inside, outline: Outline, context: Context) -> None:
+def _check_stored(
+    parallel: Parallel, inside: _Inside, hierarchy: StateHierarchy, context: Context
+) -> None:
     """Report the second of two different values that two regions store on one event.
 
     SCXML runs the effects in the order of the text (3.13): the last one counts. What says
@@ -60,12 +62,12 @@ def _check_stored(parallel: Parallel, inside: _Inside, outline: Outline, context
         found = [
             store
             for transition in inside[region]
-            if _stays(transition, region, outline)
+            if _stays(transition, region, hierarchy)
             for store in _stores(transition)
         ]
         for event, transition, effect in found:
             for before, first in earlier.get((_heard(event), _path(effect)[0]), ()):
-                if _differ(first, effect) and possible(
+                if _differ(first, effect) and satisfiable(
                     [condition_of(before, context), condition_of(transition, context)]
                 ):
                     context.report.report(
@@ -83,11 +85,11 @@ def _check_stored(parallel: Parallel, inside: _Inside, outline: Outline, context
                 others.append((transition, effect))
 
 
-def _stays(transition: Transition, region: Region, outline: Outline) -> bool:
+def _stays(transition: Transition, region: Region, hierarchy: StateHierarchy) -> bool:
     if transition.target is None:
         return True
     target = transition.target.target
-    return target is not None and region in outline.around(target)
+    return target is not None and region in hierarchy.ancestors(target)
 
 
 def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Assignment]]:
@@ -131,7 +133,7 @@ def _called(event: _Source) -> str:
 
 
 def _check_ways_out(
-    parallel: Parallel, inside: _Inside, outline: Outline, context: Context
+    parallel: Parallel, inside: _Inside, hierarchy: StateHierarchy, context: Context
 ) -> None:
     """Report the second of two transitions that leave a parallel state on one event.
 
@@ -141,7 +143,7 @@ def _check_ways_out(
     for region in regions(parallel):
         for transition in inside[region]:
             target = transition.target.target if transition.target is not None else None
-            if target is None or region in outline.around(target):
+            if target is None or region in hierarchy.ancestors(target):
                 continue
             for event in map(awaited, transition.triggers):
                 if event is None:

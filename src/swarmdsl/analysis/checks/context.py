@@ -1,21 +1,21 @@
-"""What the rules share: the collector and the interfaces that the model describes."""
+"""Data that all checks share, and helpers for several of them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any, TypeVar
 
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.facts import Condition, FactCache
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing, constant, fits, is_number
-from swarmdsl.analysis.usage import UsesOfAll
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
-from swarmdsl.project.loader import Project
+from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS
 from swarmdsl.syntax.ast import (
     Branch,
@@ -38,77 +38,73 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Array, Named, Type
 
-if TYPE_CHECKING:
-    from swarmdsl.analysis.checks.events import Exchange
-    from swarmdsl.analysis.checks.guard_satisfiability import Condition
-    from swarmdsl.analysis.checks.submachines import Reuse
-
-
-@dataclass
-class Known:
-    """What is known of single declarations by the rules about all together.
-
-    It holds for the next check too: a declaration that changed, or that uses one that did, is
-    another node then.
-    """
-
-    reuse: Mapping[StateMachine, Reuse] = field(default_factory=dict)
-    exchanges: Mapping[Declaration | None, Exchange] = field(default_factory=dict)
-    uses: UsesOfAll = field(default_factory=UsesOfAll)
+A = TypeVar("A")
 
 
 @dataclass(frozen=True)
 class Context:
-    """Passed to every rule.
+    """Input and shared results of all checks.
 
-    `damaged` are the declarations with a piece that could not be parsed: of what they seem
-    to lack nothing can be said. What was found of guards and machines is kept: `conditions`,
-    which of them are `certain`, `outlines`; and what is `known` from earlier checks.
+    `incomplete` are the declarations with a part that could not be parsed: a check for missing
+    items would mislead there. `used` are the declarations of the system with their files, set
+    by a pass over the project. `errors_only` is set for a library, whose warnings are dropped.
     """
 
     report: Diagnostics
     interfaces: Interfaces
     typing: Typing
-    damaged: set[TopLevel]
-    known: Known
+    incomplete: set[TopLevel]
+    facts: FactCache
+    errors_only: bool = False
+    used: list[tuple[File, Declaration]] = field(default_factory=list)
     conditions: dict[Transition | Branch, Condition] = field(default_factory=dict)
-    certain: dict[Transition | Branch, bool | None] = field(default_factory=dict)
-    outlines: dict[StateMachine, Outline] = field(default_factory=dict)
+    guard_values: dict[Transition | Branch, bool | None] = field(default_factory=dict)
+    hierarchies: dict[StateMachine, StateHierarchy] = field(default_factory=dict)
+    analyses: dict[object, Any] = field(default_factory=dict)
 
     def reporting_to(self, report: Diagnostics) -> Context:
-        """The same with another collector."""
+        """Return the context with another collector."""
         return replace(self, report=report, typing=replace(self.typing, report=report))
 
-    def outline(self, machine: StateMachine) -> Outline:
-        """Which states of a machine are in which."""
-        if machine not in self.outlines:
-            self.outlines[machine] = Outline(machine)
-        return self.outlines[machine]
+    def hierarchy(self, machine: StateMachine) -> StateHierarchy:
+        """Return the hierarchy of the states of a machine."""
+        if machine not in self.hierarchies:
+            self.hierarchies[machine] = StateHierarchy(machine)
+        return self.hierarchies[machine]
+
+    def analysis(self, kind: Callable[[StateMachine, Context], A], machine: StateMachine) -> A:
+        """Return the result of an analysis of a machine, computed on first use."""
+        key = (kind, machine)
+        if key not in self.analyses:
+            self.analyses[key] = kind(machine, self)
+        result: A = self.analyses[key]
+        return result
 
     def forget(self, declaration: Declaration) -> None:
-        """Give back what was kept for a declaration that all rules have looked at."""
+        """Drop what is kept for a declaration whose checks are done."""
         if isinstance(declaration, StateMachine):
-            self.outlines.pop(declaration, None)
+            self.hierarchies.pop(declaration, None)
+            self.analyses.clear()
             self.conditions.clear()
-            self.certain.clear()
+            self.guard_values.clear()
 
     def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
-        """Check the type of an expression that could be parsed."""
+        """Check the type of an expression."""
         if expression is not None:
             typing.expect(expression.tree, wanted)
 
     def check_fits(self, found: Type | None, wanted: Type | None, at: Span) -> None:
-        """Check that a value of one type can be stored as another."""
+        """Check that a value of type `found` can be stored as `wanted`."""
         if not fits(found, wanted):
             self.report.report("type-mismatch", at, expected=f"`{wanted}`", found=f"`{found}`")
 
     def check_default(self, owner: Param | Variable, value: Expression | None) -> None:
-        """Check a value that must be known when the model is compiled."""
+        """Check an initial or default value: a constant of the type of its owner."""
         if value is not None:
             self.check_constant(value, owner.type.type)
 
     def check_constant(self, value: Expression, wanted: Type | None) -> None:
-        """Check a value of a type that must be known when the model is compiled."""
+        """Check a constant of a type."""
         if value.tree is None:
             return
         if not constant(value.tree):
@@ -124,11 +120,11 @@ class Context:
             self.report.report("type-mismatch", value.span, expected="a number", found=f"`{found}`")
 
     def check_kind(self, ref: TypeRef, wanted: type[Interface]) -> None:
-        """Check that a type names a message (or an action, a service), where that is known."""
+        """Check that a type is a message, an action or a service, if its interface is known."""
         element = ref.type.element if isinstance(ref.type, Array) else ref.type
         known = self.interfaces.get(element, wanted) if isinstance(element, Named) else None
         unknown = isinstance(element, Named) and known is None
-        # A struct is a message that the model defines.
+        # A struct is a message that a model defines.
         kinds = (MessageType, StructType) if wanted is MessageType else wanted
         fine = element is ref.type and (unknown or isinstance(known, kinds))
         if ref.type is not None and not fine:
@@ -142,7 +138,7 @@ class Context:
             )
 
     def check_repeated(self, names: Iterable[Word], what: str) -> None:
-        """Report the second of two items with one name."""
+        """Report the second of two items with the same name."""
         first: dict[str, Word] = {}
         for name in names:
             earlier = first.setdefault(str(name), name)
@@ -155,20 +151,20 @@ class Context:
                 )
 
     def report_unknown_param(self, name: Word, owner: str, params: Iterable[str]) -> None:
-        """Report a value for a param that its owner does not have."""
+        """Report a value for a param that is missing in its owner."""
         hints = self.report.wants_hint("unknown-param")
         help_ = suggest(name, params, "params") if hints else None
         self.report.report("unknown-param", name.span, owner=owner, name=name, help=help_)
 
     def check_single(self, places: list[Span], what: str) -> None:
-        """Report the second and later ones of something that may be given once."""
+        """Report all but the first place of an item that may be given once."""
         for place in places[1:]:
             self.report.report(
                 "repeated-item", place, item=what, related=(Label(places[0], "first given here"),)
             )
 
     def with_event(self, triggers: list[EventTrigger | MonitorTrigger]) -> Typing:
-        """Typing where `event` is the message of any of these triggers."""
+        """Return a typing in which `event` is the message of any of these triggers."""
         types = [_message(trigger) for trigger in triggers]
         alike = all(known == types[0] for known in types)
         return self.typing.on_event(types[0], known=alike)
@@ -187,7 +183,10 @@ def _kind_of_type(ref: TypeRef, known: Interface | None) -> str:
 
 
 def read_packages(project: Project) -> dict[str, set[str]]:
-    """The names in each package whose whole folder was read, not only its `msg` for instance."""
+    """Return the names in each package whose whole folder was imported.
+
+    An import of a subfolder like `msg` does not count.
+    """
     found: dict[str, set[str]] = {}
     for file in project.files:
         for statement, read in file.imports:
@@ -204,16 +203,17 @@ def read_packages(project: Project) -> dict[str, set[str]]:
     return found
 
 
-def make_context(project: Project, report: Diagnostics, known: Known | None = None) -> Context:
-    """Gather the interfaces of all files; `known` is what earlier checks have left."""
-    damaged: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
+def make_context(project: Project, report: Diagnostics, facts: FactCache | None = None) -> Context:
+    """Create the context of a project; `facts` are those of an earlier check."""
+    incomplete: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
     interfaces = Interfaces(
-        # Of a damaged enum one still knows that it is one.
+        # An incomplete enum is still known to be an enum.
         (
             (file, node)
             for file, node in project.declarations()
-            if node not in damaged or isinstance(node, EnumType)
+            if node not in incomplete or isinstance(node, EnumType)
         ),
         read_packages(project),
     )
-    return Context(report, interfaces, Typing(interfaces, report), damaged, known or Known())
+    typing = Typing(interfaces, report)
+    return Context(report, interfaces, typing, incomplete, facts or FactCache())

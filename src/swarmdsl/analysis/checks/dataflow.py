@@ -1,10 +1,10 @@
-"""Variables that lead nowhere."""
+"""Checks of variables that are never read or never written."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from swarmdsl.analysis.checks.accesses import stores_of
+from swarmdsl.analysis.checks.accesses import storing_nodes
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.syntax.ast import (
     FieldUse,
@@ -17,7 +17,7 @@ from swarmdsl.syntax.types import Named
 
 
 def check_variables(machine: StateMachine, context: Context) -> None:
-    """A variable is written before it is of use, and read to be of use."""
+    """Report variables that are not both written and read."""
     stores = set(_stores(machine))
     written = {use.target for use in stores}
     read = {use.target for use in nodes_of(machine, NameUse) if use not in stores}
@@ -36,8 +36,8 @@ def check_variables(machine: StateMachine, context: Context) -> None:
 
 
 def _stores(machine: StateMachine) -> Iterator[NameUse]:
-    """The names that stand where a value is stored: the variable is written there, not read."""
-    for node in stores_of(machine):
+    """Yield the names of variables that are written, not read."""
+    for node in storing_nodes(machine):
         tree = node.target.tree
         while isinstance(tree, FieldUse):
             tree = tree.base

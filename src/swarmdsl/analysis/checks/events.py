@@ -1,20 +1,21 @@
-"""Events between machines: what is sent is waited for, and what is waited for is sent.
+"""Checks of events between machines: sent events are handled, awaited events are sent.
 
-A swarm event is judged in each swarm, over the machines of its members; one of a machine
-that belongs to no swarm, over all machines. An event of the robot may come from a node that
-is no part of the model, or go to one.
+A swarm event is checked in each swarm, over the machines of its members; a swarm event of a
+machine in no swarm over all machines. Other events can come from or go to nodes outside of
+the model.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.facts import Exchange
 from swarmdsl.analysis.event_topics import awaited, heard_on
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.base.diagnostics.collector import Label, listed
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     BehaviorUse,
     Component,
@@ -34,40 +35,11 @@ from swarmdsl.syntax.ast import (
 )
 
 
-@dataclass
-class Exchange:
-    """What machines that hear each other send and wait for: the first place for each topic.
-
-    Not `complete` where a name was not resolved or a piece could not be parsed: what seems to
-    be missing may be that.
-    """
-
-    name: str = ""
-    machines: set[StateMachine] = field(default_factory=set)
-    sent: dict[str, Send] = field(default_factory=dict)
-    awaited: dict[str, EventTrigger | MonitorTrigger] = field(default_factory=dict)
-    complete: bool = True
-
-    def add(self, others: Iterable[Exchange | None]) -> Exchange:
-        """Add those of others; None stands for one that was not found."""
-        for other in others:
-            if other is None:
-                self.complete = False
-                continue
-            self.machines |= other.machines
-            for topic, send in other.sent.items():
-                self.sent.setdefault(topic, send)
-            for topic, trigger in other.awaited.items():
-                self.awaited.setdefault(topic, trigger)
-            self.complete = self.complete and other.complete
-        return self
-
-
-def check_events(used: Iterable[Declaration], context: Context) -> None:
+def check_events(project: Project, context: Context) -> None:
     """Check the events of all machines of the system."""
-    before = context.known.exchanges
+    before = context.facts.exchanges
     found: dict[Declaration | None, Exchange] = {}
-    nodes = [node for node in used if isinstance(node, (StateMachine, Member, Swarm))]
+    nodes = [node for _, node in context.used if isinstance(node, (StateMachine, Member, Swarm))]
     machines = [node for node in nodes if isinstance(node, StateMachine)]
     members = [node for node in nodes if isinstance(node, Member)]
     swarms = [node for node in nodes if isinstance(node, Swarm)]
@@ -77,7 +49,7 @@ def check_events(used: Iterable[Declaration], context: Context) -> None:
         found[member] = before.get(member) or _of_member(member, found, context)
     for swarm in swarms:
         found[swarm] = before.get(swarm) or _of_swarm(swarm, found, context)
-    context.known.exchanges = found
+    context.facts.exchanges = found
     groups = [(found[swarm], found[swarm]) for swarm in swarms]
     in_swarms: set[StateMachine | None] = set().union(*(group.machines for group, _ in groups))
     alone = [found[machine] for machine in machines if machine not in in_swarms]
@@ -89,7 +61,7 @@ def check_events(used: Iterable[Declaration], context: Context) -> None:
 
 
 def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Context) -> None:
-    """Check the swarm events of the first of each two exchanges over the second."""
+    """Check the swarm events of the first exchange of each pair over the second."""
     unhandled: dict[Send, list[str]] = {}
     unsent: dict[EventTrigger, list[str]] = {}
     for judged, known in groups:
@@ -124,10 +96,9 @@ def _check_swarm_events(groups: list[tuple[Exchange, Exchange]], context: Contex
 
 
 def _check_own_events(members: list[Exchange], context: Context) -> None:
-    """An event of the robot that a member sends reaches no other member.
+    """Report events that reach no other member, but for which another member waits.
 
-    That is said where another one waits for it: where nobody does, it is meant for a node
-    outside of the model.
+    An event that no member waits for is meant for a node outside of the model.
     """
     senders: dict[str, list[Exchange]] = {}
     hearing: dict[str, EventTrigger | MonitorTrigger] = {}
@@ -162,8 +133,8 @@ def _where(kind: str, names: list[str]) -> str:
 
 
 def _of_machine(machine: StateMachine, context: Context) -> Exchange:
-    """What one machine sends and waits for."""
-    found = Exchange(machines={machine}, complete=machine not in context.damaged)
+    """Exchange of one machine."""
+    found = Exchange(machines={machine}, complete=machine not in context.incomplete)
     kinds: tuple[type[Send | EventTrigger | MonitorTrigger], ...]
     kinds = (Send, EventTrigger, MonitorTrigger)
     nodes = (node for kind in kinds for node in nodes_of(machine, kind))
@@ -183,7 +154,7 @@ def _of_machine(machine: StateMachine, context: Context) -> Exchange:
 def _of_member(
     member: Member, known: Mapping[Declaration | None, Exchange], context: Context
 ) -> Exchange:
-    """What the machines of a member send and wait for."""
+    """Exchange of the machines of a member."""
     machines = _machines(member, context)
     return Exchange(str(member.name)).add(known.get(machine) for machine in machines)
 
@@ -191,16 +162,16 @@ def _of_member(
 def _of_swarm(
     swarm: Swarm, known: Mapping[Declaration | None, Exchange], context: Context
 ) -> Exchange:
-    """What the members of a swarm send and wait for."""
+    """Exchange of the members of a swarm."""
     roles = [item for item in swarm.items if isinstance(item, Role)]
-    found = Exchange(str(swarm.name), complete=swarm not in context.damaged)
+    found = Exchange(str(swarm.name), complete=swarm not in context.incomplete)
     return found.add(known.get(role.member.target) for role in roles)
 
 
 def _machines(member: Member, context: Context) -> Iterator[StateMachine | None]:
-    """The behaviours of a member and its parts, and the machines that these reuse.
+    """Behaviours of a member and its parts with their submachines.
 
-    None stands for what may be missing.
+    None stands for a machine that may be missing.
     """
     ahead = deque(_behaviors(member, context))
     seen = set()
@@ -220,7 +191,7 @@ def _behaviors(member: Member, context: Context) -> Iterator[StateMachine | None
     owners: list[Member | Component | None] = [member, *parts]
     for owner in owners:
         for each in lineage(owner) if owner is not None else ():
-            if each in context.damaged or (each.base is not None and each.base.target is None):
+            if each in context.incomplete or (each.base is not None and each.base.target is None):
                 yield None
         for use in all_items(owner, BehaviorUse) if owner is not None else ():
             yield use.machine.target

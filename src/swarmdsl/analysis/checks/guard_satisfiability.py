@@ -1,9 +1,9 @@
-"""What guards say together: whether values exist for which all of them hold.
+"""Satisfiability of guards: values exist for which several of them hold.
 
-A guard becomes `and` and `or` of atoms; an atom says in which set of values a term lies. A
-term is whatever is compared with a constant, or a truth value of which nothing more is known.
-At one moment a term has one value, so two guards that are looked at together agree about it.
-What comes out is certain: where it would take too long, values are said to exist.
+A guard becomes a condition of atoms, joined by `and` and `or`. An atom restricts a term to a
+set of values. A term is an expression that is compared with a constant, or a Boolean of which
+nothing more is known. At one moment a term has one value, the same in all guards.
+"Not satisfiable" is certain; a search that would take too long answers "satisfiable".
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from collections.abc import Hashable, Iterable
 from functools import lru_cache
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.facts import ALWAYS, Atom, Combined, Condition
 from swarmdsl.analysis.checks.value_sets import (
     Numbers,
     Texts,
@@ -23,7 +24,6 @@ from swarmdsl.analysis.checks.value_sets import (
 )
 from swarmdsl.analysis.types import Typing, is_float, range_of
 from swarmdsl.analysis.types.constant_folding import Folded, Folding
-from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import (
     Branch,
     Call,
@@ -42,34 +42,12 @@ from swarmdsl.syntax.types import INTEGERS, Named, Primitive, Type
 _MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 _WHOLE = {*INTEGERS, "byte", "char"}
 _TRUE, _TRUE_OR_FALSE = these([1]), these([0, 1])
-# More alternatives than people write; each is a step of the search.
+# Limit of the search; guards in real models need far fewer steps.
 _MOST_STEPS = 2_000
 
 
-@dataclass(frozen=True)
-class Atom:
-    """The value of a term is one of `values`; it could be any of `range`."""
-
-    term: Hashable
-    values: Values
-    range: Values
-
-
-@dataclass(frozen=True)
-class Combined:
-    """All parts hold, or (`every` False) one of them."""
-
-    every: bool
-    parts: tuple[Condition, ...] = ()
-
-
-Condition = Atom | Combined
-# Without parts: all of none hold, and one of none does not.
-ALWAYS = Combined(every=True)
-
-
 def guard_condition(tree: ExpressionTree, typing: Typing) -> Condition:
-    """The condition that a guard without mistakes is: one that has no result does not hold."""
+    """Return the condition of a correct guard. A guard without a result does not hold."""
     holds = _condition(tree, typing)
     if not any(_may_fail(part, typing.folding) for part in walk(tree)):
         return holds
@@ -79,31 +57,31 @@ def guard_condition(tree: ExpressionTree, typing: Typing) -> Condition:
 
 
 def _condition(tree: ExpressionTree, typing: Typing) -> Condition:
-    """The condition that a `bool` expression is."""
+    """Condition of a `bool` expression."""
     known = typing.folding.value(tree)
     if isinstance(known, bool):
-        return ALWAYS if known else negated(ALWAYS)
+        return ALWAYS if known else negate(ALWAYS)
     match tree:
         case OperatorUse(operator="and" | "or" as word, operands=operands):
             return Combined(word == "and", tuple(_condition(part, typing) for part in operands))
         case OperatorUse(operator="not", operands=(operand,)):
-            return negated(_condition(operand, typing))
+            return negate(_condition(operand, typing))
         case OperatorUse(operator=operator, operands=(left, right)) if operator in _MIRRORED:
             return _comparison(str(operator), left, right, typing)
     return _truth(_term(tree, typing.folding))
 
 
-def negated(some: Condition) -> Condition:
-    """The condition that holds where this one does not."""
+def negate(some: Condition) -> Condition:
+    """Return the negation of a condition."""
     if isinstance(some, Combined):
-        return Combined(not some.every, tuple(negated(part) for part in some.parts))
+        return Combined(not some.every, tuple(negate(part) for part in some.parts))
     return Atom(some.term, some.values.complement(), some.range)
 
 
 def condition_of(item: Transition | Branch, context: Context) -> Condition:
-    """The condition under which a transition is taken when it is triggered.
+    """Return the condition under which a triggered transition is taken.
 
-    Of a guard that is wrong nothing is known.
+    That of an invalid guard is an atom of its own.
     """
     if item.guard is None:
         return ALWAYS
@@ -111,7 +89,7 @@ def condition_of(item: Transition | Branch, context: Context) -> Condition:
 
 
 def _may_fail(part: Node, folding: Folding) -> bool:
-    """Whether an operation may have no result: a division by zero, the root of less."""
+    """Return True for an operation without a result for some operands: division, square root."""
     match part:
         case OperatorUse(operator="/" | "%", operands=(_, divisor)):
             return not folding.value(divisor)
@@ -120,21 +98,21 @@ def _may_fail(part: Node, folding: Folding) -> bool:
     return False
 
 
-def certain(item: Transition | Branch, context: Context) -> bool | None:
-    """Whether the guard holds for all values, or for none; None where it depends on them."""
+def guard_value(item: Transition | Branch, context: Context) -> bool | None:
+    """Return True or False for a guard that always or never holds, None for any other."""
     if item.guard is None:
         return True
-    if item not in context.certain:
+    if item not in context.guard_values:
         holds = condition_of(item, context)
-        if not possible([holds]):
-            context.certain[item] = False
+        if not satisfiable([holds]):
+            context.guard_values[item] = False
         else:
-            context.certain[item] = None if possible([negated(holds)]) else True
-    return context.certain[item]
+            context.guard_values[item] = None if satisfiable([negate(holds)]) else True
+    return context.guard_values[item]
 
 
-def possible(conditions: Iterable[Condition]) -> bool:
-    """Whether there are values for which all of the conditions hold."""
+def satisfiable(conditions: Iterable[Condition]) -> bool:
+    """Return True if values exist for which all conditions hold."""
     together = list(conditions)
     if len(together) == 1 and isinstance(together[0], Atom):
         return together[0].range.meets(together[0].values)  # type: ignore[arg-type]
@@ -155,15 +133,15 @@ def possible(conditions: Iterable[Condition]) -> bool:
 
 
 def _hold(pending: list[Condition], found: dict[Hashable, Values], forks: list[Combined]) -> bool:
-    """Add the values that conditions leave to `found`; False where they leave none.
+    """Restrict the values in `found` by conditions; return False if a term has none left.
 
-    Those of which one must hold become `forks`.
+    Disjunctions are added to `forks`.
     """
     while pending:
         part = pending.pop()
         if isinstance(part, Atom):
             term = (part.term, type(part.range))
-            # Both sets are of one kind, which is a part of the name of the term.
+            # The kind of set is a part of the key, so both sets are of one kind.
             left = found.get(term, part.range) & part.values  # type: ignore[operator]
             if not left:
                 return False
@@ -186,12 +164,12 @@ def _comparison(
         return _relation(operator, left, right, typing)
     if isinstance(value, bool):
         holds = _condition(left, typing)
-        return holds if value is (operator == "==") else negated(holds)
+        return holds if value is (operator == "==") else negate(holds)
     return _compared(operator, left, value, typing)
 
 
 def _compared(operator: str, tree: ExpressionTree, value: Folded, typing: Typing) -> Condition:
-    """The comparison of a term with a constant."""
+    """Condition of a comparison of a term with a constant."""
     if isinstance(value, str):
         texts = Texts(frozenset({value}))
         held = texts if operator == "==" else texts.complement()
@@ -201,9 +179,9 @@ def _compared(operator: str, tree: ExpressionTree, value: Folded, typing: Typing
 
 
 def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
-    """The numbers that a term may be.
+    """Possible numbers of a term.
 
-    An enum in a message begins as 0, whether or not that is one of its values.
+    An enum in a message is 0 at first, even if none of its values is.
     """
     if isinstance(tree, Call) and tree.function == "len":
         return compared(">=", 0, whole=True)
@@ -211,7 +189,7 @@ def _range(tree: ExpressionTree, type_: Type | None, typing: Typing) -> Numbers:
         enum = typing.interfaces.get(type_)
         if isinstance(enum, EnumType):
             return _enum(tuple(typing.folding.numbers(enum).values()))
-    # What is stored fits in its type; what is computed with it may not.
+    # A stored number fits in its type; a computed one may not.
     held = range_of(type_) if isinstance(tree, (NameUse, FieldUse)) else None
     if held is not None:
         return between(held[0], held[-1])
@@ -227,21 +205,21 @@ def _enum(numbers: tuple[int, ...]) -> Numbers:
 def _relation(
     operator: str, left: ExpressionTree, right: ExpressionTree, typing: Typing
 ) -> Condition:
-    """The comparison of two terms: a truth value; the same one when its sides are exchanged.
+    """Condition of a comparison of two terms, the same if the sides are exchanged.
 
-    A term is as great as itself, except for what is not a number.
+    A term equals itself, except for NaN.
     """
     first, second = _term(left, typing.folding), _term(right, typing.folding)
     if first == second:
         if operator in ("<", ">"):
-            return negated(ALWAYS)
+            return negate(ALWAYS)
         type_ = typing.infer(left)
         if type_ is not None and not is_float(type_):
-            return negated(ALWAYS) if operator == "!=" else ALWAYS
+            return negate(ALWAYS) if operator == "!=" else ALWAYS
     if operator in (">", ">=") or (operator in ("==", "!=") and hash(first) > hash(second)):
         operator, first, second = _MIRRORED[operator], second, first
     if operator == "!=":
-        return negated(_truth(("==", first, second)))
+        return negate(_truth(("==", first, second)))
     return _truth((operator, first, second))
 
 
@@ -250,7 +228,7 @@ def _truth(term: Hashable) -> Condition:
 
 
 def _term(tree: ExpressionTree, folding: Folding) -> Hashable:
-    """What two expressions have in common that have the same value at one moment."""
+    """Key of an expression: expressions with the same key have the same value at one moment."""
     value = folding.value(tree)
     if value is not None:
         return (type(value), value)

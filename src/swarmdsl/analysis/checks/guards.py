@@ -1,36 +1,37 @@
-"""Guards that decide nothing: they always hold, or never do."""
+"""Checks of guards that always or never hold."""
 
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import certain
-from swarmdsl.analysis.checks.livelock import Settling, is_idle
+from swarmdsl.analysis.checks.guard_satisfiability import guard_value
+from swarmdsl.analysis.checks.livelock import EventlessSteps, is_idle
 from swarmdsl.syntax.ast import Branch, Choice, Parallel, State, StateMachine, Transition, nodes_of
 
 
-def check_guards(machine: StateMachine, settling: Settling, context: Context) -> None:
+def check_guards(machine: StateMachine, context: Context) -> None:
     """Check the guards of all transitions and branches of a machine.
 
-    Where one that always holds makes a machine go round for ever, that has been reported.
+    Guards that make a livelock have been reported as that.
     """
+    endless = context.analysis(EventlessSteps, machine).endless
     for choice in nodes_of(machine, Choice):
         for branch in choice.branches:
-            if branch not in settling.endless:
-                _check(branch, _advice(branch, choice), context)
-    for state, transitions in context.outline(machine).transitions.items():
+            if branch not in endless:
+                _check(branch, _hint(branch, choice), context)
+    for state, transitions in context.hierarchy(machine).transitions.items():
         for transition in transitions:
-            if transition not in settling.endless:
-                _check(transition, _advice(transition, state), context)
+            if transition not in endless:
+                _check(transition, _hint(transition, state), context)
 
 
-def _check(item: Transition | Branch, advice: str, context: Context) -> None:
+def _check(item: Transition | Branch, hint: str, context: Context) -> None:
     guard = item.guard
     if guard is None or guard.tree is None:
         return
-    holds = certain(item, context)
+    holds = guard_value(item, context)
     if holds is None:
         return
-    held, help_ = ("always", advice) if holds else ("never", "remove the transition")
+    held, help_ = ("always", hint) if holds else ("never", "remove the transition")
     known = context.typing.folding.value(guard.tree) is not None
     context.report.report(
         "constant-guard",
@@ -41,8 +42,8 @@ def _check(item: Transition | Branch, advice: str, context: Context) -> None:
     )
 
 
-def _advice(item: Transition | Branch, owner: Choice | State | Parallel) -> str:
-    """What to write instead of a guard that always holds: not every transition can go without."""
+def _hint(item: Transition | Branch, owner: Choice | State | Parallel) -> str:
+    """Return the replacement of a guard that always holds. Some transitions need a guard."""
     if isinstance(owner, Choice):
         return "write `else` in its place, and nothing after it"
     if isinstance(item, Branch) or item.triggers:

@@ -1,13 +1,13 @@
-"""Variables that are read before anything was written to them."""
+"""Checks of variables that are read before they are written."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.analysis.checks.accesses import Read, stores_of
+from swarmdsl.analysis.checks.accesses import Read, storing_nodes
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.control_flow import Point, Ways
+from swarmdsl.analysis.checks.control_flow import ControlFlowGraph, Node
 from swarmdsl.analysis.resolve.states import all_resolved
 from swarmdsl.analysis.types.enum_values import numbers
 from swarmdsl.base.diagnostics.collector import Label
@@ -23,35 +23,39 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.types import DURATION, Named, Primitive, Type
 
 
-def check_initialization(machine: StateMachine, context: Context, *, reused: bool) -> None:
-    """Report variables without a first value that some way leads to a read of, unwritten.
+def check_initialization(machine: StateMachine, context: Context) -> None:
+    """Report variables without an initial value that a path reads before it writes them.
 
-    Guards are taken to be possible, as is any order of events. What can have no first value, a
-    message, may be tested for what it holds; so may whatever a reused machine keeps between visits.
+    All guards and all orders of events are assumed to be possible. A guard may test a variable
+    that cannot have an initial value (a message), and any variable of a submachine, which keeps
+    its values between visits.
     """
+    if context.errors_only:
+        return
     variables = _unset(machine, context)
     if not variables or _has_unknown(machine) or not all_resolved(machine):
         return
-    ways = Ways(context.outline(machine))
+    graph = ControlFlowGraph(context.hierarchy(machine))
+    reused = machine in context.facts.reused
     settable = {
         variable: not reused and _has_literals(variable.type.type, context)
         for variable in variables
     }
-    for read, way in _early_reads(ways.start, settable):
-        _report(read, way, settable[read.variable], context)
-    ways.forget()
+    for read, path in _early_reads(graph.entry, settable):
+        _report(read, path, settable[read.variable], context)
+    graph.clear()
 
 
 def _has_unknown(machine: StateMachine) -> bool:
-    """Whether a name in the machine, which may be that of a variable, was not resolved."""
+    """Return True if a name that may be a variable was not resolved."""
     return any(use.target is None and use.name != "event" for use in nodes_of(machine, NameUse))
 
 
 def _unset(machine: StateMachine, context: Context) -> list[Variable]:
-    """The variables without a first value that are written somewhere."""
+    """Return the variables without an initial value that are written somewhere."""
     written = {
         use.target
-        for node in stores_of(machine)
+        for node in storing_nodes(machine)
         for use in walk(node.target)
         if isinstance(use, NameUse)
     }
@@ -61,68 +65,67 @@ def _unset(machine: StateMachine, context: Context) -> list[Variable]:
         if isinstance(item, Variable)
         and item.initial is None
         and item in written
-        and _begins_well(item.type.type, context)
+        and _has_zero(item.type.type, context)
     ]
 
 
-def _begins_well(type_: Type | None, context: Context) -> bool:
-    """Whether the zero of a type is a value of it: of an enum without one that is told anyway."""
+def _has_zero(type_: Type | None, context: Context) -> bool:
+    """Return True unless the type is an enum without the value 0, which is reported elsewhere."""
     enum = context.interfaces.get(type_) if isinstance(type_, Named) else None
     return not isinstance(enum, EnumType) or 0 in numbers(enum).values()
 
 
 def _early_reads(
-    start: Point, settable: Mapping[Variable, bool]
-) -> Iterator[tuple[Read, Iterator[Point]]]:
-    """The first read of each variable, in the number of points, that no write comes before.
+    entry: Node, settable: Mapping[Variable, bool]
+) -> Iterator[tuple[Read, Iterator[Node]]]:
+    """Yield the nearest read of each variable that no write precedes, with a path to it.
 
-    Each with the points that lead there, the last first. A variable that is not `settable` may be
-    tested. The variables go the ways together, a bit for each, however many there are.
+    The path is reversed. A guard may test a variable that is not `settable`. One breadth-first
+    search propagates the unwritten variables as bits of an integer.
     """
     bits = {variable: 1 << number for number, variable in enumerate(settable)}
     everything = (1 << len(bits)) - 1
-    found: dict[Variable, tuple[Read, Point]] = {}
-    # At each point what is not written, and from where that came; what has yet to go on.
-    unset, ahead = {start: everything}, {start: everything}
-    came: dict[Point, list[tuple[int, Point]]] = {start: []}
-    work = deque([start])
+    found: dict[Variable, tuple[Read, Node]] = {}
+    # By node: the variables that may be unwritten, those still to propagate, and their origins.
+    unset, ahead = {entry: everything}, {entry: everything}
+    came: dict[Node, list[tuple[int, Node]]] = {entry: []}
+    work = deque([entry])
     while work:
-        point = work.popleft()
-        left = ahead.pop(point)
-        for step in point.steps:
-            bit = bits.get(step.variable, 0) & left
+        node = work.popleft()
+        left = ahead.pop(node)
+        for access in node.accesses:
+            bit = bits.get(access.variable, 0) & left
             if bit:
                 left &= ~bit
-                if isinstance(step, Read) and (settable[step.variable] or not step.test):
-                    found.setdefault(step.variable, (step, point))
-        for reached in point.leads_to if left else ():
+                if isinstance(access, Read) and (settable[access.variable] or not access.test):
+                    found.setdefault(access.variable, (access, node))
+        for reached in node.successors if left else ():
             known, new = unset.get(reached, 0), left
-            for part in reached.parts:
-                new &= unset.get(part, 0)
+            for branch in reached.joined:
+                new &= unset.get(branch, 0)
             new &= ~known
             if new:
                 unset[reached] = known | new
-                came.setdefault(reached, []).append((new, point))
+                came.setdefault(reached, []).append((new, node))
                 if reached not in ahead:
                     work.append(reached)
                 ahead[reached] = ahead.get(reached, 0) | new
 
-    def way(point: Point | None, bit: int) -> Iterator[Point]:
-        while point is not None:
-            yield point
-            point = next((before for some, before in came[point] if some & bit), None)
+    def path(node: Node | None, bit: int) -> Iterator[Node]:
+        while node is not None:
+            yield node
+            node = next((before for some, before in came[node] if some & bit), None)
 
     for variable, bit in bits.items():
         if variable in found:
-            read, point = found[variable]
-            yield read, way(point, bit)
+            read, node = found[variable]
+            yield read, path(node, bit)
 
 
-def _report(read: Read, way: Iterable[Point], settable: bool, context: Context) -> None:
+def _report(read: Read, path: Iterable[Node], settable: bool, context: Context) -> None:
     variable = read.variable
-    here = next(
-        (p.after for p in way if p.after is not None and not _contains(p.after, read)), None
-    )
+    transitions = (node.transition for node in path)
+    here = next((span for span in transitions if span and not _contains(span, read)), None)
     help_ = "write it on every way that leads here"
     if settable:
         written = f"var {variable.name} : {variable.type.span.text} = ..."
@@ -142,14 +145,14 @@ def _contains(span: Span, read: Read) -> bool:
 
 
 def _has_literals(type_: Type | None, context: Context) -> bool:
-    """Whether values of a type can be written down."""
+    """Return True if a type has literals: a primitive type or an enum."""
     if isinstance(type_, Named):
         return isinstance(context.interfaces.get(type_), EnumType)
     return isinstance(type_, Primitive)
 
 
 def _zero(type_: Type | None, context: Context) -> str:
-    """What a variable of a type holds at first."""
+    """Describe the initial content of a variable without an initial value."""
     if type_ == DURATION:
         return "it holds `0 s`"
     if isinstance(type_, Primitive):

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.event_topics import heard_on, topic_of
 from swarmdsl.analysis.node_kinds import kind_of
-from swarmdsl.base.diagnostics.collector import Diagnostics, Label, listed
+from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.graphs import cycles
-from swarmdsl.project.loader import File
+from swarmdsl.project.loader import Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -42,7 +42,7 @@ _GRAPH_NAME = re.compile(r"[~/]?/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
 _VALUES: tuple[type[Field | Param | Port | Variable], ...] = (Field, Param, Port, Variable)
 
 
-def check_message_cycles(context: Context) -> None:
+def check_message_cycles(project: Project, context: Context) -> None:
     """No message contains itself, in an array or through others: ROS cannot send it."""
     messages = {
         type_: node.fields
@@ -163,13 +163,13 @@ def check_graph_name(name: Word, what: str, context: Context) -> None:
         )
 
 
-def check_topics(used: Iterable[tuple[File, Declaration]], report: Diagnostics) -> None:
-    """Two events on one topic, declared or monitored, carry one type of message.
+def check_topics(project: Project, context: Context) -> None:
+    """Check that all events on one topic, declared or monitored, have the same message type.
 
-    Those of libraries count first, and what is declared before what is monitored: the
-    mistake is where it can be mended.
+    The type in a library is right, and a declared event is right before a monitored topic: the
+    other place can be changed.
     """
-    pairs = sorted(used, key=lambda pair: not pair[0].library)
+    pairs = sorted(context.used, key=lambda pair: not pair[0].library)
     sources: list[Event | MonitorTrigger] = [node for _, node in pairs if isinstance(node, Event)]
     for _, machine in pairs:
         if isinstance(machine, StateMachine):
@@ -179,7 +179,7 @@ def check_topics(used: Iterable[tuple[File, Declaration]], report: Diagnostics) 
         known = first.setdefault(heard_on(source), source)
         if None in (known.type.type, source.type.type) or known.type.type == source.type.type:
             continue
-        report.report(
+        context.report.report(
             "topic-types",
             source.type.span,
             topic=topic_of(source) if isinstance(source, Event) else source.topic,

@@ -1,11 +1,12 @@
-"""Settling: a machine comes to a state in which it waits for something."""
+"""Livelock: cycles of steps on which a state machine waits for no event."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import certain
+from swarmdsl.analysis.checks.guard_satisfiability import guard_value
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.graphs import cycles
@@ -25,69 +26,72 @@ from swarmdsl.syntax.ast import (
     nodes_of,
 )
 
-# What leads on to another state without waiting.
+# A step to another state that waits for no event.
 Step = Transition | Branch | Initial | History
 
 
-class Settling:
-    """What a machine does without waiting for anything.
+class EventlessSteps:
+    """Steps of a machine that wait for no event.
 
-    `immediate` are by state the transitions that are taken as soon as it is entered, `circles`
-    the steps that lead back to a state, and `endless` those of all circles.
+    `immediate` are, by state, the transitions that are taken as soon as the state is entered,
+    `cycles` the cycles of steps, each with a state on it, and `endless` the steps of all cycles.
     """
 
     def __init__(self, machine: StateMachine, context: Context) -> None:
-        self._outline = outline = context.outline(machine)
-        self._context = context
+        hierarchy = context.hierarchy(machine)
         self.immediate: dict[State | Parallel, list[Transition]] = {}
-        for state, transitions in outline.transitions.items():
-            found = [each for each in transitions if _immediate(each, state, context)]
+        for state, transitions in hierarchy.transitions.items():
+            found = [each for each in transitions if _is_immediate(each, state, context)]
             if found:
                 self.immediate[state] = found
-        self.circles: Sequence[tuple[Vertex, list[Step]]] = ()
-        # Initial states lead inward only.
+
+        def successors(vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
+            for step in self._steps_from(vertex, hierarchy, context):
+                if step.target is not None and step.target.target is not None:
+                    yield step, step.target.target
+
+        self.cycles: Sequence[tuple[Vertex, list[Step]]] = ()
+        # Initial states alone make no cycle: they lead inwards only.
         others = [*nodes_of(machine, Choice), *nodes_of(machine, History)]
         if self.immediate or others:
-            self.circles = list(cycles(outline.vertices, self._steps))
-        self.endless = {step for _, steps in self.circles for step in steps}
+            self.cycles = list(cycles(hierarchy.vertices, successors))
+        self.endless = {step for _, steps in self.cycles for step in steps}
 
-    def _steps(self, vertex: Vertex) -> Iterator[tuple[Step, Vertex]]:
-        """The steps that lead on from a state, and where to."""
-        for step in self._steps_from(vertex):
-            if step.target is not None and step.target.target is not None:
-                yield step, step.target.target
-
-    def _steps_from(self, vertex: Vertex) -> Iterator[Step]:
+    def _steps_from(
+        self, vertex: Vertex, hierarchy: StateHierarchy, context: Context
+    ) -> Iterator[Step]:
         match vertex:
             case Choice(branches=branches):
-                yield from (branch for branch in branches if _certain(branch, self._context))
+                yield from (branch for branch in branches if _is_always_taken(branch, context))
             case History(target=default) if isinstance(default.target, History):
                 yield vertex
             case State() | Parallel():
                 yield from self.immediate.get(vertex, ())
                 for region in regions(vertex):
-                    yield from self._outline.initials[region]
-                if self._outline.inside[vertex]:
-                    yield from self._outline.initials[vertex]
+                    yield from hierarchy.initials[region]
+                if hierarchy.children[vertex]:
+                    yield from hierarchy.initials[vertex]
 
 
-def check_settling(machine: StateMachine, settling: Settling, context: Context) -> None:
-    """Report circles of steps that wait for nothing, and those that only guards may end."""
-    for vertex, steps in settling.circles:
+def check_livelock(machine: StateMachine, context: Context) -> None:
+    """Report cycles of steps that wait for no event, and cycles that only guards may end."""
+    eventless = context.analysis(EventlessSteps, machine)
+    for vertex, steps in eventless.cycles:
         help_ = "let one of the states on the way wait for something"
         _report("endless-steps", vertex, steps, help_, context)
-    for state, transitions in settling.immediate.items():
-        _check_stays(state, transitions, context)
+    for state, transitions in eventless.immediate.items():
+        _check_internal(state, transitions, context)
     choices = nodes_of(machine, Choice)
     for choice, branches in cycles(choices, lambda choice: _branches(choice, context)):
-        if any(not _certain(branch, context) for branch in branches):
+        if any(not _is_always_taken(branch, context) for branch in branches):
             help_ = "lead through a state that waits for something"
             _report("choice-circle", choice, branches, help_, context)
 
 
-def _check_stays(
+def _check_internal(
     state: State | Parallel, transitions: Sequence[Transition], context: Context
 ) -> None:
+    """Report immediate transitions without a target: they are taken again and again."""
     for transition in transitions:
         if transition.target is None:
             context.report.report(
@@ -99,20 +103,20 @@ def _check_stays(
             )
 
 
-def _immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
-    """Whether a transition is taken as soon as its state is entered, whatever happens."""
+def _is_immediate(transition: Transition, state: State | Parallel, context: Context) -> bool:
+    """Return True if a transition is always taken as soon as its state is entered."""
     triggers = transition.triggers
-    at_entry = not triggers or any(at_once(trigger, state) for trigger in triggers)
-    return at_entry and certain(transition, context) is True
+    at_entry = not triggers or any(completes_at_once(trigger, state) for trigger in triggers)
+    return at_entry and guard_value(transition, context) is True
 
 
-def at_once(trigger: Trigger, state: State | Parallel) -> bool:
-    """Whether it is the completion of a state that does nothing and has nothing in it."""
+def completes_at_once(trigger: Trigger, state: State | Parallel) -> bool:
+    """Return True for `done` of an idle state, which completes as soon as it is entered."""
     return isinstance(trigger, DoneTrigger) and trigger.region is None and is_idle(state)
 
 
 def is_idle(state: State | Parallel) -> bool:
-    """Whether a state does nothing and has nothing in it."""
+    """Return True if a state has no activity, no states inside and no submachine."""
     return (
         isinstance(state, State)
         and state.machine is None
@@ -121,14 +125,14 @@ def is_idle(state: State | Parallel) -> bool:
 
 
 def _branches(choice: Choice, context: Context) -> Iterator[tuple[Branch, Choice]]:
-    """The branches that lead to choices; those first that are part of endless circles."""
-    for branch in sorted(choice.branches, key=lambda branch: not _certain(branch, context)):
+    """Yield the branches to other choices; branches that are always taken come first."""
+    for branch in sorted(choice.branches, key=lambda branch: not _is_always_taken(branch, context)):
         if isinstance(branch.target.target, Choice):
             yield branch, branch.target.target
 
 
-def _certain(branch: Branch, context: Context) -> bool:
-    return bool(branch.otherwise) or certain(branch, context) is True
+def _is_always_taken(branch: Branch, context: Context) -> bool:
+    return bool(branch.otherwise) or guard_value(branch, context) is True
 
 
 def _report(name: str, at: Vertex, steps: Sequence[Step], help_: str, context: Context) -> None:

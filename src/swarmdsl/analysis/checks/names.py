@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar
 
+from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name, kind_of
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
@@ -70,7 +71,7 @@ N = TypeVar("N", bound=Named)
 RESERVED_EVENTS = ("error",)
 
 
-def check_names(project: Project, report: Diagnostics) -> None:
+def check_names(project: Project, context: Context) -> None:
     """Check top-level names across files.
 
     An interface of ROS that a library describes is the project's own where that does so too.
@@ -81,12 +82,12 @@ def check_names(project: Project, report: Diagnostics) -> None:
         package = file.package
         for declaration in file.model.declarations:
             name = str(declaration.name)
-            _check_first((package, name), declaration, top_level, report)
+            _check_first((package, name), declaration, top_level, context.report)
             if isinstance(declaration, Interface):
                 # `Pose` of package `geo` and `geo/Pose` are one interface.
                 described = interface_name(file, name)
                 if not (only_retells(file) and described in own):
-                    _check_first(described, declaration, top_level, report)
+                    _check_first(described, declaration, top_level, context.report)
 
 
 def check_names_inside(

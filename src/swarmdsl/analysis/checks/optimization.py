@@ -13,6 +13,7 @@ from swarmdsl.syntax.ast import (
     Expression,
     Fitness,
     FitnessUse,
+    MessageType,
     Objective,
     Optimization,
     Param,
@@ -61,7 +62,7 @@ def check_optimization(optimization: Optimization, context: Context) -> None:
 
 def _check_worth(optimization: Optimization, context: Context) -> None:
     swarm = optimization.swarm.target
-    if swarm is None or not context.damaged.isdisjoint({swarm, optimization}):
+    if swarm is None or not context.incomplete.isdisjoint({swarm, optimization}):
         return
     at = optimization.swarm.span
     if not any(isinstance(item, FitnessUse) for item in swarm.items):
@@ -115,8 +116,14 @@ def _check_ranges(optimization: Optimization, context: Context) -> None:
 
 
 def check_constant(declared: Constant, context: Context) -> None:
-    """The value of a constant is known and of its type."""
+    """Check that the value of a constant is constant and of its type."""
     context.check_constant(declared.value, declared.type.type)
+
+
+def check_message_constants(message: MessageType, context: Context) -> None:
+    """Check the constants of a message."""
+    for constant in message.constants:
+        check_constant(constant, context)
 
 
 def _check_default_inside(item: ParamRange, context: Context) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.states import all_resolved, regions, vertices
 from swarmdsl.base.diagnostics.collector import Label
@@ -35,22 +35,22 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
     """
     if not all_resolved(machine):
         return
-    outline = context.outline(machine)
+    hierarchy = context.hierarchy(machine)
     reached: set[Vertex | Region] = set()
-    work = _initials(machine, outline)
+    work = _initials(machine, hierarchy)
     while work:
         state = work.pop()
         if state in reached:
             continue
         reached.add(state)
-        work += _successors(state, outline)
-        outer = outline.container[state]
+        work += _successors(state, hierarchy)
+        outer = hierarchy.parent[state]
         if not isinstance(outer, StateMachine):
             work.append(outer)  # to be in a state is to be in those around it
-    if reached.issuperset(outline.vertices):
+    if reached.issuperset(hierarchy.vertices):
         return
-    waiting = _waiting(reached, outline)
-    ended = {outline.container[end] for end in reached if isinstance(end, FinalState)}
+    waiting = _waiting(reached, hierarchy)
+    ended = {hierarchy.parent[end] for end in reached if isinstance(end, FinalState)}
     for state in _unreached(machine, reached):
         context.report.report(
             "unreachable-state",
@@ -59,28 +59,28 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
             name=state.name,
             related=tuple(
                 Label(trigger.span, "so this never happens")
-                for trigger in _in_vain(state, waiting, ended, outline)
+                for trigger in _in_vain(state, waiting, ended, hierarchy)
             ),
         )
 
 
-def _initials(container: Container, outline: Outline) -> list[Vertex | Region]:
+def _initials(container: Container, hierarchy: StateHierarchy) -> list[Vertex | Region]:
     """What is entered with a container: its regions, or its initial state."""
-    initials = outline.initials[container]
+    initials = hierarchy.initials[container]
     if not initials:
-        return [*outline.inside[container]]
+        return [*hierarchy.children[container]]
     return [item.target.target for item in initials if item.target.target is not None]
 
 
-def _successors(state: Vertex | Region, outline: Outline) -> list[Vertex | Region]:
+def _successors(state: Vertex | Region, hierarchy: StateHierarchy) -> list[Vertex | Region]:
     """What a state leads to: what is entered with it, its transitions' targets."""
     found: list[Vertex | Region] = []
     arrows: Sequence[Transition | Branch | History] = ()
     match state:
         case State() | Parallel():
-            found, arrows = _initials(state, outline), outline.transitions[state]
+            found, arrows = _initials(state, hierarchy), hierarchy.transitions[state]
         case Region():
-            found = _initials(state, outline)
+            found = _initials(state, hierarchy)
         case Choice():
             arrows = state.branches
         case History():
@@ -93,10 +93,10 @@ def _successors(state: Vertex | Region, outline: Outline) -> list[Vertex | Regio
 _Waiting = Mapping[Vertex | Container | None, Sequence[DoneTrigger]]
 
 
-def _waiting(reached: set[Vertex | Region], outline: Outline) -> _Waiting:
+def _waiting(reached: set[Vertex | Region], hierarchy: StateHierarchy) -> _Waiting:
     """The triggers that wait for the end of something, in states that are reached."""
     found: dict[Vertex | Container | None, list[DoneTrigger]] = {}
-    for owner, transitions in outline.transitions.items():
+    for owner, transitions in hierarchy.transitions.items():
         if owner not in reached:
             continue
         for transition in transitions:
@@ -109,7 +109,7 @@ def _waiting(reached: set[Vertex | Region], outline: Outline) -> _Waiting:
 
 
 def _in_vain(
-    final: Vertex, waiting: _Waiting, ended: set[Container], outline: Outline
+    final: Vertex, waiting: _Waiting, ended: set[Container], hierarchy: StateHierarchy
 ) -> list[DoneTrigger]:
     """The triggers that wait for a final state, which is not reached.
 
@@ -118,12 +118,12 @@ def _in_vain(
     """
     if not isinstance(final, FinalState):
         return []
-    container = outline.container[final]
+    container = hierarchy.parent[final]
     found = [*waiting.get(final, ())]
     if container not in ended:
         found += waiting.get(container, ())
         if isinstance(container, Region):
-            found += waiting.get(outline.container[container], ())
+            found += waiting.get(hierarchy.parent[container], ())
     return sorted(found, key=lambda trigger: trigger.span.start)
 
 

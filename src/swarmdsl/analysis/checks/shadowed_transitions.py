@@ -1,7 +1,7 @@
-"""Order: which transitions of a state, or branches of a choice, are ever taken.
+"""Checks of shadowed transitions and branches, which others always precede.
 
-Of several that are enabled the first in the text is taken (SCXML 3.13), and one that needs no
-event before all that wait for one.
+Of several enabled transitions the first in the document is taken, and an eventless one before
+all others (SCXML 3.13).
 """
 
 from __future__ import annotations
@@ -10,9 +10,14 @@ from collections.abc import Hashable, Mapping, Sequence
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.delays import Leaving, check_late, leaves, sooner_one, soonest_of
-from swarmdsl.analysis.checks.guard_satisfiability import certain, condition_of, negated, possible
-from swarmdsl.analysis.checks.livelock import Settling, at_once
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.guard_satisfiability import (
+    condition_of,
+    guard_value,
+    negate,
+    satisfiable,
+)
+from swarmdsl.analysis.checks.livelock import EventlessSteps, completes_at_once
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.event_topics import awaited, heard_on
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
@@ -35,25 +40,26 @@ from swarmdsl.syntax.ast import (
 )
 
 _AT_ONCE = ("at once",)
-# More guards than people write for one event; what comes after them is not compared with more.
+# Real models have fewer guards for one event. Later ones are compared with these only.
 _MOST_COMPARED = 50
 
 
-def check_order(machine: StateMachine, settling: Settling, context: Context) -> None:
-    """Report what is never taken because something else always comes before it."""
-    outline = context.outline(machine)
+def check_shadowed_transitions(machine: StateMachine, context: Context) -> None:
+    """Report transitions and branches that are never taken, because others precede them."""
+    eventless = context.analysis(EventlessSteps, machine)
+    hierarchy = context.hierarchy(machine)
     has_delays = bool(nodes_of(machine, TimeTrigger))
-    # By state what leaves it, or one around it, first: of those around others, which come before.
+    # The delay that leaves a state, or one around it, first. Outer states come before inner ones.
     ends: dict[Container, Leaving] = {}
-    for state, transitions in outline.transitions.items():
+    for state, transitions in hierarchy.transitions.items():
         alive = transitions
-        if state in settling.immediate:
-            dead = _check_immediate(state, transitions, settling, context)
+        if state in eventless.immediate:
+            dead = _check_immediate(state, transitions, eventless, context)
             alive = [each for each in transitions if each not in dead]
         soonest: Sequence[Leaving] = ()
         if has_delays:
             soonest = soonest_of(alive, context)
-            outer = ends.get(_owner(state, outline))
+            outer = ends.get(_owner(state, hierarchy))
             if outer is not None:
                 alive = [each for each in alive if not check_late(each, outer, context)]
             first = [each for each in (outer, *soonest[:1]) if each is not None]
@@ -67,22 +73,26 @@ def check_order(machine: StateMachine, settling: Settling, context: Context) -> 
 def _check_immediate(
     state: State | Parallel,
     transitions: Sequence[Transition],
-    settling: Settling,
+    eventless: EventlessSteps,
     context: Context,
 ) -> set[Transition]:
-    """Report what stands beside the way out that a state takes at once; return all of it.
+    """Report and return the transitions beside the one that a state takes immediately.
 
-    Where it is left at once in a circle of such states, that is the mistake.
+    A livelock is reported as such, not here.
     """
-    first = settling.immediate[state][0]
+    first = eventless.immediate[state][0]
     if first.target is None:
         return set()
     before = transitions[: transitions.index(first)]
     dead = [
-        *(t for t in before if t.triggers and not any(at_once(each, state) for each in t.triggers)),
+        *(
+            t
+            for t in before
+            if t.triggers and not any(completes_at_once(each, state) for each in t.triggers)
+        ),
         *transitions[len(before) + 1 :],
     ]
-    if dead and first not in settling.endless:
+    if dead and first not in eventless.endless:
         context.report.report(
             "transition-never-fires",
             dead[0].span,
@@ -129,7 +139,7 @@ def _check_transitions(
 def _check_repeated(
     triggers: Sequence[Trigger], keys: Sequence[list[tuple[Hashable, ...]]], context: Context
 ) -> None:
-    """Report the second of two triggers of one transition that react to the same."""
+    """Report the second of two equivalent triggers of one transition."""
     seen: dict[Hashable, Trigger] = {}
     for trigger, reacts in zip(triggers, keys, strict=False):
         first = next((seen[key] for key in reacts if key in seen), None)
@@ -167,35 +177,35 @@ def _check_branches(choice: Choice, context: Context) -> None:
 
 
 def _decided(item: Transition | Branch, context: Context) -> bool:
-    """Whether its guard decides nothing, which is reported as such."""
-    return item.guard is not None and certain(item, context) is not None
+    """Return True for a guard that always or never holds, which is reported elsewhere."""
+    return item.guard is not None and guard_value(item, context) is not None
 
 
 def _covering(
     item: Transition | Branch, earlier: Sequence[Transition | Branch], context: Context
 ) -> list[Transition | Branch]:
-    """Those of the earlier ones of which one is taken whenever this one could be.
+    """Return a subset of the earlier items of which one is taken whenever `item` could be.
 
-    What has no guard is there for what others leave: it is covered by another without one only.
+    An item without a guard is covered only by another one without a guard.
     """
     plain = [before for before in earlier if before.guard is None and isinstance(item, Transition)]
     if plain or item.guard is None:
         return list(plain[:1])
-    if certain(item, context) is False:
+    if guard_value(item, context) is False:
         return []
-    # What holds comes last, which is looked at first: it leaves least of the values.
+    # The last condition is tested first: the own guard leaves the fewest values.
     holds = condition_of(item, context)
-    passed = {before: negated(condition_of(before, context)) for before in earlier}
+    passed = {before: negate(condition_of(before, context)) for before in earlier}
     if not passed:
         return []
     for before, condition in passed.items():
-        if not possible([condition, holds]):
+        if not satisfiable([condition, holds]):
             return [before]
-    if possible([*passed.values(), holds]):
+    if satisfiable([*passed.values(), holds]):
         return []
     for before in earlier:
         others = [condition for each, condition in passed.items() if each is not before]
-        if not possible([*others, holds]):
+        if not satisfiable([*others, holds]):
             del passed[before]
     return list(passed)
 
@@ -233,8 +243,8 @@ def _all(
 
 
 def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...]]:
-    """What a trigger reacts to, first itself, then the more general triggers that cover it."""
-    if at_once(trigger, state):
+    """Keys of a trigger: its own, then those of more general triggers that cover it."""
+    if completes_at_once(trigger, state):
         return [_AT_ONCE]
     match trigger:
         case EventTrigger() | MonitorTrigger():
@@ -251,7 +261,7 @@ def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...
             return [("after", delay.span.text)]
 
 
-def _owner(state: State | Parallel, outline: Outline) -> Container:
-    """The state that another one is in, or the machine."""
-    container = outline.container[state]
-    return outline.container[container] if isinstance(container, Region) else container
+def _owner(state: State | Parallel, hierarchy: StateHierarchy) -> Container:
+    """Return the state around a state, or the machine. Regions are skipped."""
+    container = hierarchy.parent[state]
+    return hierarchy.parent[container] if isinstance(container, Region) else container

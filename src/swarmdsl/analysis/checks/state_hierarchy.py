@@ -1,4 +1,4 @@
-"""Which states and regions of a machine are in which, and what each holds: looked for once."""
+"""Hierarchy of the states and regions of a state machine."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from swarmdsl.syntax.ast import (
 )
 
 
-class Outline:
-    """What all rules ask of a machine; the same for a machine that does not change.
+class StateHierarchy:
+    """States, regions, initial states and transitions of a machine, in document order.
 
-    All is in document order. `vertices` are beside the states themselves all that transitions
-    lead to; `inside` are those directly in a container, of a parallel state its regions.
+    `vertices` are all possible targets of transitions. `children` are the vertices directly
+    in a container; those of a parallel state are its regions.
     """
 
     def __init__(self, machine: StateMachine) -> None:
@@ -31,9 +31,9 @@ class Outline:
         self.vertices: list[Vertex] = []
         self.states: list[State | Parallel] = []
         self.transitions: dict[State | Parallel, Sequence[Transition]] = {}
-        self.inside: dict[Container, Sequence[Vertex | Region]] = {}
+        self.children: dict[Container, Sequence[Vertex | Region]] = {}
         self.initials: dict[Container, Sequence[Initial]] = {}
-        self.container: dict[Vertex | Region, Container] = {}
+        self.parent: dict[Vertex | Region, Container] = {}
         self._paths: dict[Vertex | Container, Sequence[Vertex | Container]] = {machine: [machine]}
         ahead: list[Vertex | Container] = [machine]
         while ahead:
@@ -42,10 +42,10 @@ class Outline:
                 self.vertices.append(each)
             if not isinstance(each, (Choice, History, FinalState)):
                 self._add(each)
-                ahead += reversed(self.inside[each])
+                ahead += reversed(self.children[each])
 
     def _add(self, container: Container) -> None:
-        """Note what a container holds."""
+        """Add the contents of a container."""
         transitions: list[Transition] = []
         initials: list[Initial] = []
         inside: list[Vertex | Region] = []
@@ -56,22 +56,22 @@ class Outline:
                 initials.append(item)
             elif isinstance(item, (State, FinalState, Choice, Region, Parallel, History)):
                 inside.append(item)
-                self.container[item] = container
+                self.parent[item] = container
                 self._paths[item] = [*self._paths[container], item]
         self.initials[container] = initials
-        self.inside[container] = inside
+        self.children[container] = inside
         if isinstance(container, (State, Parallel)):
             self.states.append(container)
             self.transitions[container] = transitions
 
-    def around(self, inside: Vertex | Region) -> Iterator[Container]:
-        """What a state or a region is in, from the inside to the machine."""
-        container = self.container[inside]
+    def ancestors(self, inside: Vertex | Region) -> Iterator[Container]:
+        """Yield the containers of a state or a region, the innermost first, the machine last."""
+        container = self.parent[inside]
         while not isinstance(container, StateMachine):
             yield container
-            container = self.container[container]
+            container = self.parent[container]
         yield container
 
     def path(self, inside: Vertex | Region) -> Sequence[Vertex | Container]:
-        """The same from the machine to the state itself."""
+        """Return the path from the machine down to a state or region, both included."""
         return self._paths[inside]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.guard_satisfiability import condition_of, negated, possible
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.guard_satisfiability import condition_of, negate, satisfiable
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.resolve.states import all_resolved, content, regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
@@ -33,10 +33,10 @@ def check_structure(machine: StateMachine, context: Context) -> None:
             owner=f"state machine `{machine.name}`",
             help="add `final Done`, or write `endless statemachine` if it never ends",
         )
-    outline = context.outline(machine)
-    _check_initial(machine, f"state machine `{machine.name}`", outline, context)
+    hierarchy = context.hierarchy(machine)
+    _check_initial(machine, f"state machine `{machine.name}`", hierarchy, context)
     for region in nodes_of(machine, Region):
-        _check_initial(region, f"region `{region.name}`", outline, context)
+        _check_initial(region, f"region `{region.name}`", hierarchy, context)
     for parallel in nodes_of(machine, Parallel):
         if not regions(parallel):
             context.report.report(
@@ -46,24 +46,24 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 help="add `region Name { ... }`; one without is a plain `state`",
             )
     for state in nodes_of(machine, State):
-        _check_state(state, outline, context)
+        _check_state(state, hierarchy, context)
     for choice in nodes_of(machine, Choice):
         _check_choice(choice, context)
-    _check_levels(outline, context)
+    _check_levels(hierarchy, context)
 
 
-def _check_state(state: State, outline: Outline, context: Context) -> None:
+def _check_state(state: State, hierarchy: StateHierarchy, context: Context) -> None:
     activities = [item for item in state.items if isinstance(item, Activity)]
     context.check_single([item.span for item in activities], "the activity")
     contents = []
     if state.machine is not None:
         contents.append("the content of another machine")
-    if outline.inside[state]:
+    if hierarchy.children[state]:
         contents.append("states of its own")
         if state.machine is None:
-            _check_initial(state, f"composite state `{state.name}`", outline, context)
+            _check_initial(state, f"composite state `{state.name}`", hierarchy, context)
     else:
-        for initial in outline.initials[state]:
+        for initial in hierarchy.initials[state]:
             context.report.report(
                 "mixed-content",
                 initial.span,
@@ -85,10 +85,10 @@ def _check_state(state: State, outline: Outline, context: Context) -> None:
         _check_reuse(state, state.machine.target, context)
 
 
-def _check_levels(outline: Outline, context: Context) -> None:
+def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
     """Check that an internal transition leads inward and a history has something to resume."""
-    for history in nodes_of(outline.machine, History):
-        if outline.container[history] is outline.machine:
+    for history in nodes_of(hierarchy.machine, History):
+        if hierarchy.parent[history] is hierarchy.machine:
             context.report.report(
                 "misplaced-history",
                 history.name.span,
@@ -96,12 +96,12 @@ def _check_levels(outline: Outline, context: Context) -> None:
                 fault="stands outside of any composite state",
                 help="put it into the state that it leads back into",
             )
-    for state, transitions in outline.transitions.items():
+    for state, transitions in hierarchy.transitions.items():
         for item in transitions:
             target = item.target.target if item.target is not None else None
             if item.target is None or target is None or not item.internal:
                 continue
-            if state not in outline.around(target):
+            if state not in hierarchy.ancestors(target):
                 context.report.report(
                     "misplaced-internal",
                     item.target.span,
@@ -153,11 +153,15 @@ def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context
             return
 
 
-def _check_initial(container: Container, owner: str, outline: Outline, context: Context) -> None:
-    found = outline.initials[container]
+def _check_initial(
+    container: Container, owner: str, hierarchy: StateHierarchy, context: Context
+) -> None:
+    found = hierarchy.initials[container]
     if not found:
         # Best one that is active for a while: a history has nothing to resume at the start.
-        states = [state for state in outline.inside[container] if not isinstance(state, History)]
+        states = [
+            state for state in hierarchy.children[container] if not isinstance(state, History)
+        ]
         inside = sorted(states, key=lambda state: not isinstance(state, (State, Parallel)))
         context.report.report(
             "missing-initial",
@@ -174,7 +178,7 @@ def _check_choice(choice: Choice, context: Context) -> None:
     """A choice can always be left: by `else`, or since one of its guards always holds."""
     conditions = [condition_of(branch, context) for branch in choice.branches]
     otherwise = any(branch.otherwise for branch in choice.branches)
-    if not otherwise and possible(negated(each) for each in conditions):
+    if not otherwise and satisfiable(negate(each) for each in conditions):
         context.report.report(
             "choice-without-else",
             choice.name.span,
@@ -192,7 +196,7 @@ def completes(state: Container, context: Context) -> bool:
     if isinstance(state, Parallel):
         return all(completes(region, context) for region in regions(state))
     inside = content(state)
-    if inside is None or inside in context.damaged:
+    if inside is None or inside in context.incomplete:
         return True
     final = any(isinstance(item, FinalState) for item in inside.items)
     return final or not all_resolved(inside)

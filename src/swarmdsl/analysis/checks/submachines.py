@@ -1,22 +1,21 @@
-"""What machines have of each other: no machine contains itself, nor grows without bounds."""
+"""Checks of submachines: no machine contains itself or grows too large."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import get_args
 
 from swarmdsl.analysis.checks.context import Context
+from swarmdsl.analysis.checks.facts import Reuse
 from swarmdsl.analysis.resolve.states import regions, vertices
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.graphs import cycles, leaves_first
-from swarmdsl.base.records import dataclass
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Choice,
     Container,
     FinalState,
     History,
-    Ref,
     Region,
     State,
     StateMachine,
@@ -25,35 +24,23 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 
-# More than anyone writes, and still generated in seconds.
+# More than real models have, and still generated in seconds.
 _MOST_STATES = 10_000
 
 
-@dataclass
-class Reuse:
-    """What a machine has of others.
-
-    `uses` are the names in it of those it reuses, with what they mean; `own` is how many states
-    and regions it has itself, `levels` how deep all are in each other, once somebody asked.
-    """
-
-    uses: Sequence[tuple[Ref[StateMachine], StateMachine]]
-    own: int
-    levels: int | None = None
-
-
 def check_submachines(project: Project, context: Context) -> None:
-    """Check which machines reuse which, and note it in the context."""
-    before = context.known.reuse
+    """Check for cycles of submachines and for their size; note the submachines in the context."""
+    before = context.facts.reuse
     reuse = {
         node: before.get(node) or _reuse(node)
         for _, node in project.declarations()
         if isinstance(node, StateMachine)
     }
-    context.known.reuse = reuse
-    endless = False
+    context.facts.reuse = reuse
+    context.facts.reused = frozenset(inner for each in reuse.values() for _, inner in each.uses)
+    has_cycles = False
     for machine, uses in cycles(reuse, lambda machine: reuse[machine].uses):
-        endless = True
+        has_cycles = True
         *way, last = uses
         context.report.report(
             "submachine-cycle",
@@ -61,28 +48,22 @@ def check_submachines(project: Project, context: Context) -> None:
             name=machine.name,
             related=tuple(Label(use.span, "by way of this state") for use in way),
         )
-    if not endless:
+    if not has_cycles:
         _check_growth(reuse, context)
 
 
-def reused_machines(context: Context) -> set[StateMachine]:
-    """The machines that states of others stand for, once `check_submachines` has seen to them."""
-    return {inner for reuse in context.known.reuse.values() for _, inner in reuse.uses}
-
-
 def _check_growth(reuse: Mapping[StateMachine, Reuse], context: Context) -> None:
-    """Check how deep and how many the states of each machine are, those it reuses in place.
+    """Check the depth and number of the states of each machine with its submachines.
 
-    A machine that is too large is reported, those that reuse it are not.
+    A machine that is too large is reported; the machines that reuse it are not.
     """
     sizes: dict[StateMachine, int] = {}
-    reused = reused_machines(context)
     for machine in leaves_first(reuse, lambda machine: [to for _, to in reuse[machine].uses]):
         found = reuse[machine]
         if any(inner not in sizes for _, inner in found.uses):
             continue
-        # Without reuse they are not deeper than the parser takes.
-        if found.levels is None and (found.uses or machine in reused):
+        # The parser limits the depth of a machine without submachines.
+        if found.levels is None and (found.uses or machine in context.facts.reused):
             found.levels = _levels(machine, reuse) - 1
         sizes[machine] = found.own + sum(sizes[inner] for _, inner in found.uses)
         if found.levels is not None and found.levels > NESTING_LIMIT:
@@ -101,7 +82,7 @@ def _check_growth(reuse: Mapping[StateMachine, Reuse], context: Context) -> None
 
 
 def _levels(state: Vertex | Container, reuse: Mapping[StateMachine, Reuse]) -> int:
-    """How deep states stand in each other, the outermost included."""
+    """Depth of nested states, the outermost included."""
     if isinstance(state, State) and state.machine is not None and state.machine.target is not None:
         return 1 + (reuse[state.machine.target].levels or 0)
     if isinstance(state, (Choice, History, FinalState)):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.checks.state_hierarchy import Outline
+from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
 from swarmdsl.analysis.checks.structure import completes
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.states import regions
@@ -31,7 +31,7 @@ from swarmdsl.syntax.ast import (
 
 def check_transitions(machine: StateMachine, context: Context) -> None:
     """Check the transitions of all states of a machine."""
-    for state, transitions in context.outline(machine).transitions.items():
+    for state, transitions in context.hierarchy(machine).transitions.items():
         for transition in transitions:
             for trigger in transition.triggers:
                 _check_trigger(trigger, state, context)
@@ -144,9 +144,9 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
     """A transition cannot lead from one region into another of the same parallel state."""
     if not nodes_of(machine, Parallel):
         return
-    outline = context.outline(machine)
+    hierarchy = context.hierarchy(machine)
     arrows: list[tuple[Vertex, Transition | Branch]] = [
-        (state, transition) for state, all_ in outline.transitions.items() for transition in all_
+        (state, transition) for state, all_ in hierarchy.transitions.items() for transition in all_
     ]
     choices = nodes_of(machine, Choice)
     arrows += [(choice, branch) for choice in choices for branch in choice.branches]
@@ -154,9 +154,11 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
         target = arrow.target.target if arrow.target is not None else None
         if arrow.target is None or target is None:
             continue
-        ways = zip(_regions_around(source, outline), _regions_around(target, outline), strict=False)
+        ways = zip(
+            _regions_around(source, hierarchy), _regions_around(target, hierarchy), strict=False
+        )
         for here, there in ways:
-            if here is not there and outline.container[here] is outline.container[there]:
+            if here is not there and hierarchy.parent[here] is hierarchy.parent[there]:
                 context.report.report(
                     "target-outside",
                     arrow.target.span,
@@ -166,9 +168,9 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
                 )
 
 
-def _regions_around(vertex: Vertex, outline: Outline) -> list[Region]:
+def _regions_around(vertex: Vertex, hierarchy: StateHierarchy) -> list[Region]:
     """The regions that a state is in, the outermost first."""
-    return [each for each in outline.around(vertex) if isinstance(each, Region)][::-1]
+    return [each for each in hierarchy.ancestors(vertex) if isinstance(each, Region)][::-1]
 
 
 def _activities(state: State | Parallel | Region) -> list[Activity]:

@@ -1,10 +1,11 @@
-"""Declarations that nothing else of the model uses."""
+"""Checks of unused declarations, and the declarations that a system uses."""
 
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name
 from swarmdsl.analysis.resolve.type_names import interface_name
+from swarmdsl.analysis.usage import used_declarations
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     Constant,
@@ -25,11 +26,11 @@ _KINDS = (Event, Function, Constant, StructType, EnumType)
 
 
 def check_unused(project: Project, context: Context) -> None:
-    """Report what the project declares for others of its declarations, and none of them uses.
+    """Report declarations of the project that no other declaration uses.
 
-    That is a lint: a file may be there for other projects. A state machine that no member
-    runs is one only where there are members. Nothing is said where a piece could not be read or
-    a name was not resolved: it may mean what seems to be unused.
+    This is a lint: other projects may use a file. State machines count only in a project with
+    members. Nothing is reported if a part could not be parsed or a name was not resolved,
+    which may use the declaration.
     """
     if not context.report.wants("unused-declaration"):
         return
@@ -37,18 +38,18 @@ def check_unused(project: Project, context: Context) -> None:
     types = {interface_name(file, node.name): node for file, node in pairs}
     owners: list[TopLevel] = [node for _, node in pairs]
     owners += [optimization for _, optimization in project.optimizations()]
-    uses = context.known.uses
-    if context.damaged or not all(uses[owner].complete for owner in owners):
+    usage = context.facts.usage
+    if context.incomplete or not all(usage[owner].complete for owner in owners):
         return
     used: set[Node | None] = set()
     for owner in owners:
-        used |= {*uses[owner].nodes, *map(types.get, uses[owner].types)} - {owner}
+        used |= {*usage[owner].nodes, *map(types.get, usage[owner].types)} - {owner}
     has_members = any(isinstance(node, Member) for node in owners)
     for file, node in pairs:
         if file.library:
             continue
-        wanted = isinstance(node, _KINDS) or (has_members and isinstance(node, StateMachine))
-        unused: list[Declaration | Param] = [node] if wanted and node not in used else []
+        counts = isinstance(node, _KINDS) or (has_members and isinstance(node, StateMachine))
+        unused: list[Declaration | Param] = [node] if counts and node not in used else []
         if isinstance(node, StateMachine):
             unused += [item for item in nodes_of(node, Param) if item not in used]
         for each in unused:
@@ -59,3 +60,10 @@ def check_unused(project: Project, context: Context) -> None:
                 name=each.name,
                 help="remove it, or use it",
             )
+
+
+def collect_used(project: Project, context: Context) -> None:
+    """Set the used declarations of the context."""
+    facts = context.facts
+    context.used[:] = used_declarations(project, facts.usage)
+    facts.usage = facts.usage.restricted_to(project)

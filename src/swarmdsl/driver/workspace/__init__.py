@@ -13,14 +13,14 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from swarmdsl.analysis.checks import (
-    check_alone,
+    check_declaration,
     check_optimization,
-    check_together,
+    check_project,
     make_context,
-    reused_machines,
     validate,
 )
-from swarmdsl.analysis.checks.context import Context, Known, read_packages
+from swarmdsl.analysis.checks.context import Context, read_packages
+from swarmdsl.analysis.checks.facts import FactCache
 from swarmdsl.analysis.resolve.constant_cycles import open_cycles
 from swarmdsl.analysis.resolve.linker import link
 from swarmdsl.base.diagnostics.collector import MOST_HINTS, Diagnostic, Diagnostics, placed
@@ -67,8 +67,8 @@ class Workspace:
         self._together = self._collector()
         # What checking all at once has found, where the order of declarations decides on it.
         self._in_order: Diagnostics | None = None
-        self._reused: set[StateMachine] = set()
-        self._known = Known()
+        self._reused: frozenset[StateMachine] = frozenset()
+        self._facts = FactCache()
         self._packages: set[str] = set()
         # Units of which something was reported, or nothing because of what cannot be read.
         self._noted: set[Unit] = set()
@@ -227,7 +227,7 @@ class Workspace:
         if self._has_circles():
             self._check_in_order()
             return
-        context = make_context(self.project, self._collector(), self._known)
+        context = make_context(self.project, self._collector(), self._facts)
         linking.learn_uses(stale, context.interfaces.declared)
         self._check(stale, context)
         if self._has_many_mistakes():
@@ -243,8 +243,8 @@ class Workspace:
     def _check(self, stale: set[Unit], context: Context) -> None:
         """Run the rules about all together, and those about each of some units."""
         self._together = self._collector()
-        check_together(self.project, context.reporting_to(self._together))
-        before, self._reused = self._reused, reused_machines(context)
+        check_project(self.project, context.reporting_to(self._together))
+        before, self._reused = self._reused, context.facts.reused
         turned = (self._units.get(node.span.source) for node in before ^ self._reused)
         stale = stale.union(unit for unit in turned if unit is not None)
         for unit in stale:
@@ -252,7 +252,7 @@ class Workspace:
             of_unit = context.reporting_to(unit.checked)
             for declaration in unit.parsed.model.declarations:
                 reused = declaration in self._reused
-                check_alone(unit.file, declaration, of_unit, reused=reused)
+                check_declaration(unit.file, declaration, of_unit)
                 if not reused:
                     context.forget(declaration)
             for optimization in unit.parsed.model.optimizations:
