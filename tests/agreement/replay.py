@@ -23,7 +23,7 @@ def installed() -> list[str]:
 
 def needs(engine: str) -> list[pytest.MarkDecorator]:
     """The mark that skips a test whose engine is not installed."""
-    reason = "no QtScxml here: `make agreement` installs it"
+    reason = "no QtScxml: `make agreement`"
     return [pytest.mark.skipif(engine not in installed(), reason=reason)]
 
 

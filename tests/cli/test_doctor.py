@@ -112,7 +112,7 @@ def test_a_version_with_all_that_a_report_needs(capsys: pytest.CaptureFixture[st
     assert "needs `--version`" in capsys.readouterr().err
 
 
-@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash here")
+@pytest.mark.skipif(shutil.which("bash") is None, reason="no bash: apt-get install bash")
 def test_a_shell_completes(tmp_path: Path) -> None:
     """A real bash, asked as the key does it."""
     script = """

@@ -132,7 +132,7 @@ def schema(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     """The schema of SARIF 2.1.0, from the registry of npm."""
     npm = shutil.which("npm")
     if npm is None:
-        pytest.skip("npm, which fetches the schema of SARIF, is not installed")
+        pytest.skip("no npm, which fetches the schema of SARIF: apt-get install npm")
     folder = tmp_path_factory.mktemp("sarif")
     command = [npm, "pack", "--silent", SCHEMA_PACKAGE]
     packed = subprocess.run(command, cwd=folder, capture_output=True, text=True)

@@ -51,7 +51,7 @@ def test_the_navigation_has_every_page_once() -> None:
 def test_the_site_builds_without_a_broken_link(tmp_path: Path) -> None:
     zensical = Path(sys.executable).with_name("zensical")
     if not zensical.exists():
-        pytest.skip("no zensical: `make docs` installs it")
+        pytest.skip("no zensical: `make docs`")
     STAGE.stage(tmp_path / "build" / "handbook")
     shutil.copy(ROOT / "mkdocs.yml", tmp_path)
 
@@ -96,7 +96,7 @@ def test_the_manual_is_what_the_commands_say(name: str, write: str, bless: bool)
 def test_the_man_page_is_read_without_a_warning() -> None:
     groff = shutil.which("groff")
     if groff is None:
-        pytest.skip("no groff")
+        pytest.skip("no groff: apt-get install groff-base")
 
     read = subprocess.run(
         [groff, "-man", "-ww", "-Tutf8", "-P-c", ROOT / "docs" / "swarmc.1"],

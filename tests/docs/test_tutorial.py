@@ -73,7 +73,7 @@ def test_on_ros_2(walked: Path) -> None:
     """Build the workspace, let two drones fly, and hold what they did against the model."""
     ros = os.environ.get("SWARMDSL_ROS2")
     if ros is None:
-        pytest.skip("the last step runs on ROS 2 with `make test-ros2`")
+        pytest.skip("no ROS 2: `make test-ros2`")
     folder = walked / "generated"
     # The packages of CPSwarm are there already, and only Python uses the others.
     quick = "cmake-args: [-GNinja, -DCMAKE_BUILD_TYPE=None, -DBUILD_TESTING=OFF]"

@@ -14,9 +14,9 @@ from swarmdsl.cli import run
 
 from .conftest import SAR
 
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
 pytestmark = pytest.mark.skipif(
-    shutil.which("chromium") is None, reason="chromium is not installed"
+    shutil.which("chromium") is None, reason="no chromium: apt-get install chromium"
 )
 
 

@@ -78,7 +78,7 @@ def npm() -> Npm:
     """Run npm in the folder of the extension, with its development tools installed."""
     program = shutil.which("npm")
     if program is None or shutil.which("node") is None:
-        pytest.skip("node and npm are not installed")
+        pytest.skip("no Node: apt-get install nodejs npm")
 
     def run(*arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
         return subprocess.run(
@@ -90,7 +90,7 @@ def npm() -> Npm:
     if not installed.is_file() or installed.stat().st_mtime < lock.stat().st_mtime:
         result = run("ci")
         if result.returncode and OFFLINE.search(result.stderr):
-            pytest.skip("the tools of the extension are not installed, and npm cannot fetch them")
+            pytest.skip("npm cannot fetch the tools of the extension: `make vsix`")
         assert result.returncode == 0, result.stderr
     return run
 
@@ -99,7 +99,7 @@ def npm() -> Npm:
 def packages(npm: Npm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     """The extension, packaged twice: in two places of the world, but of one time."""
     if shutil.which("make") is None:
-        pytest.skip("make is not installed")
+        pytest.skip("no make: apt-get install make")
 
     def packaged(zone: str) -> Path:
         folder = tmp_path_factory.mktemp("package")

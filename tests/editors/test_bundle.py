@@ -33,7 +33,7 @@ def bundle() -> None:
     program = [sys.executable, str(EXTENSION / "bundle" / "make.py")]
     made = subprocess.run(program, capture_output=True, text=True)
     if "Could not find a version" in made.stderr or "No matching distribution" in made.stderr:
-        pytest.skip("the packages of the server cannot be fetched")
+        pytest.skip("pip cannot fetch the packages of the server: `make vsix`")
     assert made.returncode == 0, made.stderr
 
 

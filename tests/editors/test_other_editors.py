@@ -46,7 +46,7 @@ def of_vim(text: str, folder: Path) -> set[int]:
         vim is None
         or b"+eval" not in subprocess.run([vim, "--version"], capture_output=True).stdout
     ):
-        pytest.skip("needs vim with its scripts")
+        pytest.skip("no Vim with its scripts: apt-get install vim-nox")
     script = r"""
 set encoding=utf-8 nocompatible
 filetype plugin on
@@ -95,7 +95,7 @@ def places(text: str, found: list[tuple[int, int, str]], kinds: set[str]) -> set
 def of_emacs(text: str, folder: Path) -> set[int]:
     emacs = shutil.which("emacs")
     if emacs is None:
-        pytest.skip("needs emacs")
+        pytest.skip("no Emacs: apt-get install emacs-nox")
     script = r"""
 (find-file "text.swarm")
 (font-lock-ensure)
@@ -169,7 +169,7 @@ def test_a_session_of_neovim(tmp_path: Path) -> None:
     """The plugin in `editors/vim` starts the server, and what it says arrives."""
     nvim = shutil.which("nvim")
     if nvim is None:
-        pytest.skip("needs neovim")
+        pytest.skip("no Neovim: apt-get install neovim")
     model = (ROOT / "examples" / "minimal" / "blinker.swarm").read_text(encoding="utf-8")
     (tmp_path / "swarm.toml").write_text('[project]\nname = "blink"\n')
     (tmp_path / "blinker.swarm").write_text(model.replace("final Off", "final Of"))

@@ -152,7 +152,7 @@ def in_node(texts: list[str]) -> list[Any]:
     """The values of texts in one JavaScript engine, which is started once for all."""
     node = shutil.which("node")
     if node is None:
-        pytest.skip("no JavaScript engine (install node)")
+        pytest.skip("no Node: apt-get install nodejs")
     script = """
         const texts = JSON.parse(require("fs").readFileSync(0, "utf8"));
         console.log(JSON.stringify(texts.map((text) => (0, eval)(text))));
@@ -222,7 +222,7 @@ def in_cpp(texts: list[str], folder: Path) -> list[Any]:
     """The values of texts in one C++ program; truth values are told from numbers."""
     compiler = shutil.which("g++")
     if compiler is None:
-        pytest.skip("no C++ compiler (install g++)")
+        pytest.skip("no g++: apt-get install g++")
     lines = "".join(f"  show({text});\n" for text in texts)
     program = folder / "values.cpp"
     program.write_text(

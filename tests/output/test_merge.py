@@ -75,7 +75,7 @@ def test_no_line_of_the_user_is_lost(base: bytes, generated: bytes, places: set[
         )
 
 
-@pytest.mark.skipif(shutil.which("git") is None, reason="compares with git merge-file")
+@pytest.mark.skipif(shutil.which("git") is None, reason="no git: apt-get install git")
 @pytest.mark.parametrize("seed", range(12))
 def test_git_merges_the_same(seed: int, tmp_path: Path) -> None:
     """Of lines that are all different, so that there is one way to match them."""

@@ -203,9 +203,9 @@ def test_pages_of_others_are_not_answered(browser: Browser) -> None:
         assert browser.get(path, host=f"example.org:{browser.port}").status == 403
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed")
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
 def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     with playwright.sync_playwright() as driver:
         options = {"executable_path": shutil.which("chromium"), "args": ["--no-sandbox"]}
         chromium = driver.chromium.launch(**options)
@@ -244,9 +244,9 @@ def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> No
     assert wrong == []
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed")
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
 def test_states_fold_and_light_up(tmp_path: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
     model.write_text(NESTED, encoding="utf-8")
     places = tmp_path / "places.txt"
@@ -344,9 +344,9 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
     assert wrong == []
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="chromium is not installed")
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
 def test_where_robots_are_is_shown_also_if_it_is_known_before_the_diagrams(tmp_path: Path) -> None:
-    playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
     model.write_text(NESTED.replace("-> Home", "-> Hmoe"), encoding="utf-8")
     trace.write_text(step("digger[0]", "Out.Dig"), encoding="utf-8")

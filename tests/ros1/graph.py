@@ -19,19 +19,24 @@ from typing import Any
 HERE = Path(__file__).parent
 PYTHON = Path("/usr/bin/python3")
 _NEEDED = ("actionlib", "genpy", "rosmaster", "rospy", "rostopic", "std_srvs", "geometry_msgs")
+_INSTALL = (
+    "apt-get install python3-rosmaster python3-rospy python3-rostopic python3-actionlib"
+    " python3-std-srvs python3-geometry-msgs"
+)
 _LEFT_OUT = ("ROS_", "PYTHON", "VIRTUAL_ENV", "PYENV")
 
 
 def missing() -> str | None:
     """Why there can be no graph here; None where there can."""
     if not PYTHON.exists():
-        return f"no {PYTHON}"
+        return f"no {PYTHON}: apt-get install python3"
     code = f"import {', '.join(_NEEDED)}"
     found = subprocess.run([PYTHON, "-c", code], capture_output=True, text=True, check=False)
     if found.returncode:
-        return f"no ROS 1 for {PYTHON}: {found.stderr.strip().splitlines()[-1]}"
+        why = found.stderr.strip().splitlines()[-1]
+        return f"no ROS 1 ({why}): {_INSTALL}"
     if not Path("/usr/lib/actionlib_msgs/genaction.py").exists():
-        return "no genaction.py to make messages of actions with"
+        return "no genaction.py for actions: apt-get install libactionlib-msgs-dev"
     return None
 
 

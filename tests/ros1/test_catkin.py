@@ -49,10 +49,12 @@ def _describe(package: Path, known: Iterable[str]) -> None:
     (package / "package.xml").write_text(MANIFEST.format(name=package.name, needs=tags))
 
 
-@pytest.mark.skipif("SWARMDSL_CATKIN" not in os.environ, reason="SWARMDSL_CATKIN=1 asks for it")
+@pytest.mark.skipif(
+    "SWARMDSL_CATKIN" not in os.environ, reason="slow: `SWARMDSL_CATKIN=1 make test-ros1`"
+)
 def test_packages_of_all_examples(workspace: Any, examples: Path, tmp_path: Path) -> None:
     if shutil.which("catkin_make", path=PATH) is None:
-        pytest.skip("no catkin_make")
+        pytest.skip("no catkin_make: apt-get install catkin ros-message-generation")
     source = tmp_path / "src"
     made = []
     for example in sorted(path.name for path in examples.iterdir() if path.is_dir()):

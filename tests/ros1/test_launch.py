@@ -57,7 +57,7 @@ def _run(world: Any, *command: str) -> subprocess.CompletedProcess[str]:
 def tools() -> None:
     """The tools that start nodes."""
     if not Path("/usr/bin/roslaunch").exists():
-        pytest.skip("no roslaunch")
+        pytest.skip("no roslaunch: apt-get install python3-roslaunch")
 
 
 def test_nodes_of_a_swarm(world: World) -> None:
@@ -107,7 +107,7 @@ def test_robot_that_is_launched(world: World) -> None:
 )
 def test_rostest_of_an_example(example: str, world: World) -> None:
     if not Path("/usr/bin/rostest").exists():
-        pytest.skip("no rostest")
+        pytest.skip("no rostest: apt-get install python3-rostest")
     made = world(example=example)
     done = _run(made, "rostest", "--text", made.package.name, "machines.test")
     assert "RESULT: SUCCESS" in done.stdout

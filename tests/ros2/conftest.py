@@ -84,7 +84,7 @@ def ros_folder() -> Path:
     """The environment with ROS 2, which `make test-ros2` makes."""
     folder = os.environ.get("SWARMDSL_ROS2")
     if folder is None:
-        pytest.skip("nodes run on ROS 2 with `make test-ros2`, which makes an environment with it")
+        pytest.skip("no ROS 2: `make test-ros2`")
     assert load_module("environment").ready(Path(folder)), f"{folder} is not of today"
     return Path(folder)
 

@@ -75,7 +75,7 @@ def told(found: Any) -> str:
 def test_values_are_those_of_node() -> None:
     node = shutil.which("node")
     if node is None:
-        pytest.skip("no JavaScript engine (install node)")
+        pytest.skip("no Node: apt-get install nodejs")
     script = """
         const [data, texts] = JSON.parse(require("fs").readFileSync(0, "utf8"));
         Object.assign(globalThis, data);

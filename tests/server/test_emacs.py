@@ -46,7 +46,7 @@ SESSION = """
 @pytest.fixture
 def emacs(tmp_path):
     if EMACS is None or subprocess.run([EMACS, *BEGIN], capture_output=True).returncode:
-        pytest.skip("needs emacs with eglot")
+        pytest.skip("no Emacs with eglot: apt-get install emacs-nox elpa-eglot")
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     environment = {**os.environ, "HOME": str(tmp_path), "PATH": path}
 

@@ -17,7 +17,12 @@ _CPP = "-Wall -Wextra -Werror"
 def missing_of_catkin() -> str | None:
     """Why catkin cannot build C++ here; None where it can."""
     missing = next((path for path in _NEEDED if not Path(path).exists()), None)
-    return f"no catkin for C++: {missing} is missing" if missing is not None else None
+    if missing is None:
+        return None
+    return (
+        f"no catkin for C++ ({missing} is missing): apt-get install catkin g++ cmake libroscpp-dev"
+        " libactionlib-dev libgtest-dev ros-message-generation ros-message-runtime"
+    )
 
 
 def make(graph: Any, folder: Path, optimisation: str, *targets: str) -> None:

@@ -71,7 +71,7 @@ rospy.spin()
 @pytest.fixture(scope="module")
 def workspace(graph: Any, tmp_path_factory: pytest.TempPathFactory) -> Path:
     if "SWARMDSL_CATKIN" not in os.environ:
-        pytest.skip("SWARMDSL_CATKIN=1 asks for it")
+        pytest.skip("slow: `SWARMDSL_CATKIN=1 pytest tests/skeleton/test_appendix.py`")
     if not (FSM.is_file() and ADF.is_file()):
         pytest.skip(f"no files of the CPSwarm project at {CORPUS} (set SWARMDSL_CORPUS)")
     if (missing := missing_of_catkin()) is not None:

@@ -292,7 +292,7 @@ print(rospy.wait_for_message(sys.argv[1], Float64, 30).data)
 def launch(graph: Any, built: Callable[[int], Path]) -> Callable[..., list[str]]:
     """A command of roslaunch, and the environment in which it finds the packages."""
     if not Path("/usr/bin/roslaunch").exists():
-        pytest.skip("no roslaunch")
+        pytest.skip("no roslaunch: apt-get install python3-roslaunch")
     folder = built(1)
     for name, code in (("camera", CAMERA), ("stereo", STEREO)):
         path = folder / "skeleton" / name / "src" / name / "implementation.py"

@@ -33,7 +33,7 @@ Write = Callable[..., Any]
 @pytest.fixture(scope="module")
 def cpp(write: Write, tmp_path_factory: pytest.TempPathFactory) -> Path:
     if shutil.which("g++") is None:
-        pytest.skip("no g++")
+        pytest.skip("no g++: apt-get install g++")
     folder = tmp_path_factory.mktemp("rclcpp")
     write(folder, ros="2", language="cpp")
     return folder
@@ -84,7 +84,7 @@ def ros2(
     """The Python of an environment with ROS 2, and the variables with the interfaces built."""
     given = os.environ.get("SWARMDSL_ROS2")
     if given is None:
-        pytest.skip("no ROS 2: `make test-ros2` makes an environment with it")
+        pytest.skip("no ROS 2: `make test-ros2`")
     environment = load_module("skeleton_environment", ROS2 / "environment.py")
     folder = tmp_path_factory.mktemp("interfaces")
     (folder / "venv").symlink_to(Path(given) / "venv")
@@ -299,7 +299,7 @@ def test_a_message_goes_through_connectors(
     """The nodes run with the names and remappings that the launch file gives them."""
     given = os.environ.get("SWARMDSL_ROS2")
     if given is None:
-        pytest.skip("no ROS 2: `make test-ros2` makes an environment with it")
+        pytest.skip("no ROS 2: `make test-ros2`")
     made = tmp_path / "src"
     write(made, model=HERE / "connected.swarm", ros="2")
     for name, code in (("camera", CAMERA), ("stereo", STEREO)):

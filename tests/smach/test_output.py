@@ -339,9 +339,9 @@ def test_the_engine_runs_on_the_python_of_noetic(folder: Path) -> None:
     try:
         found = subprocess.run(command, cwd=package, capture_output=True, text=True, check=False)
     except OSError:
-        pytest.skip("no Python 3.8 here")
+        pytest.skip("no Python 3.8: `pyenv install 3.8`, with it in PATH")
     if found.returncode == 127:  # a command of pyenv that leads to no Python
-        pytest.skip("no Python 3.8 here")
+        pytest.skip("no Python 3.8: `pyenv install 3.8`, with it in PATH")
     assert (found.stdout, found.stderr) == ("Machine\n", "")
 
 

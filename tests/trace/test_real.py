@@ -38,7 +38,7 @@ def test_a_traceback_of_python(build: Build, trace: Trace, tmp_path: Path) -> No
 def compiled(build: Build, tmp_path: Path) -> str:
     """What gcc says of a C++ skeleton that was moved, while a message is not as it should be."""
     if shutil.which("g++") is None:
-        pytest.skip("no g++")
+        pytest.skip("no g++: apt-get install g++")
     package = tmp_path / "moved" / "climb"
     shutil.copytree(build("skeleton", "language=cpp", "ros=2") / "climb", package)
     shutil.copytree(STUBS, tmp_path / "stubs")
@@ -65,7 +65,7 @@ def test_errors_of_gcc(trace: Trace, compiled: str) -> None:
 
 def test_a_header_that_is_missing(build: Build, trace: Trace, tmp_path: Path) -> None:
     if shutil.which("g++") is None:
-        pytest.skip("no g++")
+        pytest.skip("no g++: apt-get install g++")
     package = build("skeleton", "language=cpp", "ros=2") / "climb"
     shutil.copytree(STUBS, tmp_path / "stubs", ignore=shutil.ignore_patterns("demo"))
     run = subprocess.run(

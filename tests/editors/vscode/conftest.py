@@ -33,7 +33,7 @@ def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory)
         if not there
     ]
     if missing or chromium is None:
-        pytest.skip(f"`make vscode` has not installed {' and '.join(missing)}")
+        pytest.skip(f"no {' and '.join(missing)}: `make vscode`, apt-get install chromium")
     from .window import opened
 
     scratch = tmp_path_factory.mktemp("vscode")

@@ -11,7 +11,7 @@ import pytest
 
 from swarmdsl import __version__
 
-pytest.importorskip("playwright", reason="`make vscode` has not installed playwright")
+pytest.importorskip("playwright", reason="no playwright: `make vscode`")
 
 from playwright.sync_api import expect
 
