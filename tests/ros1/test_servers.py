@@ -88,7 +88,6 @@ def test_server_that_comes_late(function: str, world: World) -> None:
     flight.serve(function, move=["succeeded"], ask=["succeeded"])
     node = flight.node("flight")
     node.wait_in({"move": "Air/Move", "ask": "Air/Ask"}[function])
-    time.sleep(0.5)
     flight.serve(*({"move", "ask", "land"} - {function}))
     flight.end(function)
     assert node.ended() == 0

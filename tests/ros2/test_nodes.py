@@ -143,7 +143,6 @@ def test_a_server_that_comes_late(uav: Uav) -> None:
     node = uav.start(timeouts__server=10.0)
     uav.say("start")
     node.wait_in("Mission.TakeOff")
-    time.sleep(0.3)
     uav.fakes.action(*TAKE_OFF, "succeeded")
 
     node.wait_for(TAKEN_OFF)

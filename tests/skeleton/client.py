@@ -23,7 +23,8 @@ def goal(client, height, cancel=None):
     heard = []
     client.send_goal(demo.msg.ClimbGoal(height=height), feedback_cb=lambda f: heard.append(f.now))
     if cancel is not None:
-        rospy.sleep(0.3)
+        while client.get_state() == GoalStatus.PENDING:
+            rospy.sleep(0.01)
         cancel()
     assert client.wait_for_result(rospy.Duration(60)), height
     state, text = STATES[client.get_state()], client.get_goal_status_text()

@@ -148,14 +148,20 @@ def test_python_skeletons_end_each_goal(write: Write, start: Any, tmp_path: Path
 
 # A signal shuts ROS down, and may do so without waking who waits: here it does not.
 TOLD_TO_STOP = """
-import sys, threading, time
+import sys, threading
+import beep.node
 import rclpy
-from beep.node import main
+works = threading.Event()
+class Executor(beep.node.MultiThreadedExecutor):
+    def spin_once(self, **options):
+        works.set()
+        super().spin_once(**options)
+beep.node.MultiThreadedExecutor = Executor
 def stop():
     with rclpy.get_default_context().handle:
         rclpy.get_default_context().handle.shutdown()
 def stop_later():
-    time.sleep(2)
+    works.wait()
     assert rclpy.ok()
     stop()
 if sys.argv[1] == 'begun':
@@ -163,7 +169,7 @@ if sys.argv[1] == 'begun':
 else:
     init = rclpy.init
     rclpy.init = lambda: (init(), stop())
-main()
+beep.node.main()
 """
 
 
@@ -186,9 +192,11 @@ def test_a_node_ends_whenever_it_is_told_to(
 SLOW_TO_BEGIN = """
 import os, signal, sys, time
 import beep.node
+import rclpy
 def begin():
     os.kill(os.getpid(), getattr(signal, sys.argv[1]))
-    time.sleep(0.5)
+    while rclpy.ok():
+        time.sleep(0.01)
 beep.node.Beep = begin
 beep.node.main()
 """
