@@ -80,8 +80,8 @@ bench: $(READY) $(BENCH_READY) ## Measure, beside other programs, for docs/perfo
 	$(BIN)/python benchmarks/bench.py $(BENCH)
 
 fuzz: $(READY) ## Check, emit, print and format 10,000 models with random mistakes; MUTANTS=100000 for more.
-	$(BIN)/pytest -q tests/syntax/test_mutations.py tests/syntax/test_segments.py tests/pegen tests/workspace --mutants $(MUTANTS)
-	$(BIN)/pytest -q tests/swarm_printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
+	$(BIN)/pytest -q --timeout 0 tests/syntax/test_mutations.py tests/syntax/test_segments.py tests/pegen tests/workspace --mutants $(MUTANTS)
+	$(BIN)/pytest -q --timeout 0 tests/swarm_printer/test_property.py tests/importing/test_adf_back.py tests/importing/test_portable.py \
 		--hypothesis-profile chance
 
 parser: $(READY) ## Make the parser from the grammar.

@@ -18,7 +18,7 @@ import swarmdsl
 
 ROOT = Path(__file__).resolve().parents[1]
 
-pytestmark = [pytest.mark.long, pytest.mark.packaging]
+pytestmark = [pytest.mark.long, pytest.mark.packaging, pytest.mark.timeout(900)]
 
 
 def run(*command: object, cwd: Path) -> "subprocess.CompletedProcess[str]":

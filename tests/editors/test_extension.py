@@ -15,6 +15,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
+pytestmark = pytest.mark.timeout(900)  # npm may install its tools first
 NAMED = {
     "language-configuration.json",
     "syntaxes/swarm.tmLanguage.json",

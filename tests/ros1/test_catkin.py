@@ -49,6 +49,7 @@ def _describe(package: Path, known: Iterable[str]) -> None:
     (package / "package.xml").write_text(MANIFEST.format(name=package.name, needs=tags))
 
 
+@pytest.mark.timeout(3600)
 @pytest.mark.skipif(
     "SWARMDSL_CATKIN" not in os.environ, reason="slow: `SWARMDSL_CATKIN=1 make test-ros1`"
 )

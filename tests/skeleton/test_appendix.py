@@ -18,6 +18,8 @@ from swarmdsl.cli import run as swarmc
 from .catkin_workspace import make, missing_of_catkin
 from .conftest import STAND_IN, graph_module
 
+pytestmark = pytest.mark.timeout(900)
+
 ROOT = Path(__file__).parents[2]
 CORPUS = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
 FSM = CORPUS / "scxml" / "head_UAV_sar_FSM4.xml"

@@ -22,7 +22,7 @@ from .conftest import HERE, MODEL, STAND_IN, graph_module
 from .ros1_nodes import FILLED, NODES, SKELETONS
 
 Write = Callable[..., Any]
-pytestmark = pytest.mark.long
+pytestmark = [pytest.mark.long, pytest.mark.timeout(900)]
 
 # In the form of D5.4's appendix.
 SCXML = """<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="rise" initial="Up">

@@ -28,6 +28,7 @@ NODES = ("climb", "beep", "camera")
 ROS2 = HERE.parent / "ros2"
 
 Write = Callable[..., Any]
+pytestmark = pytest.mark.timeout(900)  # interfaces are built
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,8 @@ from playwright.sync_api import expect
 
 from .window import Window
 
+pytestmark = pytest.mark.timeout(900)  # on a busy machine, each step may take two minutes
+
 # Transitions do not light up for long: one that has is noted.
 NOTE_TAKEN = """picture => {
   const note = ({ target }) => {
