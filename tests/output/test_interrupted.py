@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import sys
+import warnings
 from pathlib import Path
 
 import pytest
@@ -98,7 +99,10 @@ def killed(out: Path, into: Path, *wanted: OutputFile, **how: object) -> list[Pa
             shutil.copytree(out, into / f"{number:03}")
             copying, number = False, number + 1
 
-    child = os.fork()
+    with warnings.catch_warnings():
+        # A worker of pytest-xdist has a thread that receives messages; the child does not need it.
+        warnings.simplefilter("ignore", DeprecationWarning)
+        child = os.fork()
     if child == 0:
         sys.addaudithook(copy)
         build(out, list(wanted), **how)
