@@ -116,10 +116,10 @@ def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
     """Tell which ports are on topics of swarm events, which no bridge takes over in ROS 2."""
     between = {event.topic for event in system.events if event.swarm}
     heard = incoming_topic("", swarm=True)
-    for (part, _), port in wired.ports.items():
-        if part is None:
+    for ref, port in wired.ports.items():
+        if ref.part is None:
             continue
-        topic = wired.topic(part, port)
+        topic = wired.topic(ref)
         others = "hear" if port.direction != "in" and topic in between else ""
         if port.direction != "out" and topic.startswith(heard):
             others = "send"
@@ -128,7 +128,7 @@ def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
                 "no-place",
                 port.origin,
                 target=TARGET,
-                what=f"a port between robots, `{part}.{port.name}` on `{topic}`",
+                what=f"a port between robots, `{ref}` on `{topic}`",
                 notes=(f"in ROS 2 it is a topic of the robot: what others {others} is elsewhere",),
                 help="let a behaviour send and hear what goes from robot to robot",
             )

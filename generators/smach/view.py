@@ -181,7 +181,7 @@ def package_view(system: System, options: Options, report: Diagnostics) -> Packa
         *([("exec_depend", "gazebo_ros")] if made and options.simulation else []),
         *(("exec_depend", each) for each in bringup if options.components),
     ]
-    needs = third_party_packages((type_ for type_, _ in used), interfaces)
+    needs = third_party_packages((type_ for type_, _ in used), interfaces, system)
     return PackageView(
         name=name,
         doc=doc,

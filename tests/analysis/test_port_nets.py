@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.analysis.port_nets import Pin, PortTopic, nets
+from swarmdsl.analysis.port_nets import PortKey, PortTopic, port_groups
 
 
-def _pin(text: str) -> Pin:
+def _pin(text: str) -> PortKey:
     part, _, port = text.rpartition(".")
     return part or None, port
 
@@ -21,8 +21,8 @@ def _topics(ports: str, connectors: str) -> dict[str, str]:
         given = bool(topic) or pin[0] is None
         known[pin] = PortTopic(topic or pin[1], given, pin[1].startswith("out"))
     ends = [line.split("->") for line in connectors.split()]
-    found = nets(known, ((_pin(source), _pin(target)) for source, target in ends))
-    return {".".join(filter(None, pin)): net.topic for net in found for pin in net.pins}
+    found = port_groups(known, ((_pin(source), _pin(target)) for source, target in ends))
+    return {".".join(filter(None, pin)): net.topic for net in found for pin in net.ports}
 
 
 @pytest.mark.parametrize(

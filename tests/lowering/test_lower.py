@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from swarmdsl import ir
+from swarmdsl.base.records import replace
 from swarmdsl.driver import pipeline
 
 Compiled = Callable[[str], ir.System]
@@ -339,3 +340,76 @@ def test_a_constant_is_one_value_however_it_is_made(compiled: Compiled) -> None:
         "s": ir.Literal("ab", ir.Primitive("string")),
         "n": ir.Literal(2, ir.Primitive("int64")),
     }
+
+
+STANDARD = """
+event Seen : geometry_msgs/PoseStamped
+event Heard : lab/Unheard
+message lab/Report { text : std_msgs/String }
+event Told : lab/Report
+endless statemachine Wait {
+  var climbed : control_msgs/FollowJointTrajectoryFeedback
+  initial A
+  state A { on Seen, Heard, Told -> A }
+}
+"""
+
+
+def test_interfaces_of_ros_are_in_the_system(compiled: Compiled) -> None:
+    system = compiled(STANDARD)
+    names = [str(each.type) for each in system.standard]
+    pose = system.known_interface(ir.Named("geometry_msgs", "PoseStamped"))
+
+    assert isinstance(pose, ir.Message)
+    assert [field.name for field in pose.fields] == ["header", "pose"]
+    assert names == sorted(names)
+    assert {"geometry_msgs/Point", "std_msgs/Header", "std_msgs/String"} <= set(names)
+    assert not {"lab/Report", "lab/Unheard"} & set(names)
+    assert {"geometry_msgs", "std_msgs"} <= set(system.ros_packages)
+    assert "lab" not in system.ros_packages
+
+
+def test_what_the_model_describes_goes_before_what_ros_has(compiled: Compiled) -> None:
+    system = compiled(STANDARD)
+    report, unknown = ir.Named("lab", "Report"), ir.Named("lab", "Unheard")
+
+    assert system.known_interface(report) is system.interface(report)
+    assert system.interface(ir.Named("std_msgs", "String")) is None
+    assert system.known_interface(unknown) is None
+
+
+def test_a_service_and_an_action_may_share_a_name(compiled: Compiled) -> None:
+    system = compiled(
+        """
+        function map : abstraction { service "map" : nav_msgs/GetMap }
+        statemachine M { initial A state A { do map on succeeded, aborted -> B } final B }
+        """
+    )
+    type_ = ir.Named("nav_msgs", "GetMap")
+    for kind in (ir.Service, ir.Action):
+        assert isinstance(system.known_interface(type_, kind), kind)
+
+
+def test_connected_ports_are_groups_with_a_topic(compiled: Compiled) -> None:
+    system = compiled(
+        """
+        sensor Camera { out image : std_msgs/String }
+        controller Tracker { in view : std_msgs/String }
+        member Uav {
+          eye : Camera
+          tracker : Tracker
+          connect eye.image -> tracker.view
+        }
+        """
+    )
+    (uav,) = system.members
+
+    assert [([str(port) for port in group.ports], group.topic) for group in uav.port_groups] == [
+        (["eye.image", "tracker.view"], "image")
+    ]
+
+
+def test_what_is_derived_does_not_count_in_comparisons(compiled: Compiled) -> None:
+    system = compiled(STANDARD)
+    assert system.standard
+    assert replace(system, standard=(), ros_packages=()) == system

@@ -15,6 +15,7 @@ from swarmdsl.codegen import registry
 from swarmdsl.codegen.api import Generator
 
 ROOT = Path(__file__).resolve().parents[2]
+CODEGEN = ROOT / "src" / "swarmdsl" / "codegen"
 PLUGINS = Path(__file__).parent
 PUBLIC = {
     "swarmdsl.codegen",
@@ -66,6 +67,20 @@ def test_generators_import_the_sdk_only() -> None:
         if module.startswith("swarmdsl") and module not in PUBLIC
     ]
     assert others == []
+
+
+def test_code_generation_sees_the_ir_and_no_front_end() -> None:
+    below = ("swarmdsl.codegen", "swarmdsl.ir", "swarmdsl.syntax.types", "swarmdsl.base")
+    # The printer of models needs the units and keywords of the language.
+    language = ("swarmdsl.syntax.parser.literals", "swarmdsl.syntax.errors.hints")
+    others = {
+        f"{path.relative_to(CODEGEN)}: {module}"
+        for path in CODEGEN.rglob("*.py")
+        for module in imported(path)
+        if module.startswith("swarmdsl.") and not module.startswith(below)
+        if module not in language or path.parent.name != "swarm_printer"
+    }
+    assert others == set()
 
 
 @pytest.mark.parametrize("name", LAZY)

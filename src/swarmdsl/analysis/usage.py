@@ -6,7 +6,7 @@ from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.loader import File, Project
-from swarmdsl.syntax.action_messages import ways_made
+from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.ast import (
     Activity,
     Component,
@@ -88,7 +88,7 @@ def _usage(owner: TopLevel) -> Usage:
     types = (ref.type for ref in nodes_of(owner, TypeRef))
     elements = (type_.element if isinstance(type_, Array) else type_ for type_ in types)
     named = {element for element in elements if isinstance(element, Named)}
-    actions = {made.action for element in named for made in ways_made(element)}
+    actions = {made.action for element in named for made in generated_from(element)}
     return Usage(
         frozenset(node for node in (*refs, *names, *owners) if node is not None),
         frozenset(named | actions),

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
         Multiplicity,
         Part,
         Port,
+        PortGroup,
         PortRef,
         Role,
         Swarm,
@@ -53,6 +54,9 @@ if TYPE_CHECKING:
         Message,
         Param,
         Service,
+    )
+    from swarmdsl.ir.operations import (
+        OPERATIONS,
     )
     from swarmdsl.ir.optimization import (
         CountRange,
@@ -103,7 +107,7 @@ else:
         {
             "swarmdsl.ir.architecture": (
                 "CommunicationSettings Component Connector Direction Environment Member "
-                "Multiplicity Part Port PortRef Role Swarm"
+                "Multiplicity Part Port PortGroup PortRef Role Swarm"
             ),
             "swarmdsl.ir.docs": "Docs doc_of",
             "swarmdsl.ir.expressions": (
@@ -115,6 +119,7 @@ else:
                 "Action Communication Constant Event Field Function FunctionPort Interface "
                 "Message Param Service"
             ),
+            "swarmdsl.ir.operations": "OPERATIONS",
             "swarmdsl.ir.optimization": "CountRange Fitness Optimization ParamRange",
             "swarmdsl.ir.statemachine": (
                 "Activity Assignment DoneTrigger Effect EventTrigger OutcomeTrigger Policy "
@@ -136,6 +141,7 @@ __all__ = [
     "FLOATS",
     "INT",
     "INTEGERS",
+    "OPERATIONS",
     "PRIMITIVES",
     "STRING",
     "Action",
@@ -178,6 +184,7 @@ __all__ = [
     "Part",
     "Policy",
     "Port",
+    "PortGroup",
     "PortRef",
     "Primitive",
     "ResultMapping",

@@ -6,6 +6,7 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
+from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.docs import Docs
 from swarmdsl.ir.expressions import Expression
 from swarmdsl.ir.interfaces import Param
@@ -94,8 +95,19 @@ class Connector:
 
 
 @dataclass(frozen=True, slots=True)
+class PortGroup:
+    """Ports of a member that connectors join, in the order of the model, and their ROS topic."""
+
+    ports: tuple[PortRef, ...]
+    topic: str
+
+
+@dataclass(frozen=True, slots=True)
 class Member:
-    """A type of robot, with all that it inherits; `behavior` names its state machine."""
+    """A type of robot, with all that it inherits; `behavior` names its state machine.
+
+    `port_groups` is derived from the connectors.
+    """
 
     name: str
     behavior: str | None
@@ -108,6 +120,7 @@ class Member:
     doc: str = ""
     docs: Docs = ()
     origin: Span | None = field(default=None, compare=False, repr=False)
+    port_groups: tuple[PortGroup, ...] = field(default=(), compare=False, metadata=DERIVED)
 
 
 @dataclass(frozen=True, slots=True)

@@ -48,7 +48,11 @@ def _values(node: Any) -> Iterator[tuple[str, Any]]:
     """Fields worth showing: plain ones as text, others as a sequence of nodes."""
     for field in fields(node):
         value = getattr(node, field.name)
-        if not field.compare or value in ((), None, "") or value == _default(field):
+        if (
+            not (field.compare or field.metadata.get("derived"))
+            or value in ((), None, "")
+            or value == _default(field)
+        ):
             continue
         if isinstance(value, _PLAIN):
             yield field.name, _plain(value)

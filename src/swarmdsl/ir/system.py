@@ -5,10 +5,11 @@ from __future__ import annotations
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Span
 from swarmdsl.ir.architecture import Component, Environment, Member, Swarm
+from swarmdsl.ir.derived import DERIVED
 from swarmdsl.ir.interfaces import Action, Event, Field, Function, Interface, Message
 from swarmdsl.ir.optimization import Fitness, Optimization
 from swarmdsl.ir.statemachine import StateMachine
-from swarmdsl.syntax.action_messages import ways_made
+from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.types import Named
 
 
@@ -16,7 +17,9 @@ from swarmdsl.syntax.types import Named
 class System:
     """Everything that was declared, in the order of the files and of the text in them.
 
-    `name` is the package of the first file, or its file name where it has none.
+    `name` is the package of the first file, or its file name where it has none. `standard` are
+    the interfaces of ROS that the model uses and does not describe, with those in their fields;
+    `ros_packages` the packages of ROS among those that the model mentions.
     """
 
     name: str
@@ -32,6 +35,8 @@ class System:
     optimizations: tuple[Optimization, ...] = ()
     doc: str = ""
     origin: Span | None = field(default=None, compare=False, repr=False)
+    standard: tuple[Interface, ...] = field(default=(), compare=False, metadata=DERIVED)
+    ros_packages: tuple[str, ...] = field(default=(), compare=False, metadata=DERIVED)
 
     def event(self, name: str) -> Event:
         """The event of that name."""
@@ -42,22 +47,33 @@ class System:
         return next(function for function in self.functions if function.name == name)
 
     def interface(self, type_: object) -> Interface | None:
-        """What is known of an interface's fields; None for one the model does not describe."""
+        """The interface as the model describes it; None if the model does not."""
         found = next((known for known in self.interfaces if known.type == type_), None)
         if found is None and isinstance(type_, Named):
-            return self._made_of_action(type_)
+            return _message_of_action(type_, self.interfaces)
         return found
 
-    def _made_of_action(self, type_: Named) -> Message | None:
-        """The message of that name that ROS makes of an action."""
-        for made in ways_made(type_):
-            for action in self.interfaces:
-                if isinstance(action, Action) and action.type == made.action:
-                    parts = {
-                        "goal": action.goal,
-                        "result": action.result,
-                        "feedback": action.feedback,
-                    }
-                    around = tuple(Field(name, inside) for name, inside in made.fields)
-                    return Message(type_, around or parts[made.part], action.external)
-        return None
+    def known_interface(self, type_: object, kind: type[Interface] = Message) -> Interface | None:
+        """The interface as the model or, if it does not, as ROS describes it.
+
+        Where ROS has several of one name (`nav_msgs/GetMap`), that of class `kind` is preferred.
+        """
+        described = self.interface(type_)
+        if described is not None:
+            return described
+        found = [known for known in self.standard if known.type == type_]
+        if not found and isinstance(type_, Named):
+            return _message_of_action(type_, self.standard)
+        found.sort(key=lambda known: not isinstance(known, kind))
+        return found[0] if found else None
+
+
+def _message_of_action(type_: Named, known: tuple[Interface, ...]) -> Message | None:
+    """The message of that name that ROS generates from one of the known actions."""
+    for generated in generated_from(type_):
+        for action in known:
+            if isinstance(action, Action) and action.type == generated.action:
+                parts = {"goal": action.goal, "result": action.result, "feedback": action.feedback}
+                wrapped = tuple(Field(name, inside) for name, inside in generated.fields)
+                return Message(type_, wrapped or parts[generated.part], action.external)
+    return None

@@ -27,6 +27,7 @@ from swarmdsl.lowering.interfaces import (
 )
 from swarmdsl.lowering.machines import lower_machine
 from swarmdsl.lowering.optimization import lower_fitness, lower_optimization
+from swarmdsl.lowering.standard_interfaces import with_standard_interfaces
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -93,7 +94,7 @@ def lower(
     parts = (owner for owner in operation_owners(used) if isinstance(owner, Part))
     functions += (function for part in parts for function in lower_operations(part, context))
     first = project.files[0]
-    return ir.System(
+    system = ir.System(
         name=name or first.package,
         interfaces=tuple(interfaces),
         events=(*events, *context.monitored),
@@ -109,6 +110,7 @@ def lower(
         doc=first.model.package.doc if first.model.package else "",
         origin=first.model.package.span if first.model.package else None,
     )
+    return with_standard_interfaces(system)
 
 
 def _with_libraries(functions: Iterable[ir.Function], project: Project) -> tuple[ir.Function, ...]:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from swarmdsl import ir
+from swarmdsl.analysis.port_nets import PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.base.naming import snake_case
 from swarmdsl.lowering.context import Context
@@ -51,21 +52,24 @@ def lower_component(component: Component, context: Context) -> ir.Component:
 
 def lower_member(member: Member, context: Context) -> ir.Member:
     """A member with its parts and connectors."""
+    ports = _ports(all_items(member, Port), context)
+    connectors = tuple(
+        ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
+        for item in all_items(member, Connector)
+    )
     return ir.Member(
         name=context.names[member],
         behavior=_behavior(member, context),
-        ports=_ports(all_items(member, Port), context),
+        ports=ports,
         params=lower_params(all_items(member, Param), context),
         parts=tuple(_part(part, context) for part in all_items(member, Part)),
-        connectors=tuple(
-            ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
-            for item in all_items(member, Connector)
-        ),
+        connectors=connectors,
         communication=_communication(member, context),
         base=context.name(member.base) if member.base is not None else None,
         doc=member.doc,
         docs=lower_docs(all_items(member, BehaviorUse)),
         origin=member.name.span,
+        port_groups=tuple(_port_groups(member, ports, connectors, context)),
     )
 
 
@@ -151,6 +155,36 @@ def _part(part: Part, context: Context) -> ir.Part:
         docs=lower_docs(part.values),
         origin=part.name.span,
     )
+
+
+def _port_groups(
+    member: Member,
+    ports: Iterable[ir.Port],
+    connectors: tuple[ir.Connector, ...],
+    context: Context,
+) -> Iterator[ir.PortGroup]:
+    """Yield the groups of connected ports, each with its topic."""
+    if not connectors:
+        return
+    known: dict[PortKey, ir.Port] = {(None, port.name): port for port in ports}
+    for part in all_items(member, Part):
+        assert part.component.target is not None
+        for port in _ports(all_items(part.component.target, Port), context):
+            known[str(part.name), port.name] = port
+    topics = {
+        key: PortTopic(
+            port.topic,
+            key[0] is None or port.topic != snake_case(port.name),
+            port.direction != "in",
+        )
+        for key, port in known.items()
+    }
+    joined = (
+        ((each.source.part, each.source.port), (each.target.part, each.target.port))
+        for each in connectors
+    )
+    for group in port_groups(topics, joined):
+        yield ir.PortGroup(tuple(ir.PortRef(*key) for key in group.ports), group.topic)
 
 
 def _end(end: PortRef) -> ir.PortRef:

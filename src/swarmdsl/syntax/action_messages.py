@@ -1,7 +1,7 @@
-"""The messages that ROS makes of an action, by the names that they have in ROS 1 (actionlib).
+"""Messages that ROS 1 (actionlib) generates from an action, by their names.
 
-Of `uav_msgs/Climb` there is `ClimbFeedback`, and `ClimbActionFeedback`, which is that with a
-header, on the topic `<action>/feedback`; so it is with its goal and its result.
+From `uav_msgs/Climb` come `ClimbFeedback` and `ClimbActionFeedback`, the same with a header, which
+is sent on the topic `<action>/feedback`; likewise for its goal and its result.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.types import Named
 
 _PARTS = ("Goal", "Result", "Feedback")
-_MADE = rf"(.+?)({'|'.join(_PARTS)})"
+_GENERATED = rf"(.+?)({'|'.join(_PARTS)})"
 _WRAPPED = "Action"
 _HEADER = ("header", Named("std_msgs", "Header"))
 _STATUS = ("status", Named("actionlib_msgs", "GoalStatus"))
@@ -21,10 +21,10 @@ _GOAL_ID = ("goal_id", Named("actionlib_msgs", "GoalID"))
 
 
 @dataclass(frozen=True)
-class Made:
-    """A message that is made of part `goal`, `result` or `feedback` of an action.
+class GeneratedMessage:
+    """A message generated from part `goal`, `result` or `feedback` of an action.
 
-    It has the fields of that, or `fields`: one is the part, as a message of its own.
+    It has the fields of that part, or, if given, `fields`: a header and the part as a message.
     """
 
     action: Named
@@ -32,14 +32,14 @@ class Made:
     fields: tuple[tuple[str, Named], ...] = ()
 
 
-def names_made(action: str) -> tuple[str, ...]:
-    """The names of all messages that are made of an action of that name."""
+def generated_names(action: str) -> tuple[str, ...]:
+    """Return the names of all messages that are generated from an action of that name."""
     return tuple(f"{action}{word}{part}" for word in ("", _WRAPPED) for part in _PARTS)
 
 
-def ways_made(type_: Named) -> Iterator[Made]:
-    """Of which actions a message of that name may be made, if there are such."""
-    found = re.fullmatch(_MADE, type_.name)
+def generated_from(type_: Named) -> Iterator[GeneratedMessage]:
+    """Yield each reading of a message's name as generated from an action, existing or not."""
+    found = re.fullmatch(_GENERATED, type_.name)
     if found is None:
         return
     base, part = found.groups()
@@ -47,5 +47,6 @@ def ways_made(type_: Named) -> Iterator[Made]:
     if action and action != base:
         besides = _GOAL_ID if part == "Goal" else _STATUS
         inside = (part.lower(), Named(type_.package, f"{action}{part}"))
-        yield Made(Named(type_.package, action), part.lower(), (_HEADER, besides, inside))
-    yield Made(Named(type_.package, base), part.lower())
+        fields = (_HEADER, besides, inside)
+        yield GeneratedMessage(Named(type_.package, action), part.lower(), fields)
+    yield GeneratedMessage(Named(type_.package, base), part.lower())

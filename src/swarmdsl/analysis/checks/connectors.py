@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.port_nets import Net, Pin, PortTopic, nets
+from swarmdsl.analysis.port_nets import PortGroup, PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.types import fits
 from swarmdsl.base.diagnostics.collector import Label
@@ -86,7 +86,7 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
 
     What is given for a port of the member itself goes before what its parts say.
     """
-    declared: dict[Pin, Port] = {(None, str(p.name)): p for p in all_items(member, Port)}
+    declared: dict[PortKey, Port] = {(None, str(p.name)): p for p in all_items(member, Port)}
     for part in all_items(member, Part):
         if part.component.target is not None:
             ports = all_items(part.component.target, Port)
@@ -94,26 +94,26 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
     topics = {pin: _topic(pin, port) for pin, port in declared.items()}
     ends = [(connector.source, connector.target) for connector in connectors]
     at = {_pin(end): end for both in reversed(ends) for end in both}
-    first: dict[str, Net] = {}
-    for net in nets(topics, ((_pin(source), _pin(target)) for source, target in ends)):
-        other = first.setdefault(net.topic, net)
-        if other is not net:
+    first: dict[str, PortGroup] = {}
+    for group in port_groups(topics, ((_pin(source), _pin(target)) for source, target in ends)):
+        other = first.setdefault(group.topic, group)
+        if other is not group:
             context.report.report(
                 "shared-topic",
-                at[net.pins[0]].span,
-                topic=net.topic,
-                related=(Label(at[other.pins[0]].span, "the other one is here"),),
+                at[group.ports[0]].span,
+                topic=group.topic,
+                related=(Label(at[other.ports[0]].span, "the other one is here"),),
                 help="each hears what the other one sends: give the ports topics of their own",
             )
-        if net.pins[0][0] is None:
+        if group.ports[0][0] is None:
             continue
-        for pin in net.pins:
-            if topics[pin].given and topics[pin].topic != net.topic:
+        for pin in group.ports:
+            if topics[pin].given and topics[pin].topic != group.topic:
                 context.report.report(
                     "replaced-topic",
                     at[pin].span,
                     port=at[pin].span.text,
-                    topic=net.topic,
+                    topic=group.topic,
                     own=topics[pin].topic,
                     related=(Label(declared[pin].name.span, "declared here"),),
                     help="what is connected is on one topic: give it at one of the ports, or at "
@@ -121,13 +121,13 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
                 )
 
 
-def _topic(pin: Pin, port: Port) -> PortTopic:
+def _topic(pin: PortKey, port: Port) -> PortTopic:
     name = snake_case(port.name)
     topic = str(port.topic) if port.topic is not None else name
     return PortTopic(topic, pin[0] is None or topic != name, port.direction != "in")
 
 
-def _pin(end: PortRef) -> Pin:
+def _pin(end: PortRef) -> PortKey:
     return end.part.name if end.part is not None else None, end.port.name
 
 

@@ -12,7 +12,7 @@ from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.project.rosidl.interface_file import Kind
-from swarmdsl.syntax.action_messages import Made, ways_made
+from swarmdsl.syntax.action_messages import GeneratedMessage, generated_from
 from swarmdsl.syntax.ast import (
     ActionType,
     AliasType,
@@ -91,9 +91,9 @@ class Interfaces:
             return self._fields_made(type_)
         return found.fields if isinstance(found, (StructType, MessageType)) else None
 
-    def actions_of(self, type_: Named) -> Iterator[tuple[Made, ActionType]]:
+    def actions_of(self, type_: Named) -> Iterator[tuple[GeneratedMessage, ActionType]]:
         """The actions that ROS makes a message of that name of."""
-        for made in ways_made(type_):
+        for made in generated_from(type_):
             action = self.get(made.action, ActionType)
             if isinstance(action, ActionType):
                 yield made, action

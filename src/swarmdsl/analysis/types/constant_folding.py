@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import operator
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from swarmdsl.analysis.types.enum_values import numbers
 from swarmdsl.base.graphs import leaves_first
+from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.syntax.ast import (
     Call,
     Constant,
@@ -23,26 +23,6 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.parser.literals import nanoseconds
 
 Folded = bool | int | float | str
-
-OPERATIONS: Mapping[str, Callable[..., Folded]] = {
-    "==": operator.eq,
-    "!=": operator.ne,
-    "<": operator.lt,
-    "<=": operator.le,
-    ">": operator.gt,
-    ">=": operator.ge,
-    "+": operator.add,
-    "-": operator.sub,
-    "*": operator.mul,
-    "/": operator.truediv,
-    "%": operator.mod,
-    "min": min,
-    "max": max,
-    "abs": abs,
-    "sqrt": math.sqrt,
-    "len": len,
-}
-"""What operators and built-in functions do with values, but for `and`, `or` and `not`."""
 
 _ALWAYS_DEFINED = frozenset(("and", "or", "not", "==", "!=", "<", "<=", ">", ">="))
 # What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.

@@ -18,7 +18,6 @@ from swarmdsl.codegen.ros.interface_files import (
     named_types,
 )
 from swarmdsl.ir import Interface, Named, System
-from swarmdsl.project.rosidl import standard
 
 
 @dataclass(frozen=True)
@@ -79,9 +78,11 @@ def check_described(system: System, others: str, target: str, report: Diagnostic
             report.report("unsupported-construct", origin, target=target, construct=construct)
 
 
-def third_party_packages(used: Iterable[Named], made: Iterable[InterfacePackage]) -> list[str]:
-    """The packages of interfaces that neither come with ROS nor are `made`: others have them."""
-    known = {*standard.packages(), *(package.name for package in made)}
+def third_party_packages(
+    used: Iterable[Named], made: Iterable[InterfacePackage], system: System
+) -> list[str]:
+    """Return the packages of used interfaces that neither come with ROS nor are `made`."""
+    known = {*system.ros_packages, *(package.name for package in made)}
     return sorted({type_.package for type_ in used} - known)
 
 

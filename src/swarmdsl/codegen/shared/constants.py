@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from swarmdsl.analysis.types.constant_folding import OPERATIONS
 from swarmdsl.base.source import Span
 from swarmdsl.ir import Binary, Call, Expression, Literal, Param, ParamRef, Unary
+from swarmdsl.ir.operations import OPERATIONS
 from swarmdsl.syntax.types import DURATION
 
 Value = bool | int | float | str

@@ -41,8 +41,8 @@ def uses(member: Member, system: System) -> Iterator[Use]:
         if owner.behavior is not None:
             found.update(dict.fromkeys(_of_machine(machines[owner.behavior], system)))
     wired = member_wiring(member, system)
-    for (part, _), port in wired.ports.items():
-        found.update(dict.fromkeys(_of_port(port, wired.topic(part, port))))
+    for ref, port in wired.ports.items():
+        found.update(dict.fromkeys(_of_port(port, wired.topic(ref))))
     yield from found
 
 

@@ -13,7 +13,7 @@ from swarmdsl.driver.workspace.documents import Sheet
 from swarmdsl.driver.workspace.fragments import Unit, with_users
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
-from swarmdsl.syntax.action_messages import names_made
+from swarmdsl.syntax.action_messages import generated_names
 from swarmdsl.syntax.ast import ActionType, Interface
 
 
@@ -110,7 +110,7 @@ def _names(units: Iterable[Unit]) -> Iterable[tuple[type, str]]:
             name = declaration.name.rpartition("/")[2]
             yield type(declaration), name
             if isinstance(declaration, ActionType):
-                yield from ((ActionType, made) for made in names_made(name))
+                yield from ((ActionType, made) for made in generated_names(name))
 
 
 def _is_standard(units: Iterable[Unit]) -> bool:

@@ -9,7 +9,7 @@ from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.base.source import Source
 from swarmdsl.driver.workspace.fragments import Unit
 from swarmdsl.project.loader import File, Project
-from swarmdsl.syntax.action_messages import ways_made
+from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.ast import (
     Activity,
     Declaration,
@@ -133,7 +133,7 @@ def _targets(
         yield from (node for _, node in scopes[file].find(type_.name))
         element = type_.type.element if isinstance(type_.type, Array) else type_.type
         if isinstance(element, Named):
-            behind = (element, *(made.action for made in ways_made(element)))
+            behind = (element, *(made.action for made in generated_from(element)))
             yield from (interfaces[name] for name in behind if name in interfaces)
 
 

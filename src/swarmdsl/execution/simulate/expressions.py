@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from swarmdsl.analysis.types.constant_folding import OPERATIONS
 from swarmdsl.execution.engine import ExecutionError
 from swarmdsl.ir import (
     Binary,
@@ -22,6 +21,7 @@ from swarmdsl.ir import (
     Unary,
     VariableRef,
 )
+from swarmdsl.ir.operations import OPERATIONS
 
 Value = Callable[[Mapping[str, Any], Any], Any]
 """The value of an expression, given the data of the machine and the message of the event."""

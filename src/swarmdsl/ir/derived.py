@@ -1,0 +1,10 @@
+"""Fields that lowering computes from the rest of the model.
+
+They do not count when nodes are compared: nodes that were not lowered, as those of an importer,
+leave them empty.
+"""
+
+from collections.abc import Mapping
+
+DERIVED: Mapping[str, bool] = {"derived": True}
+"""Metadata of such a field. The dump of the IR shows it."""
