@@ -1,6 +1,6 @@
-"""Which states a machine can come to, and which of them are entered first in those around.
+"""Reachable states of a machine, and the first states of its containers.
 
-A library may refuse a state that nothing leads to, and a machine in it begins in a fixed one.
+A library may reject a state that nothing leads to, and a machine in it begins in a fixed state.
 """
 
 from __future__ import annotations
@@ -9,20 +9,20 @@ from collections.abc import Iterator
 
 from swarmdsl.ir import State, StateKind, StateMachine
 
-from .domains import Domains
+from ..outcome_routes import TransitionDomains
 
 _CONTAINERS = (StateKind.COMPOSITE, StateKind.REGION)
 
 
 class Reach:
-    """What can be reached in a machine, as far as transitions say; guards are not looked at.
+    """Reachable states by the transitions of a machine, regardless of guards.
 
-    `states` has ids, `firsts` by the id of a container, "" for the machine, the names of the
-    states in it that can be the first, `histories` the ids of those that something inside of
-    the state around leads to.
+    `states` has ids. `firsts` has the names of the states that can be entered first in a container,
+    by its id, `""` for the machine. `histories` has the ids of history states with a transition to
+    them from inside the state around.
     """
 
-    def __init__(self, machine: StateMachine, domains: Domains) -> None:
+    def __init__(self, machine: StateMachine, domains: TransitionDomains) -> None:
         self.states: set[str] = set()
         self.firsts: dict[str, set[str]] = {}
         self.histories: set[str] = set()
@@ -32,19 +32,19 @@ class Reach:
         self._enter("", machine.initial, is_first=True)
         while self._waiting:
             state = self._known[self._waiting.pop()]
-            for move in domains.moves(state):
-                if move is not None:
-                    self._enter(move.domain, move.target)
+            for route in domains.routes(state):
+                if route.target is not None:
+                    self._enter(route.target.container, route.target.state)
             if not self._waiting:
                 for around in sorted(self._restored):
                     self._restore(self._known[around])
 
     def inside(self, state: State | StateMachine) -> Iterator[State]:
-        """The states inside that can be reached, without histories."""
+        """Return the reachable states directly inside, without history states."""
         return (child for child in state.states if child.id in self.states)
 
     def _enter(self, domain: str, target: str, is_first: bool = False) -> None:
-        """Enter a state and those around it up to one that is active already."""
+        """Enter a state and the states around it, up to the domain, which is active already."""
         around = domain
         *path, name = (target[len(domain) + 1 :] if domain else target).split(".")
         for each in path:
@@ -58,7 +58,7 @@ class Reach:
             self._enter_inside(state)
 
     def _note(self, around: str, name: str, is_first: bool) -> None:
-        """Take note that a state is entered, with the other regions of a parallel one around."""
+        """Note that a state is entered, and enter the other regions if it is a region."""
         state = f"{around}.{name}" if around else name
         if state not in self.states:
             self.states.add(state)
@@ -73,7 +73,7 @@ class Reach:
                     self._enter_region(region)
 
     def _enter_inside(self, state: State) -> None:
-        """Enter what is entered with a state if nothing else is said."""
+        """Enter the initial state or the regions of a state."""
         if state.initial is not None:
             self._enter(state.id, state.initial, is_first=True)
         elif state.kind is StateKind.PARALLEL:
@@ -98,7 +98,7 @@ class Reach:
         self._enter(around, default, is_first=not is_local)
 
     def _restore(self, around: State) -> None:
-        """Let any state that was reached be the first in the one around."""
+        """Note that each reached state inside can be the first."""
         for child in self.inside(around):
             self._note(around.id, child.name, is_first=True)
             self._enter_inside(child)

@@ -1,4 +1,4 @@
-"""From a machine to what a library has: states and containers, each bound to what comes next."""
+"""Lower a state machine to states and containers of a library, with bound outcomes."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from swarmdsl.codegen import Diagnostics, camel_case, dataclass, field, fresh
 from swarmdsl.ir import State, StateKind, StateMachine
 
 from .library import Library
-from .ways import Way, Ways
+from .outcome_table import OutcomeTable, OutcomeTransition
 
-# What the generated module has besides the classes of its states.
+# Names in the generated module other than the classes of its states.
 _RESERVED = (
     *("ActionState", "Chart", "Concurrence", "Fsm", "Junction", "ServiceState", "State"),
     *("StateMachine", "Way", "False", "None", "True"),
@@ -19,7 +19,7 @@ _RESERVED = (
 
 
 class Kind(Enum):
-    """What a node is in the library."""
+    """Kind of a node, by its class in the library."""
 
     STATE = "State"
     JUNCTION = "Junction"
@@ -29,11 +29,11 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class Node:
-    """A state of the library.
+    """A state or container in the library.
 
     `path` is its id in the chart, `python_name` its class or the function that builds it.
-    `transitions` bind its outcomes in the machine around: to a state in that, or an outcome of it.
-    A machine begins in `start`; `outcome_map` says for each outcome of a concurrence what it takes.
+    `transitions` bind its outcomes to states or outcomes of the machine around it. A machine begins
+    in `start`; `outcome_map` of a concurrence has the required outcomes of regions, by outcome.
     """
 
     kind: Kind
@@ -55,23 +55,25 @@ class Node:
 
 
 class Structure:
-    """The nodes of a machine, `root` being the whole; `ways` and `entries` for its chart.
+    """The nodes of a machine, from `root` on; `transitions` and `entries` are for its chart.
 
-    `entries` are the names of the junctions at the beginning of containers, by their ids.
+    `entries` are the names of the junctions in which containers begin, by their ids.
     """
 
     def __init__(self, machine: StateMachine, library: Library, report: Diagnostics) -> None:
-        self._ways = Ways(machine, library, report)
+        self._table = OutcomeTable(machine, library, report)
         self._stopped = library.stopped
         self._classes = {*_RESERVED}
         self._functions = {"build", "main"}
         self.entries: dict[str, str] = {}
-        self.ways: Mapping[str, tuple[Way | None, ...]] = self._ways.of
+        self.transitions: Mapping[str, tuple[OutcomeTransition | None, ...]] = (
+            self._table.transitions
+        )
         _check(machine, library, report)
         finals = [
             state.name
             for state in machine.states
-            if state.kind is StateKind.FINAL and state.id in self._ways.reach.states
+            if state.kind is StateKind.FINAL and state.id in self._table.reach.states
         ]
         nodes, start = self._inside("", machine)
         self.root = Node(
@@ -79,11 +81,11 @@ class Structure:
         )
 
     def _inside(self, path: str, around: State | StateMachine) -> tuple[tuple[Node, ...], str]:
-        """The nodes in a container, and the name of the one that it begins in."""
-        reach = self._ways.reach
+        """Return the nodes in a container, and the name of the node in which it begins."""
+        reach = self._table.reach
         firsts = sorted(reach.firsts.get(path, ()))
         nodes = []
-        start = self._ways.junction(path)
+        start = self._table.junction(path)
         if start:
             self.entries[path] = start
             nodes.append(self._junction(path, start, firsts))
@@ -105,15 +107,15 @@ class Structure:
         return Node(Kind.JUNCTION, name, path, python_name, tuple(bound), bound, state=state)
 
     def _node(self, around: str, state: State) -> Node:
-        meanings = self._ways.outcomes[state.id]
-        outcomes = (*meanings, self._stopped)
+        targets = self._table.outcomes[state.id]
+        outcomes = (*targets, self._stopped)
         bound = {
-            outcome: meaning.label if meaning.domain == around else outcome
-            for outcome, meaning in meanings.items()
+            outcome: target.label if target.container == around else outcome
+            for outcome, target in targets.items()
         }
         bound[self._stopped] = self._stopped
         if state.kind is StateKind.REGION:
-            bound = {}  # a concurrence has a map of outcomes instead
+            bound = {}  # a concurrence has an outcome map instead
         if state.kind is StateKind.PARALLEL:
             return self._concurrence(state, outcomes, bound)
         if state.kind in (StateKind.COMPOSITE, StateKind.REGION):
@@ -128,7 +130,7 @@ class Structure:
     def _concurrence(
         self, state: State, outcomes: tuple[str, ...], bound: Mapping[str, str]
     ) -> Node:
-        """All regions end together, with the same outcome."""
+        """Make the node of a parallel state, whose regions end together with the same outcome."""
         name = self._function(state.id)
         regions = tuple(self._node(state.id, each) for each in state.states)
         outcome_map = {
@@ -161,7 +163,7 @@ class Structure:
 
 
 def _check(machine: StateMachine, library: Library, report: Diagnostics) -> None:
-    """Report what the library cannot have."""
+    """Report states that the library cannot have."""
     by_id = {state.id: state for state in machine.walk()}
     if by_id[machine.initial].kind is StateKind.FINAL:
         report.report(

@@ -1,4 +1,4 @@
-"""What the templates of each library print: its chart, and the functions that build containers."""
+"""Views for the templates of all libraries: charts, and functions that build containers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from swarmdsl.codegen.python import Call, comments, layout
 from swarmdsl.ir import StateKind, System
 
 from ..ros2.imports import WIDTH, Imports
+from .outcome_table import OutcomeTransition
 from .structure import Kind, Node, Structure
-from .ways import Way
 
 STEP = "    "
 _OWN = (
@@ -39,14 +39,14 @@ class ContainerView:
 
 @dataclass(frozen=True)
 class ChartView:
-    """The arguments of a chart: the names of junctions at the beginning, and ways."""
+    """The arguments `entries` and `ways` of a chart, in Python."""
 
     entries: str
     ways: str
 
 
 def imports_of(chart: str) -> Imports:
-    """What a module needs whose chart is in the module of that name."""
+    """Return the imports of a module whose chart is in the module of that name."""
     imports = Imports({})
     for own, name in _OWN:
         imports.own(own, name)
@@ -55,24 +55,25 @@ def imports_of(chart: str) -> Imports:
 
 
 def chart_view(structure: Structure) -> ChartView:
-    """The chart of a machine."""
-    ways = {state: tuple(map(_way, ways)) for state, ways in structure.ways.items()}
+    """Return the arguments of the chart of a machine."""
+    ways = {state: tuple(map(_way, each)) for state, each in structure.transitions.items()}
     return ChartView(
         entries=layout(structure.entries, 1, f"{STEP}entries=", ",", WIDTH),
         ways=layout(ways, 1, f"{STEP}ways=", ",", WIDTH),
     )
 
 
-def _way(way: Way | None) -> object:
-    if way is None:
+def _way(transition: OutcomeTransition | None) -> object:
+    if transition is None:
         return None
-    outcomes = {outcome for _, outcome in way.outcomes}
-    outcome = outcomes.pop() if len(outcomes) == 1 else dict(way.outcomes)
-    return Call("Way", (outcome, way.left, *([way.history] if way.history else [])))
+    outcomes = {outcome for _, outcome in transition.outcomes}
+    outcome = outcomes.pop() if len(outcomes) == 1 else dict(transition.outcomes)
+    history = [transition.history] if transition.history else []
+    return Call("Way", (outcome, transition.left, *history))
 
 
 def class_of(node: Node, system: System) -> tuple[str, str]:
-    """The class of a state or that it extends, and what it does."""
+    """Return the class or base class of a state, and its docstring."""
     if node.kind is Kind.JUNCTION:
         kept = "was active last" if node.state is not None else "is entered first"
         return "Junction", f"Leads to the state that {kept}."
@@ -89,7 +90,10 @@ def class_of(node: Node, system: System) -> tuple[str, str]:
 
 
 def containers(node: Node, lines: Callable[[Node], Iterable[Statement]]) -> Iterator[ContainerView]:
-    """The functions that build it and what is inside, the outer ones first, with these `lines`."""
+    """Yield the functions that build a node and all inside, outer ones first.
+
+    `lines` returns the body of a function.
+    """
     if node.kind in (Kind.MACHINE, Kind.CONCURRENCE):
         yield _container(node, lines(node))
     for inside in node.nodes:
