@@ -16,10 +16,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.shared.events import Events, delays
 from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
+
+from swarmdsl.codegen import dataclass, fresh
+from swarmdsl.codegen.shared import Events, delays
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,

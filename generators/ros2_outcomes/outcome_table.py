@@ -9,9 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import Diagnostics, dataclass, fresh
 from swarmdsl.ir import DoneTrigger, State, StateKind, StateMachine, Trigger
 
 from ..outcome_routes import OutcomeRoute, Target, TransitionDomains, is_inside, outcome_word

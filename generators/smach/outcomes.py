@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from swarmdsl.base.naming import fresh
-from swarmdsl.base.records import dataclass, field
+from swarmdsl.codegen import dataclass, field, fresh
 
 from ..outcome_routes import Target
 from .module import PREEMPTED, Entry

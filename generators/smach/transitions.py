@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from swarmdsl.base.records import dataclass
+from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import Call, Source, comments
 from swarmdsl.ir import (
     EventTrigger,
