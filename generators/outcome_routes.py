@@ -16,10 +16,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from swarmdsl.codegen.shared.internal_into_regions import inward, region_entered
-
 from swarmdsl.codegen import dataclass, fresh
-from swarmdsl.codegen.shared import Events, delays
+from swarmdsl.codegen.shared import Events, delays, entered_region, region_transitions
 from swarmdsl.ir import (
     DoneTrigger,
     EventTrigger,
@@ -120,7 +118,7 @@ class TransitionDomains:
             return []
         found = []
         for each in state.transitions:
-            delegated = region_entered(each, state) is not None
+            delegated = entered_region(each, state) is not None
             target = None
             if each.target is not None and not delegated:
                 target = target_in(self.domain(each, state), each.target)
@@ -128,7 +126,7 @@ class TransitionDomains:
             found.append(OutcomeRoute(state, state, each, triggers, each.guard, target, delegated))
         owner = self.parent(state)
         if owner.kind is StateKind.PARALLEL:
-            for event, guard, each, _ in inward(state, owner, self.events):
+            for event, guard, each, _ in region_transitions(state, owner, self.events):
                 assert each.target is not None
                 triggers = tuple(pair for pair in self._triggers(each, owner) if pair[1] == event)
                 target = target_in(state.id, each.target)
