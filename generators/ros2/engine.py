@@ -14,7 +14,7 @@ from swarmdsl.codegen import engine_folder
 # How docstrings begin that are no orders, as the linters want them to be.
 _NOUNS = ("A", "An", "The", "What", "Which")
 # In an order in which each needs only those before it.
-_MODULES = ("world", "table", "activity", "step", "configuration", "instance")
+_MODULES = ("table", "activity", "world", "step", "configuration", "instance")
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
 

@@ -745,6 +745,6 @@ def test_what_a_machine_remembers_is_bounded() -> None:
     for number in range(50_000):
         instance.receive(Event(f"unknown{number}"))
 
-    kept = sum(len(each._by_event) for each in machine.known.values())
+    kept = sum(len(each._by_event) for each in machine.configurations.values())
     assert kept <= 20_001
     assert after(instance, "e") == ["b"]

@@ -9,7 +9,18 @@ because generated packages get a copy.
 from .activity import Run, Servers
 from .configuration import Configuration
 from .instance import Instance
-from .table import Activity, Effect, Event, Guard, Kind, Machine, State, TableError, Transition
+from .table import (
+    Activity,
+    Effect,
+    Event,
+    Guard,
+    InstanceLike,
+    Kind,
+    Machine,
+    State,
+    TableError,
+    Transition,
+)
 from .world import ExecutionError, LoopError, Observer, World, bounded
 
 __all__ = [
@@ -20,6 +31,7 @@ __all__ = [
     "ExecutionError",
     "Guard",
     "Instance",
+    "InstanceLike",
     "Kind",
     "LoopError",
     "Machine",

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
-from .table import Activity, Event
-
-if TYPE_CHECKING:
-    from .instance import Instance
+from .table import Activity, Event, InstanceLike
 
 
 class Timer:
@@ -18,7 +15,7 @@ class Timer:
 
     __slots__ = ("event", "handle", "id", "instance", "over")
 
-    def __init__(self, instance: Instance, event: Event, id_: str) -> None:
+    def __init__(self, instance: InstanceLike, event: Event, id_: str) -> None:
         self.instance = instance
         self.event = Event(event.name, event.data, self)
         self.id = id_
@@ -31,6 +28,28 @@ class Timer:
             self.instance.receive(self.event)
 
 
+class ActivityHost(Protocol):
+    """Executor of activities: the part of a `World` that runs use."""
+
+    def start(self, run: Run) -> None:
+        """Start an activity; call `run.end` when it has ended."""
+
+    def cancel(self, run: Run) -> None:
+        """Ask an activity to stop; call `run.end` when its server is free again."""
+
+
+class ActivityOwner(InstanceLike, Protocol):
+    """An instance whose states have activities."""
+
+    @property
+    def world(self) -> ActivityHost:
+        """The host of the activities."""
+
+    @property
+    def servers(self) -> Servers | None:
+        """The servers of the robot; None before the first activity starts."""
+
+
 class Run:
     """One run of the activity of a state.
 
@@ -40,7 +59,7 @@ class Run:
 
     __slots__ = ("activity", "ended", "goal", "instance", "over", "state")
 
-    def __init__(self, instance: Instance, state: int, activity: Activity) -> None:
+    def __init__(self, instance: ActivityOwner, state: int, activity: Activity) -> None:
         self.instance = instance
         self.state = state
         self.activity = activity

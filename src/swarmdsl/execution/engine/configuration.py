@@ -8,16 +8,31 @@ are first needed and kept in the machine: instances go from one `Configuration` 
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-from .step import Step, Steps
-from .table import Edge, Event, Machine, members
+from .step import Microstep, MicrostepBuilder, ObserverCall
+from .table import Edge, Event, InstanceLike, Machine, members
 
-if TYPE_CHECKING:
-    from .instance import Instance
-
-_REMEMBERED = 20_000
+_CACHE_SIZE = 20_000
 """How many decisions a machine keeps; there are as many configurations as one likes."""
+
+
+class Step:
+    """A microstep from one configuration to the next.
+
+    `program` holds the operations in order, each with the states that are active at that moment;
+    `traced` also calls the observer. A `quiet` step ends where only an event can lead on, unless
+    its program raises one.
+    """
+
+    __slots__ = ("final", "program", "quiet", "starts", "target", "traced")
+
+    def __init__(self, microstep: Microstep, target: Configuration) -> None:
+        self.target = target
+        self.traced = microstep.operations
+        self.program = tuple([o for o in self.traced if not isinstance(o[1], ObserverCall)])
+        self.starts = microstep.starts
+        self.final = microstep.final
+        self.quiet = not (target.restless or self.starts or self.final)
 
 
 class Decision:
@@ -32,7 +47,7 @@ class Decision:
         self.step = step
         self.candidates = candidates
 
-    def choose(self, instance: Instance, event: Event) -> list[Edge]:
+    def choose(self, instance: InstanceLike, event: Event) -> list[Edge]:
         """The transitions that guards let through: for each path, the first that holds."""
         enabled: list[Edge] = []
         refused: list[Edge] = []
@@ -81,7 +96,7 @@ class Configuration:
 
     def at(self, active: int, histories: tuple[int, ...]) -> Configuration:
         """Another configuration of the machine, one object as long as it is remembered."""
-        known = self.machine.known.get((active, histories))
+        known: Configuration | None = self.machine.configurations.get((active, histories))
         return known if known is not None else Configuration(self.machine, active, histories)
 
     def decide(self, name: str) -> Decision:
@@ -114,24 +129,30 @@ class Configuration:
         known = self._by_transitions.get(key)
         if known is None:
             self._remember()
-            known = self._by_transitions[key] = Steps(self).take(key)
+            known = self._by_transitions[key] = self._lead(self._builder().take(key))
         return known
 
     def end(self) -> Step:
         """The step that leaves all states."""
-        return Steps(self).leave()
+        return self._lead(self._builder().leave())
+
+    def _builder(self) -> MicrostepBuilder:
+        return MicrostepBuilder(self.machine, self.active, self.histories)
+
+    def _lead(self, microstep: Microstep) -> Step:
+        return Step(microstep, self.at(microstep.active, microstep.histories))
 
     def _remember(self) -> None:
         """Keep the machine from remembering more and more: it begins again instead."""
         machine = self.machine
-        machine.remembered += 1
-        if machine.remembered > _REMEMBERED:
-            for each in machine.known.values():
+        machine.cached += 1
+        if machine.cached > _CACHE_SIZE:
+            for each in machine.configurations.values():
                 each._by_event.clear()
                 each._by_transitions.clear()
-            machine.known.clear()
-            machine.remembered = 0
-        machine.known[self.active, self.histories] = self
+            machine.configurations.clear()
+            machine.cached = 0
+        machine.configurations[self.active, self.histories] = self
 
 
 def before_start(machine: Machine) -> Configuration:

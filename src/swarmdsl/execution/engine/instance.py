@@ -6,9 +6,8 @@ from collections import deque
 from typing import Any
 
 from .activity import Run, Servers, Timer
-from .configuration import Configuration, before_start
-from .step import Step
-from .table import Effect, Event, Guard, Machine
+from .configuration import Configuration, Step, before_start
+from .table import Effect, Event, Guard, Machine, Origin
 from .world import FAILURES, LoopError, Observer, World
 
 _LOOKED_AT = 100
@@ -249,7 +248,7 @@ class Instance:
         except FAILURES as error:
             self.fail(error)
 
-    def _accept(self, origin: Run | Timer, event: Event) -> bool:
+    def _accept(self, origin: Origin, event: Event) -> bool:
         """Whether an event of this instance itself still counts: its state was not left."""
         if origin.over:
             return False
@@ -257,7 +256,7 @@ class Instance:
         if isinstance(origin, Timer):
             assert self._timers is not None
             self._timers.remove(origin)
-        else:
+        elif isinstance(origin, Run):
             assert self._runs is not None
             del self._runs[origin.state]
             activity = origin.activity

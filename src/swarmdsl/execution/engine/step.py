@@ -3,58 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any, Callable  # noqa: UP035 - for Python 3.8
+from typing import Any, Callable, NamedTuple, Protocol  # noqa: UP035 - for Python 3.8
 
-from .table import Edge, Event, Kind, State, Transition, members
+from .table import Edge, Event, InstanceLike, Kind, Machine, State, Transition, members
 from .world import FAILURES
 
-if TYPE_CHECKING:
-    from .configuration import Configuration
-    from .instance import Instance
 
-Operation = Callable[["Instance", Event], object]
+class Executor(InstanceLike, Protocol):
+    """An instance as operations of a microstep see it."""
+
+    def stop_activity(self, state: int) -> None:
+        """Cancel the activity of a state that is left."""
 
 
-class Step:
-    """A microstep: what taking some transitions does.
+Operation = Callable[[Executor, Event], object]
 
-    `program` is what is done, in order, each with the states that are active at that moment,
-    `traced` that for instances that are observed. `starts` are the states entered
-    that have an activity, `final` is the final state of the machine itself that was entered.
-    A `quiet` step leads to where only an event can lead on from, unless its program raised one.
+
+class Microstep(NamedTuple):
+    """Result of taking transitions, as plain data.
+
+    `active` and `histories` describe the configuration after it. `operations` are executed in
+    order, each with the states that are active at that moment. `starts` are the entered states
+    that have an activity, `final` is the entered final state of the machine itself, or 0.
     """
 
-    __slots__ = ("final", "program", "quiet", "starts", "target", "traced")
-
-    def __init__(
-        self,
-        target: Configuration,
-        traced: tuple[tuple[int, Operation], ...],
-        starts: tuple[int, ...],
-        final: int,
-    ) -> None:
-        self.target = target
-        self.traced = traced
-        self.program = tuple([each for each in traced if not isinstance(each[1], _Mark)])
-        self.starts = starts
-        self.final = final
-        self.quiet = not (target.restless or starts or final)
+    active: int
+    histories: tuple[int, ...]
+    operations: tuple[tuple[int, Operation], ...]
+    starts: tuple[int, ...]
+    final: int
 
 
-class Steps:
-    """Works out steps from one configuration; the names are those of Appendix D."""
+class MicrostepBuilder:
+    """Compute the microsteps from one configuration; methods are named as in Appendix D."""
 
-    def __init__(self, source: Configuration) -> None:
-        self.source = source
-        self.machine = source.machine
-        histories = [h for around in self.machine.histories for h in around]
-        self.held = {each: source.histories[i] for i, each in enumerate(histories)}
+    def __init__(self, machine: Machine, active: int, histories: tuple[int, ...]) -> None:
+        self.machine = machine
+        self.active = active
+        self.histories = histories
+        numbers = [h for around in machine.histories for h in around]
+        self.held = {each: histories[i] for i, each in enumerate(numbers)}
         self.entered = 0
         self.by_default = 0
         self.from_history: dict[int, Edge] = {}
 
-    def take(self, enabled: tuple[Edge, ...]) -> Step:
-        """What the transitions do: exit, effects, entry."""
+    def take(self, enabled: tuple[Edge, ...]) -> Microstep:
+        """Compute exit, effects and entry of the enabled transitions."""
         machine = self.machine
         transitions = self._without_conflicts(enabled)
         left = 0
@@ -69,10 +63,10 @@ class Steps:
             for entered in self._effective_targets(edge):
                 self._add_ancestors(entered, domain)
         program = self._exit_program(left)
-        active = self.source.active & ~left
+        active = self.active & ~left
         for edge in transitions:
             if edge.source or edge.table.events:
-                program.append((active, _Mark("taken", edge.table)))
+                program.append((active, ObserverCall("taken", edge.table)))
             if edge.table.effect is not None:
                 program.append((active, edge.table.effect))
         starts = []
@@ -87,13 +81,13 @@ class Steps:
                 if machine.parents[number] == 0:
                     final = number
                 program += [(active, each) for each in self._done(number, state, active)]
-        target = self.source.at(active, tuple(self.held.values()))
-        return Step(target, tuple(program), tuple(starts), final)
+        histories = tuple(self.held.values())
+        return Microstep(active, histories, tuple(program), tuple(starts), final)
 
-    def leave(self) -> Step:
-        """What is done when the machine ends."""
-        program = self._exit_program(self.source.active)
-        return Step(self.source.at(0, self.source.histories), tuple(program), (), 0)
+    def leave(self) -> Microstep:
+        """Compute the exit of all states, when the machine ends."""
+        program = self._exit_program(self.active)
+        return Microstep(0, self.histories, tuple(program), (), 0)
 
     def _without_conflicts(self, enabled: tuple[Edge, ...]) -> list[Edge]:
         """removeConflictingTransitions: of two that leave the same state, one is taken."""
@@ -111,7 +105,7 @@ class Steps:
     def _exit_set(self, edge: Edge) -> int:
         if not edge.targets:
             return 0
-        return self.source.active & self.machine.inside[self._domain(edge)]
+        return self.active & self.machine.inside[self._domain(edge)]
 
     def _domain(self, edge: Edge) -> int:
         """getTransitionDomain: the state inside of which a transition stays."""
@@ -187,18 +181,18 @@ class Steps:
 
     def _exit_program(self, left: int) -> list[tuple[int, Operation]]:
         program: list[tuple[int, Operation]] = []
-        active = self.source.active
+        active = self.active
         for number in reversed(members(left)):
             state = self.machine.states[number]
             program += [(active, each) for each in state.exit]
             if state.activity is not None:
                 program.append((active, _Stop(number)))
             active &= ~(1 << number)
-            program.append((active, _Mark("exited", state)))
+            program.append((active, ObserverCall("exited", state)))
         return program
 
     def _entry_operations(self, number: int, state: State) -> list[Operation]:
-        operations: list[Operation] = [_Mark("entered", state), *state.entry]
+        operations: list[Operation] = [ObserverCall("entered", state), *state.entry]
         ways = [
             self.machine.entries[number] if self.by_default >> number & 1 else None,
             self.from_history.get(number),
@@ -230,7 +224,7 @@ class Steps:
 
     def _record(self, left: int) -> None:
         """Let the histories of the states that are left hold what was active there."""
-        machine, active = self.machine, self.source.active
+        machine, active = self.machine, self.active
         for history in self.held:
             around = machine.parents[history]
             if left >> around & 1:
@@ -242,8 +236,8 @@ class Steps:
                 self.held[history] = sum(1 << n for n in found)
 
 
-class _Mark:
-    """An operation that only an observer is told of."""
+class ObserverCall:
+    """Operation that calls a method of the observer."""
 
     __slots__ = ("call", "what")
 
@@ -251,7 +245,8 @@ class _Mark:
         self.call = call
         self.what = what
 
-    def __call__(self, instance: Instance, event: Event) -> None:
+    def __call__(self, instance: Executor, event: Event) -> None:
+        """Call it."""
         getattr(instance.observer, self.call)(instance, self.what)
 
 
@@ -263,7 +258,7 @@ class _Stop:
     def __init__(self, number: int) -> None:
         self.number = number
 
-    def __call__(self, instance: Instance, event: Event) -> None:
+    def __call__(self, instance: Executor, event: Event) -> None:
         instance.stop_activity(self.number)
 
 
@@ -276,7 +271,7 @@ class _Done:
         self.name = f"done.state.{state}"
         self.final = final
 
-    def __call__(self, instance: Instance, event: Event) -> None:
+    def __call__(self, instance: Executor, event: Event) -> None:
         data: Any = None
         if self.final is not None and self.final.donedata is not None:
             try:

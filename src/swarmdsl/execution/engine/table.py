@@ -11,30 +11,97 @@ from dataclasses import dataclass
 from enum import Enum
 from functools import cached_property
 from itertools import combinations
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple  # noqa: UP035 - for Python 3.8
+from typing import Any, Callable, NamedTuple, Protocol  # noqa: UP035 - for Python 3.8
 
-if TYPE_CHECKING:
-    from .activity import Run, Timer
-    from .configuration import Configuration
-    from .instance import Instance
+
+class Origin(Protocol):
+    """A delay or a run of an activity that sends an event to its own instance."""
+
+    over: bool
 
 
 class Event:
-    """Something that happened, by name, and the data that came with it; never changed.
+    """Name and data of something that happened; immutable.
 
-    `origin` is the activity or delay of the instance itself that it came from, if any.
+    `origin` is the delay or activity of the instance that sent the event, if any.
     """
 
     __slots__ = ("data", "name", "origin")
 
-    def __init__(self, name: str, data: Any = None, origin: Run | Timer | None = None) -> None:
+    def __init__(self, name: str, data: Any = None, origin: Origin | None = None) -> None:
         self.name = name
         self.data = data
         self.origin = origin
 
 
-Guard = Callable[["Instance", Event], Any]
-Effect = Callable[["Instance", Event], object]
+class ActiveStates(Protocol):
+    """Active states of an instance: a `Configuration`."""
+
+    @property
+    def ids(self) -> list[str]:
+        """Ids of the active states, in document order."""
+
+    @property
+    def innermost(self) -> list[str]:
+        """Ids of the active states without active children."""
+
+
+class InstanceLike(Protocol):
+    """The part of an `Instance` that guards, effects, observers and worlds use."""
+
+    data: Any
+    running: bool
+
+    @property
+    def machine(self) -> Machine:
+        """The machine that runs."""
+
+    @property
+    def configuration(self) -> ActiveStates:
+        """The active states, between two steps."""
+
+    @property
+    def final(self) -> str | None:
+        """Id of the final state in which the machine ended."""
+
+    @property
+    def observer(self) -> Logger | None:
+        """Receiver of log lines."""
+
+    def active(self, state: str) -> bool:
+        """Return True if a state is active."""
+
+    def holds(self, guard: Guard, event: Event) -> bool:
+        """Return True if a guard holds."""
+
+    def receive(self, event: Event) -> None:
+        """Process an event from outside."""
+
+    def raise_event(self, event: Event) -> None:
+        """Append an event to the internal queue."""
+
+    def send_after(self, event: Event, delay: int, id_: str = "") -> None:
+        """Send an event to this instance after a delay in nanoseconds."""
+
+    def cancel(self, id_: str) -> None:
+        """Cancel the delayed events with an id."""
+
+    def fail(self, error: Exception) -> None:
+        """Report an error to the world and raise `error.execution`."""
+
+    def emit(self, event: Event) -> None:
+        """Send an event to the world."""
+
+
+class Logger(Protocol):
+    """Receiver of log lines: an `Observer`."""
+
+    def logged(self, instance: InstanceLike, text: str) -> None:
+        """Take a line that an effect wrote."""
+
+
+Guard = Callable[[InstanceLike, Event], Any]
+Effect = Callable[[InstanceLike, Event], object]
 """Executable content, done as a whole: where it fails, the rest of it is not done."""
 
 
@@ -79,7 +146,7 @@ class Activity:
     name: str
     server: str
     events: Mapping[str, str]
-    goal: Callable[[Instance], Any] | None = None
+    goal: Callable[[InstanceLike], Any] | None = None
     finalize: Effect | None = None
     refused: str = "aborted"
 
@@ -100,7 +167,7 @@ class State(NamedTuple):
     entry: tuple[Effect, ...] = ()
     exit: tuple[Effect, ...] = ()
     activity: Activity | None = None
-    donedata: Callable[[Instance, Event], Any] | None = None
+    donedata: Callable[[InstanceLike, Event], Any] | None = None
     origin: object = None
 
 
@@ -177,8 +244,10 @@ class Machine:
             self._link(number, state)
         self.blank = (0,) * sum(map(len, self.histories))
         """What the histories of an instance hold at first: nothing."""
-        self.known: dict[tuple[int, tuple[int, ...]], Configuration] = {}
-        self.remembered = 0
+        self.configurations: dict[tuple[int, tuple[int, ...]], Any] = {}
+        """Cache of `configuration.Configuration`, by active states and histories."""
+        self.cached = 0
+        """Number of decisions and steps in the cache."""
 
     def _add(self, state: State, parent: int) -> None:
         number = len(self.states)

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Callable, Protocol  # noqa: UP035 - for Python 3.8
+from typing import Any, Callable, Protocol  # noqa: UP035 - for Python 3.8
 
-if TYPE_CHECKING:
-    from .activity import Run
-    from .instance import Instance
-    from .table import Event, State, Transition
+from .activity import ActivityHost, Run
+from .table import Event, InstanceLike, State, Transition
 
 
 class ExecutionError(Exception):
@@ -53,7 +51,7 @@ class LoopError(Exception):
         self.states = states
 
 
-class World(Protocol):
+class World(ActivityHost, Protocol):
     """The clock, the servers of the activities, and those who hear of events.
 
     An instance calls these in the middle of a step. What happens in them may reach the same
@@ -66,42 +64,36 @@ class World(Protocol):
     def unschedule(self, handle: Any) -> None:
         """Do not call it any more."""
 
-    def start(self, run: Run) -> None:
-        """Begin an activity, and call `run.end` when it has ended."""
-
-    def cancel(self, run: Run) -> None:
-        """Ask an activity to stop; it still calls `run.end`, when its server is free again."""
-
-    def send(self, instance: Instance, event: Event) -> None:
+    def send(self, instance: InstanceLike, event: Event) -> None:
         """Bring an event of the instance to others."""
 
-    def failed(self, instance: Instance, error: Exception) -> None:
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Say that a guard, an effect or a goal had no value: an event alone may be lost."""
 
 
 class Observer:
     """Is told what an instance does, in order; a trace extends it."""
 
-    def received(self, instance: Instance, event: Event) -> None:
+    def received(self, instance: InstanceLike, event: Event) -> None:
         """An event is looked at."""
 
-    def exited(self, instance: Instance, state: State) -> None:
+    def exited(self, instance: InstanceLike, state: State) -> None:
         """A state has been left."""
 
-    def taken(self, instance: Instance, transition: Transition) -> None:
+    def taken(self, instance: InstanceLike, transition: Transition) -> None:
         """A transition is taken: the states have been left, its effect comes next."""
 
-    def entered(self, instance: Instance, state: State) -> None:
+    def entered(self, instance: InstanceLike, state: State) -> None:
         """A state has been entered; its effects come next."""
 
-    def started(self, instance: Instance, run: Run) -> None:
+    def started(self, instance: InstanceLike, run: Run) -> None:
         """An activity was started, or waits for its server."""
 
-    def cancelled(self, instance: Instance, run: Run) -> None:
+    def cancelled(self, instance: InstanceLike, run: Run) -> None:
         """The state of an activity that had not ended was left."""
 
-    def sent(self, instance: Instance, event: Event) -> None:
+    def sent(self, instance: InstanceLike, event: Event) -> None:
         """An event was sent to others."""
 
-    def logged(self, instance: Instance, text: str) -> None:
+    def logged(self, instance: InstanceLike, text: str) -> None:
         """An effect has written a line."""

@@ -8,7 +8,7 @@ from decimal import Decimal
 from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
-from swarmdsl.execution.engine import Effect, Event, ExecutionError, Guard, Instance
+from swarmdsl.execution.engine import Effect, Event, ExecutionError, Guard, InstanceLike
 from swarmdsl.execution.engine.world import FAILURES
 from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.execution.scxml.ecmascript import Unreadable, Value, location, read
@@ -20,7 +20,7 @@ _UNITS["d"] = 24 * _UNITS["h"]
 # What <send> may say for the machine itself, and for its internal queue.
 _HERE = ("", "#_scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor", "scxml")
 
-Data = Callable[[Instance, Event], Any]
+Data = Callable[[InstanceLike, Event], Any]
 
 
 def delay_of(written: str) -> int | None:
@@ -143,7 +143,7 @@ class Content:
                 branches[-1][1].append(self._effect(child))
         made = [(guard, _all_of(effects)) for guard, effects in branches]
 
-        def choose(instance: Instance, event: Event) -> None:
+        def choose(instance: InstanceLike, event: Event) -> None:
             for guard, effect in made:
                 if guard is None or instance.holds(guard, event):
                     if effect is not None:
@@ -156,7 +156,7 @@ class Content:
         label = node.get("label")
         value = self.expression(node, "expr")
 
-        def log(instance: Instance, event: Event) -> None:
+        def log(instance: InstanceLike, event: Event) -> None:
             words = [label] if label is not None else []
             if value is not None:
                 words.append(text(value(instance, event, {})))
@@ -173,7 +173,7 @@ class Content:
         data = self.data(node)
         delay = self._delay(node)
 
-        def send(instance: Instance, event: Event) -> None:
+        def send(instance: InstanceLike, event: Event) -> None:
             named = name(instance, event)
             if not named:
                 raise ExecutionError("an event without a name cannot be sent")
@@ -191,7 +191,7 @@ class Content:
 
         return send
 
-    def _delay(self, node: Node) -> Callable[[Instance, Event], int] | None:
+    def _delay(self, node: Node) -> Callable[[InstanceLike, Event], int] | None:
         written = node.get("delay")
         if written is not None:
             length = delay_of(written)
@@ -205,7 +205,7 @@ class Content:
         if value is None:
             return None
 
-        def computed(instance: Instance, event: Event) -> int:
+        def computed(instance: InstanceLike, event: Event) -> int:
             found = value(instance, event, {})
             length = delay_of(text(found))
             if length is None:
@@ -214,7 +214,7 @@ class Content:
 
         return computed
 
-    def _text(self, node: Node, attribute: str) -> Callable[[Instance, Event], str]:
+    def _text(self, node: Node, attribute: str) -> Callable[[InstanceLike, Event], str]:
         """A text that is given by an attribute, or computed by the one with `expr` behind."""
         written = node.get(attribute) or ""
         value = self.expression(node, f"{attribute}expr")
@@ -226,7 +226,7 @@ class Content:
 def _with_value(fields: list[tuple[str, Value]]) -> Data:
     """Those of the fields that have a value."""
 
-    def data(instance: Instance, event: Event) -> Any:
+    def data(instance: InstanceLike, event: Event) -> Any:
         found = {}
         for name, value in fields:
             try:
@@ -238,7 +238,7 @@ def _with_value(fields: list[tuple[str, Value]]) -> Data:
     return data
 
 
-def nothing(instance: Instance, event: Event, names: object) -> None:
+def nothing(instance: InstanceLike, event: Event, names: object) -> None:
     """The value where none is given."""
 
 
@@ -247,7 +247,7 @@ def _all_of(effects: Iterable[Effect | None]) -> Effect | None:
     if len(made) < 2:
         return made[0] if made else None
 
-    def all_of_them(instance: Instance, event: Event) -> None:
+    def all_of_them(instance: InstanceLike, event: Event) -> None:
         for each in made:
             each(instance, event)
 

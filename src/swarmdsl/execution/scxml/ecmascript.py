@@ -17,11 +17,11 @@ from typing import Any
 from lark import Lark, Token, Tree
 from lark.exceptions import UnexpectedInput, UnexpectedToken
 
-from swarmdsl.execution.engine import Event, ExecutionError, Instance
+from swarmdsl.execution.engine import Event, ExecutionError, InstanceLike
 from swarmdsl.execution.scxml.values import FUNCTIONS, OPERATIONS, SIGNS, text, truth, whole
 
 Names = Mapping[str, Any]
-Value = Callable[[Instance, Event, Names], Any]
+Value = Callable[[InstanceLike, Event, Names], Any]
 """The value of an expression; the names are parameters of the functions around it."""
 
 _GRAMMAR = r"""
@@ -82,13 +82,13 @@ def read(written: str) -> Value:
 
 
 @lru_cache(maxsize=1000)
-def location(written: str) -> Callable[[Instance, Event, Any], None]:
+def location(written: str) -> Callable[[InstanceLike, Event, Any], None]:
     """What assigns to a variable, or to a member of one. Raises Unreadable."""
     tree = parse(written)
     if tree.data == "name":
         name = str(tree.children[0])
 
-        def assign(instance: Instance, event: Event, value: Any) -> None:
+        def assign(instance: InstanceLike, event: Event, value: Any) -> None:
             if name not in instance.data:
                 raise ExecutionError(f"there is no variable `{name}`")
             instance.data[name] = value
@@ -99,7 +99,7 @@ def location(written: str) -> Callable[[Instance, Event, Any], None]:
     base = _function(tree.children[0])
     key = _key(tree)
 
-    def assign_member(instance: Instance, event: Event, value: Any) -> None:
+    def assign_member(instance: InstanceLike, event: Event, value: Any) -> None:
         held, name = base(instance, event, {}), key(instance, event, {})
         if isinstance(held, dict):
             held[text(name)] = value
@@ -173,7 +173,7 @@ def _function(tree: Any) -> Value:
             first, second = _function(children[0]), _function(children[1])
             decisive = word == "either"
 
-            def logical(instance: Instance, event: Event, names: Names) -> Any:
+            def logical(instance: InstanceLike, event: Event, names: Names) -> Any:
                 value = first(instance, event, names)
                 return value if truth(value) is decisive else second(instance, event, names)
 
@@ -193,7 +193,7 @@ def _name(name: str) -> Value:
     if name in ("_name", "_sessionid"):
         return lambda instance, event, names: instance.machine.name
 
-    def value(instance: Instance, event: Event, names: Names) -> Any:
+    def value(instance: InstanceLike, event: Event, names: Names) -> Any:
         for known in (names, instance.data):
             if name in known:
                 return known[name]
@@ -203,7 +203,7 @@ def _name(name: str) -> Value:
 
 
 def _or_undefined(name: Value) -> Value:
-    def value(instance: Instance, event: Event, names: Names) -> Any:
+    def value(instance: InstanceLike, event: Event, names: Names) -> Any:
         try:
             return name(instance, event, names)
         except ExecutionError:
@@ -222,7 +222,7 @@ def _member(tree: Any) -> Value:
         raise Unreadable(f"`_event.{part}` is not known, only its `name` and `data`")
     base, key = _function(tree.children[0]), _key(tree)
 
-    def value(instance: Instance, event: Event, names: Names) -> Any:
+    def value(instance: InstanceLike, event: Event, names: Names) -> Any:
         held, name = base(instance, event, names), key(instance, event, names)
         if held is None:
             raise ExecutionError(f"undefined has no `{text(name)}`")
@@ -278,14 +278,14 @@ def _call_function(function: Any, arguments: list[Value]) -> Value:
     body = _function(result)
     words = [str(each) for each in parameters]
 
-    def value(instance: Instance, event: Event, names: Names) -> Any:
+    def value(instance: InstanceLike, event: Event, names: Names) -> Any:
         given = {w: a(instance, event, names) for w, a in zip(words, arguments, strict=True)}
         return body(instance, event, {**names, **given})
 
     return value
 
 
-def _is_active(instance: Instance, state: Any) -> bool:
+def _is_active(instance: InstanceLike, state: Any) -> bool:
     return state in instance.machine.numbers and instance.active(state)
 
 

@@ -11,7 +11,7 @@ from swarmdsl.execution.engine import (
     Activity,
     Effect,
     Event,
-    Instance,
+    InstanceLike,
     Kind,
     Machine,
     State,
@@ -261,7 +261,7 @@ class _Reader:
             if each.name == "argument"
         ]
 
-        def goal(instance: Instance) -> dict[str, Any]:
+        def goal(instance: InstanceLike) -> dict[str, Any]:
             nothing = Event("")
             return {key: v(instance, nothing, {}) for key, v in fields if v is not None}
 
@@ -281,7 +281,7 @@ def _pattern(word: str) -> str:
 
 
 def _first_value(name: str, value: Value) -> Effect:
-    def store(instance: Instance, event: Event) -> None:
+    def store(instance: InstanceLike, event: Event) -> None:
         instance.data[name] = value(instance, event, {})
 
     return store

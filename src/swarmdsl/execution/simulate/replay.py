@@ -11,7 +11,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen.shared.default_values import default_value, result_fields
-from swarmdsl.execution.engine import Event, Instance, LoopError, Run, Servers
+from swarmdsl.execution.engine import Event, Instance, InstanceLike, LoopError, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, shown
@@ -153,10 +153,10 @@ class _Replay:
         self._runs.remove(run)
         run.end("preempted")
 
-    def send(self, instance: Instance, event: Event) -> None:
+    def send(self, instance: InstanceLike, event: Event) -> None:
         """Do nothing: what others heard is in their lines."""
 
-    def failed(self, instance: Instance, error: Exception) -> None:
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Do nothing: the line shows what came of it."""
 
     # ---- inside

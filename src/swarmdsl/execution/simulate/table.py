@@ -21,7 +21,7 @@ from swarmdsl.execution.engine import (
     Event,
     ExecutionError,
     Guard,
-    Instance,
+    InstanceLike,
     Kind,
     Machine,
     State,
@@ -161,7 +161,7 @@ class _Maker:
         sent = sent_types(self.system.interface(call.type))
         goal = [(name, stored(value, sent.get(name))) for name, value in activity.arguments]
 
-        def make_goal(instance: Instance) -> dict[str, Any]:
+        def make_goal(instance: InstanceLike) -> dict[str, Any]:
             return {name: value(instance.data, None) for name, value in goal}
 
         return Activity(
@@ -191,7 +191,7 @@ class _Maker:
         if len(made) == 1:
             return made[0]
 
-        def all_of_them(instance: Instance, event: Event) -> None:
+        def all_of_them(instance: InstanceLike, event: Event) -> None:
             for each in made:
                 each(instance, event)
 
@@ -204,7 +204,7 @@ class _Maker:
                 held = field_type(self.types.get(variable), path, self.system)
                 value = stored(expression, held)
 
-                def assign(instance: Instance, event: Event) -> None:
+                def assign(instance: InstanceLike, event: Event) -> None:
                     _store(instance.data, variable, path, value(instance.data, event.data))
 
                 return assign
@@ -215,7 +215,7 @@ class _Maker:
                     for field, value in arguments
                 ]
 
-                def send(instance: Instance, event: Event) -> None:
+                def send(instance: InstanceLike, event: Event) -> None:
                     message = default_value(type_, self.system)
                     for field, value in fields:
                         message[field] = value(instance.data, event.data)
@@ -264,7 +264,7 @@ def _store(data: dict[str, Any], variable: str, path: tuple[str, ...], value: An
 
 
 def _store_results(results: Iterable[tuple[ir.ResultMapping, str | None]]) -> Effect:
-    def store(instance: Instance, event: Event) -> None:
+    def store(instance: InstanceLike, event: Event) -> None:
         for result, bound in results:
             try:
                 value = event.data[result.field]
@@ -286,7 +286,7 @@ def _raise(name: str) -> Effect:
 def _start_timers(timers: Mapping[str, Expression]) -> Effect:
     lengths = [(name, function_of(delay)) for name, delay in timers.items()]
 
-    def start(instance: Instance, event: Event) -> None:
+    def start(instance: InstanceLike, event: Event) -> None:
         for name, length in lengths:
             instance.send_after(Event(name), math.ceil(length(instance.data, None)), name)
 
@@ -294,7 +294,7 @@ def _start_timers(timers: Mapping[str, Expression]) -> Effect:
 
 
 def _cancel_timers(names: Iterable[str]) -> Effect:
-    def cancel(instance: Instance, event: Event) -> None:
+    def cancel(instance: InstanceLike, event: Event) -> None:
         for name in names:
             instance.cancel(name)
 

@@ -7,7 +7,16 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.execution.engine import Event, Instance, LoopError, Observer, Run, State, Transition
+from swarmdsl.execution.engine import (
+    Event,
+    Instance,
+    InstanceLike,
+    LoopError,
+    Observer,
+    Run,
+    State,
+    Transition,
+)
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Clock
 from swarmdsl.execution.simulate.durations import MILLISECOND, SECOND
@@ -43,17 +52,17 @@ class Trace(Observer):
     def __init__(self, clock: Clock, listeners: Sequence[Callable[[Line], None]]) -> None:
         self._clock = clock
         self._listeners = listeners
-        self._actors: dict[Instance, Actor] = {}
+        self._actors: dict[InstanceLike, Actor] = {}
         self._line: Line | None = None
-        self._instance: Instance | None = None
-        self._busy: dict[Instance, tuple[int, int]] = {}
+        self._instance: InstanceLike | None = None
+        self._busy: dict[InstanceLike, tuple[int, int]] = {}
 
     def watch(self, instance: Instance, actor: Actor) -> None:
         """Listen to an instance."""
         self._actors[instance] = actor
         instance.observer = self
 
-    def begin(self, instance: Instance, event: str | None, data: Any = None) -> None:
+    def begin(self, instance: InstanceLike, event: str | None, data: Any = None) -> None:
         """An event from outside is looked at: the line of the one before is complete.
 
         Raises LoopError where this happens again and again while no time passes.
@@ -88,38 +97,38 @@ class Trace(Observer):
 
     # ---- what an instance tells
 
-    def received(self, instance: Instance, event: Event) -> None:
+    def received(self, instance: InstanceLike, event: Event) -> None:
         """Begin a line for a delay or an activity; others have begun theirs already."""
         if event.origin is not None:
             self.begin(instance, event.name, event.data)
 
-    def entered(self, instance: Instance, state: State) -> None:
+    def entered(self, instance: InstanceLike, state: State) -> None:
         """Note it."""
         assert self._line is not None
         self._line.entered.append(state.id)
 
-    def exited(self, instance: Instance, state: State) -> None:
+    def exited(self, instance: InstanceLike, state: State) -> None:
         """Note it, but for the final state in which the machine ended."""
         assert self._line is not None
         if instance.final is None:
             self._line.exited.append(state.id)
 
-    def taken(self, instance: Instance, transition: Transition) -> None:
+    def taken(self, instance: InstanceLike, transition: Transition) -> None:
         """Note it."""
         assert self._line is not None
         self._line.taken.append(transition)
 
-    def started(self, instance: Instance, run: Run) -> None:
+    def started(self, instance: InstanceLike, run: Run) -> None:
         """Note it."""
         assert self._line is not None
         self._line.started.append(run.activity.name)
 
-    def cancelled(self, instance: Instance, run: Run) -> None:
+    def cancelled(self, instance: InstanceLike, run: Run) -> None:
         """Note it."""
         assert self._line is not None
         self._line.cancelled.append(run.activity.name)
 
-    def sent(self, instance: Instance, event: Event) -> None:
+    def sent(self, instance: InstanceLike, event: Event) -> None:
         """Note it."""
         assert self._line is not None
         self._line.sent.append(event.name)

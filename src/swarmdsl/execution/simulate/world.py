@@ -8,7 +8,7 @@ from typing import Any
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.shared.default_values import default_result
-from swarmdsl.execution.engine import Event, Instance, Run, Servers
+from swarmdsl.execution.engine import Event, Instance, InstanceLike, Run, Servers
 from swarmdsl.execution.simulate.actors import Actor
 from swarmdsl.execution.simulate.clock import Alarm, Clock
 from swarmdsl.execution.simulate.random_source import Chance
@@ -77,7 +77,7 @@ class World:
         self._unheard: list[Run] = []
         self._gone: set[Robot] = set()
         self._instances: dict[Actor, Instance] = {}
-        self._actors: dict[Instance, Actor] = {}
+        self._actors: dict[InstanceLike, Actor] = {}
         servers: dict[Robot, Servers] = {}
         for actor in actors:
             shared = servers.setdefault(actor.robot, Servers())
@@ -190,7 +190,7 @@ class World:
         else:
             self._stop(run)
 
-    def send(self, instance: Instance, event: Event) -> None:
+    def send(self, instance: InstanceLike, event: Event) -> None:
         """Bring an event to the machines of the robot, and a swarm event to the other robots."""
         if self._system is None:
             return
@@ -218,7 +218,7 @@ class World:
             self.heard[event.name] += 1
             self._later(delay, event.name, event.data, other)
 
-    def failed(self, instance: Instance, error: Exception) -> None:
+    def failed(self, instance: InstanceLike, error: Exception) -> None:
         """Count it."""
         self.failures[instance.machine.name, str(error)] += 1
 
