@@ -1,4 +1,4 @@
-"""What is said of the difference between two models."""
+"""Changes between two models."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from hypothesis import Phase, given, settings
 
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.tools.compare.architecture import system_element
-from swarmdsl.tools.compare.changes import Action, called
+from swarmdsl.tools.compare.architecture import model_element
+from swarmdsl.tools.compare.changes import Action, display_name
 from swarmdsl.tools.compare.comparison import compare
-from swarmdsl.tools.compare.report import breaking, differences
+from swarmdsl.tools.compare.report import format_breaking_changes, format_changes
 from swarmdsl.tools.compare.rules import RULES
 
 from ..swarm_printer.systems import systems
@@ -90,7 +90,7 @@ CHANGES = {
         "Panic",
         [
             "~ event Panic",
-            "    ~ was called `Alarm` [EVENT_REMOVED]",
+            "    ~ renamed from `Alarm` [EVENT_REMOVED]",
             "    ~ topic is `panic`, was `alarm` [EVENT_TOPIC]",
         ],
     ),
@@ -102,7 +102,7 @@ CHANGES = {
     "fields in another order": (
         "  x : float64\n  y : float64",
         "  y : float64\n  x : float64",
-        ["~ message lab/Spot", "    ~ fields are in another order [FIELD_ORDER]"],
+        ["~ message lab/Spot", "    ~ fields reordered [FIELD_ORDER]"],
     ),
     "a field retyped": (
         "range : float32\n    mode",
@@ -127,7 +127,7 @@ CHANGES = {
         "rate : float64",
         [
             "~ function look",
-            "    ~ param `rate`: default `10.0` is not said any more [PARAM_REQUIRED]",
+            "    ~ param `rate`: default `10.0` removed [PARAM_REQUIRED]",
         ],
     ),
     "a default": (
@@ -143,12 +143,12 @@ CHANGES = {
     "a state renamed": (
         "Pause",
         "Rest",
-        ["~ statemachine Watch", "    ~ state `Search.Rest`: was called `Pause`"],
+        ["~ statemachine Watch", "    ~ state `Search.Rest`: renamed from `Pause`"],
     ),
     "a state with its inside renamed": (
         "Search",
         "Hunt",
-        ["~ statemachine Watch", "    ~ state `Hunt`: was called `Search`"],
+        ["~ statemachine Watch", "    ~ state `Hunt`: renamed from `Search`"],
     ),
     "a transition retargeted": (
         "on aborted -> Pause",
@@ -186,7 +186,7 @@ CHANGES = {
     "a variable renamed": (
         "tries",
         "count",
-        ["~ statemachine Watch", "    ~ variable `count`: was called `tries`"],
+        ["~ statemachine Watch", "    ~ variable `count`: renamed from `tries`"],
     ),
     "an event that nothing handles": (
         "    on Reset -> Idle\n",
@@ -211,17 +211,17 @@ CHANGES = {
     "a final state renamed": (
         "Found",
         "Done",
-        ["~ statemachine Watch", "    ~ state `Done`: was called `Found` [OUTCOME_LOST]"],
+        ["~ statemachine Watch", "    ~ state `Done`: renamed from `Found` [OUTCOME_LOST]"],
     ),
     "a comment": (
         "statemachine Watch {",
         "/// Looks out.\nstatemachine Watch {",
-        ["~ statemachine Watch", "    ~ documentation is `Looks out.`, was not said"],
+        ["~ statemachine Watch", "    ~ documentation `Looks out.` added"],
     ),
     "a state moved out": (
         "    state Pause { after 5 s / tries = tries + 1 -> Look }\n    on Reset -> Idle\n  }",
         "    on Reset -> Idle\n  }\n  state Pause { after 5 s / tries = tries + 1 -> Search.Look }",
-        ["~ statemachine Watch", "    > state `Pause`: moved from `Search` to the machine"],
+        ["~ statemachine Watch", "    > state `Pause`: moved from `Search` to the top level"],
     ),
 }
 
@@ -234,9 +234,9 @@ def system(text: str, folder: Path) -> System:
     return result.system
 
 
-def said(before: System, after: System) -> list[str]:
-    changes, breaches = compare(before, after)
-    lines = differences(changes, breaches, "text", lambda _: "")
+def report(before: System, after: System) -> list[str]:
+    changes, breaking = compare(before, after)
+    lines = format_changes(changes, breaking, "text", lambda _: "")
     return [line.removesuffix(" ()") for line in lines]
 
 
@@ -249,20 +249,20 @@ def test_changes(case: str, tmp_path: Path) -> None:
         text = text.replace("    on Reset -> Idle\n", "")
     before, after = system(MODEL, tmp_path), system(text, tmp_path)
 
-    found = said(before, after)
+    found = report(before, after)
     if case == "the order of declarations":
         found = found[-1:]
     assert found == expected
-    assert bool(said(after, before)) == bool(expected)
+    assert bool(report(after, before)) == bool(expected)
 
 
 def test_what_a_machine_no_longer_does(tmp_path: Path) -> None:
     text = MODEL.replace("    on Reset -> Idle\n", "").replace(" / send Alarm(x = 1.0)", "")
-    _, breaches = compare(system(MODEL, tmp_path), system(text, tmp_path))
+    _, breaking = compare(system(MODEL, tmp_path), system(text, tmp_path))
 
-    assert list(breaking(breaches, "text", lambda span: f"{span.line}")) == [
-        "30: statemachine `Watch` handles `Reset` no more [EVENT_UNHANDLED]",
-        "30: statemachine `Watch` sends `Alarm` no more [EVENT_UNSENT]",
+    assert list(format_breaking_changes(breaking, "text", lambda span: f"{span.line}")) == [
+        "30: statemachine `Watch` no longer handles `Reset` [EVENT_UNHANDLED]",
+        "30: statemachine `Watch` no longer sends `Alarm` [EVENT_UNSENT]",
     ]
 
 
@@ -271,7 +271,7 @@ def test_what_is_inherited_is_told_once(tmp_path: Path) -> None:
     before = system(model, tmp_path)
     after = system(model.replace("gain : float64 = 1.0", "gain : float64 = 2.0"), tmp_path)
 
-    assert said(before, after) == [
+    assert report(before, after) == [
         "~ component Eye",
         "    ~ param `gain`: default is `2.0`, was `1.0`",
     ]
@@ -282,7 +282,7 @@ def test_a_submachine_is_compared_where_it_is_declared(tmp_path: Path) -> None:
     before = system(model, tmp_path)
     after = system(model.replace("after 5 s", "after 7 s"), tmp_path)
 
-    assert said(before, after) == [
+    assert report(before, after) == [
         "~ statemachine Watch",
         "    ~ transition `after 7 s` of state `Search.Pause`: was `after 5 s`",
     ]
@@ -303,11 +303,11 @@ def test_any_two(before: System, after: System) -> None:
     changes, _ = compare(before, after)
     whole = replace(before, doc="", name=after.name) == replace(after, doc="", name=after.name)
     assert bool(changes) or whole
-    named = {(each.kind, called(each)) for each in system_element(before).children}
+    named = {(each.kind, display_name(each)) for each in model_element(before).children}
     told = {
-        (each.kind, called(each.element))
+        (each.kind, display_name(each.element))
         for each in changes
         if each.element is each.top and each.action in (Action.ADDED, Action.RENAMED)
     }
-    new = {(each.kind, called(each)) for each in system_element(after).children} - named
+    new = {(each.kind, display_name(each)) for each in model_element(after).children} - named
     assert {name for name in new if name[0] != "optimization"} <= told

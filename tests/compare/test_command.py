@@ -148,8 +148,8 @@ def test_two_revisions(repository: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--against", "nope", "models"], "cannot compare with `nope`: git knows no such revision"),
-        (["--against", "HEAD", "elsewhere"], "`HEAD:elsewhere`: there is no model in it"),
+        (["--against", "nope", "models"], "cannot compare with `nope`: no such revision in git"),
+        (["--against", "HEAD", "elsewhere"], "`HEAD:elsewhere`: it contains no model"),
         (["HEAD:/", "models"], "not a git repository"),
     ],
 )

@@ -90,8 +90,8 @@ def diff(
     """
     from swarmdsl.tools.compare import report
     from swarmdsl.tools.compare.comparison import compare
-    from swarmdsl.tools.compare.revisions import against as revision
-    from swarmdsl.tools.compare.revisions import is_revision, named
+    from swarmdsl.tools.compare.revisions import is_revision, parse_model
+    from swarmdsl.tools.compare.revisions import parse_against as revision
 
     if not models and against is not None:
         models = (".",)
@@ -103,20 +103,20 @@ def diff(
     if against is None and not Path(first).exists() and is_revision(first, last):
         way = f"write `swarmc diff --against {first} {last}`"
         raise click.UsageError(f"`{first}` is not a file but a revision of git: {way}")
-    after = named(models[-1])
-    before = named(models[0]) if against is None else revision(against, Path(models[0]))
+    after = parse_model(models[-1])
+    before = parse_model(models[0]) if against is None else revision(against, Path(models[0]))
     with ExitStack() as stack:
         shown = _Shown()
         systems = [_system(each, shown, stack) for each in (before, after)]
         old, new = systems
         if old is None or new is None:
             return TROUBLE
-        changes, breaches = compare(old, new)
+        changes, breaking_changes = compare(old, new)
         if breaking:
-            breaches = [each for each in breaches if each.rule not in allow]
-            lines = report.breaking(breaches, format_, shown.place)
+            breaking_changes = [each for each in breaking_changes if each.rule not in allow]
+            lines = report.format_breaking_changes(breaking_changes, format_, shown.place)
         else:
-            lines = report.differences(changes, breaches, format_, shown.place)
+            lines = report.format_changes(changes, breaking_changes, format_, shown.place)
         found = list(lines)
     for line in found:
         click.echo(line)
@@ -150,7 +150,7 @@ def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System |
     from swarmdsl.base.diagnostics.render import render
     from swarmdsl.driver import pipeline
     from swarmdsl.driver.config.command_line import run_settings
-    from swarmdsl.tools.compare.revisions import take_out
+    from swarmdsl.tools.compare.revisions import extract
 
     report = Diagnostics()
     path: Path | None
@@ -159,7 +159,7 @@ def _system(model: Path | Revision, shown: _Shown, stack: ExitStack) -> System |
     else:
         folder = Path(stack.enter_context(TemporaryDirectory())).resolve()
         shown.add(folder, model.revision)
-        path = take_out(model, folder, report)
+        path = extract(model, folder, report)
     if path is not None:
         settings = run_settings((path,), {}, report)
         if not report.has_errors:

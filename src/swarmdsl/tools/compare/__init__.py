@@ -1,1 +1,1 @@
-"""What is different between two models, in words of the model: `swarmc diff`."""
+"""Compare two models element by element: `swarmc diff`."""

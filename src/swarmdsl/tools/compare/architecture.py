@@ -28,19 +28,19 @@ from swarmdsl.tools.compare.elements import (
     Element,
     Ref,
     Value,
-    assigned,
-    joined,
-    said,
-    type_of,
+    argument_values,
+    expression_value,
+    join_values,
+    properties,
+    type_value,
     with_doc,
-    written,
 )
 
 T = TypeVar("T")
 
 
-def system_element(system: System) -> Element:
-    """Everything that is declared; what libraries bring is not."""
+def model_element(system: System) -> Element:
+    """Tree of all declarations of a model, without library elements."""
     children = (
         *(_interface(each) for each in system.interfaces),
         *(_event(each) for each in system.events),
@@ -70,7 +70,7 @@ def _interface(interface: Interface) -> Element:
                 Element(
                     "constant",
                     (each.name,),
-                    said(type=type_of(each.type), value=written(each.value)),
+                    properties(type=type_value(each.type), value=expression_value(each.value)),
                     origin=each.origin,
                 )
                 for each in interface.constants
@@ -82,8 +82,8 @@ def _interface(interface: Interface) -> Element:
             parts = {"goal field": goal, "result field": result, "feedback field": feedback}
     fields = tuple(_field(each, word) for word, part in parts.items() for each in part)
     name = str(interface.type)
-    # What the model only describes is defined elsewhere.
-    values = said(described=interface.external)
+    # An external interface is only described here; another package defines it.
+    values = properties(described=interface.external)
     element = Element(
         kind, (name,), values, (*constants, *fields), Ref("interface", name), interface.origin
     )
@@ -91,13 +91,15 @@ def _interface(interface: Interface) -> Element:
 
 
 def _field(each: Field, kind: str) -> Element:
-    made = Element(kind, (each.name,), said(type=type_of(each.type)), origin=each.origin)
-    return with_doc(made, each.doc)
+    element = Element(
+        kind, (each.name,), properties(type=type_value(each.type)), origin=each.origin
+    )
+    return with_doc(element, each.doc)
 
 
 def _event(event: Event) -> Element:
-    values = said(
-        type=type_of(event.type), topic=event.topic, reach="swarm" if event.swarm else "member"
+    values = properties(
+        type=type_value(event.type), topic=event.topic, reach="swarm" if event.swarm else "member"
     )
     element = Element(
         "event", (event.name,), values, ref=Ref("event", event.name), origin=event.origin
@@ -107,17 +109,17 @@ def _event(event: Event) -> Element:
 
 def _function(function: Function) -> Element:
     call = function.communication
-    values = said(
+    values = properties(
         category=function.category,
         paradigm=call.paradigm,
         server=call.name,
-        type=type_of(call.type),
+        type=type_value(call.type),
     )
     ports = (
         Element(
             f"{port.direction} port",
             (port.topic,),
-            said(type=type_of(port.type)),
+            properties(type=type_value(port.type)),
             origin=port.origin,
         )
         for port in function.ports
@@ -129,21 +131,21 @@ def _function(function: Function) -> Element:
 
 
 def params(declared: Iterable[Param]) -> Iterator[Element]:
-    """The params of something."""
+    """Yield the elements of parameters."""
     for param in declared:
         default = param.declared if param.declared is not None else param.default
-        values = said(type=type_of(param.type), default=written(default))
+        values = properties(type=type_value(param.type), default=expression_value(default))
         yield with_doc(Element("param", (param.name,), values, origin=param.origin), param.doc)
 
 
 def _ports(ports: Iterable[Port]) -> Iterator[Element]:
     for port in ports:
-        values = said(direction=port.direction, type=type_of(port.type), topic=port.topic)
+        values = properties(direction=port.direction, type=type_value(port.type), topic=port.topic)
         yield with_doc(Element("port", (port.name,), values, origin=port.origin), port.doc)
 
 
 def _own(items: Sequence[T], base: Sequence[T]) -> list[T]:
-    """The items that are not just inherited."""
+    """Return the items that are not inherited from `base`."""
     return [item for item in items if item not in base]
 
 
@@ -151,7 +153,7 @@ def _components(system: System) -> Iterator[Element]:
     known = {component.name: component for component in system.components}
     for each in system.components:
         base = known.get(each.base or "")
-        values = said(
+        values = properties(
             kind=each.kind,
             extends=_named(each.base, "component"),
             behavior=_named(each.behavior, "statemachine")
@@ -171,14 +173,14 @@ def _components(system: System) -> Iterator[Element]:
 
 def _operations(component: Component, base: Component | None) -> Value:
     own = _own(component.operations, base.operations if base else ())
-    return joined((_named(name, "function") for name in own), ", ")
+    return join_values((_named(name, "function") for name in own), ", ")
 
 
 def _members(system: System) -> Iterator[Element]:
     known = {member.name: member for member in system.members}
     for each in system.members:
         base = known.get(each.base or "")
-        values = said(
+        values = properties(
             extends=_named(each.base, "member"),
             behavior=_named(each.behavior, "statemachine")
             if base is None or each.behavior != base.behavior
@@ -204,29 +206,31 @@ def _communication(member: Member, base: Member | None) -> Value:
     settings = member.communication
     if settings is None or (base is not None and settings == base.communication):
         return ()
-    values = assigned(settings.values)
+    values = argument_values(settings.values)
     return (settings.technology, *((" ", *values) if values else ()))
 
 
 def _part(part: Part) -> Element:
-    values = said(component=_named(part.component, "component"), values=assigned(part.values))
+    values = properties(
+        component=_named(part.component, "component"), values=argument_values(part.values)
+    )
     return with_doc(Element("part", (part.name,), values, origin=part.origin), part.doc)
 
 
 def _others(system: System) -> Iterator[Element]:
     for world in system.environments:
         size = " x ".join(f"{length:g}" for length in world.size or ())
-        values = said(world=world.world, size=f"{size} m" if size else "")
+        values = properties(world=world.world, size=f"{size} m" if size else "")
         ref = Ref("environment", world.name)
-        made = Element("environment", (world.name,), values, (), ref, world.origin)
-        yield with_doc(made, world.doc)
+        element = Element("environment", (world.name,), values, (), ref, world.origin)
+        yield with_doc(element, world.doc)
     for fitness in system.fitness:
-        values = ((fitness.goal, written(fitness.value)),)
+        values = ((fitness.goal, expression_value(fitness.value)),)
         inputs = (_field(each, "input") for each in fitness.inputs)
         ref = Ref("fitness", fitness.name)
         children = (*inputs, *params(fitness.params))
-        made = Element("fitness", (fitness.name,), values, children, ref, fitness.origin)
-        yield with_doc(made, fitness.doc)
+        element = Element("fitness", (fitness.name,), values, children, ref, fitness.origin)
+        yield with_doc(element, fitness.doc)
 
 
 def _swarm(swarm: Swarm) -> Element:
@@ -235,14 +239,14 @@ def _swarm(swarm: Swarm) -> Element:
             Element(
                 "role",
                 (role.name,),
-                said(member=_named(role.member, "member"), number=str(role.multiplicity)),
+                properties(member=_named(role.member, "member"), number=str(role.multiplicity)),
                 origin=role.origin,
             ),
             role.doc,
         )
         for role in swarm.roles
     )
-    values = said(
+    values = properties(
         environment=_named(swarm.environment, "environment"),
         fitness=_named(swarm.fitness, "fitness"),
     )
@@ -256,7 +260,7 @@ def _optimization(search: Optimization) -> Element:
         Element(
             "range",
             (f"{each.role}.{each.param}",),
-            said(values=_range(each.lower, each.upper), step=written(each.step)),
+            properties(values=_range(each.lower, each.upper), step=expression_value(each.step)),
             origin=each.origin,
         )
         for each in search.params
@@ -265,12 +269,12 @@ def _optimization(search: Optimization) -> Element:
         Element(
             "range",
             (f"number of {each.role}",),
-            said(values=_range(each.lower, each.upper)),
+            properties(values=_range(each.lower, each.upper)),
             origin=each.origin,
         )
         for each in search.counts
     )
-    settings = tuple((name, written(value)) for name, value in search.settings)
+    settings = tuple((name, expression_value(value)) for name, value in search.settings)
     element = Element(
         "optimization", (Ref("swarm", search.swarm),), settings, tuple(ranges), None, search.origin
     )
@@ -278,4 +282,4 @@ def _optimization(search: Optimization) -> Element:
 
 
 def _range(lower: Expression, upper: Expression) -> Value:
-    return (*written(lower), "..", *written(upper))
+    return (*expression_value(lower), "..", *expression_value(upper))

@@ -1,4 +1,7 @@
-"""State machines as elements; what a submachine brings is compared where it is declared."""
+"""State machines as elements.
+
+The content of a submachine is compared only where it is declared.
+"""
 
 from __future__ import annotations
 
@@ -27,20 +30,20 @@ from swarmdsl.tools.compare.elements import (
     Element,
     Ref,
     Value,
-    assigned,
-    data_of,
-    joined,
-    said,
-    state_of,
-    type_of,
+    argument_values,
+    expression_value,
+    join_values,
+    properties,
+    state_kind,
+    type_value,
+    variable_kind,
     with_doc,
-    written,
 )
 
-VERTEX = "state"
-"""The kind of all that transitions lead to or are in."""
-TRANSITION = "transition"
-_WORDS = {
+VERTEX_KIND = "state"
+"""Element kind of all states and pseudostates."""
+TRANSITION_KIND = "transition"
+_KIND_NAMES = {
     StateKind.SIMPLE: "simple state",
     StateKind.COMPOSITE: "composite state",
     StateKind.PARALLEL: "parallel state",
@@ -52,17 +55,20 @@ _WORDS = {
 
 
 def machine_element(machine: StateMachine, system: System) -> Element:
-    """A state machine with its params, its variables and its states."""
+    """Element of a state machine with its params, variables and states."""
     machines = {each.name: each for each in system.machines}
-    made = _Machine(machine.name, find_reuse(machine, machines))
+    builder = _Machine(machine.name, find_reuse(machine, machines))
     data = [*_params(machine.params, machine.name)]
     data += (
         with_doc(
             Element(
                 "variable",
                 (variable.name,),
-                said(type=type_of(variable.type), initial=written(variable.initial, machine.name)),
-                ref=Ref(data_of(machine.name), variable.name),
+                properties(
+                    type=type_value(variable.type),
+                    initial=expression_value(variable.initial, machine.name),
+                ),
+                ref=Ref(variable_kind(machine.name), variable.name),
                 origin=variable.origin,
             ),
             variable.doc,
@@ -72,8 +78,8 @@ def machine_element(machine: StateMachine, system: System) -> Element:
     element = Element(
         "statemachine",
         (machine.name,),
-        said(initial=made.state(machine.initial), endless=machine.endless),
-        (*data, *map(made.element, machine.states)),
+        properties(initial=builder.state(machine.initial), endless=machine.endless),
+        (*data, *map(builder.element, machine.states)),
         Ref("statemachine", machine.name),
         machine.origin,
     )
@@ -83,29 +89,29 @@ def machine_element(machine: StateMachine, system: System) -> Element:
 def _params(params: Iterable[Param], machine: str) -> Iterator[Element]:
     for param in params:
         default = param.declared if param.declared is not None else param.default
-        values = said(type=type_of(param.type), default=written(default))
-        ref = Ref(data_of(machine), param.name)
+        values = properties(type=type_value(param.type), default=expression_value(default))
+        ref = Ref(variable_kind(machine), param.name)
         yield with_doc(Element("param", (param.name,), values, (), ref, param.origin), param.doc)
 
 
 @dataclass(frozen=True)
 class _Machine:
-    """What the names in a machine belong to."""
+    """Element builder that resolves the names of one state machine."""
 
     name: str
     reuse: Reuse | None
 
     def state(self, id_: str | None) -> Value:
-        return (Ref(state_of(self.name), id_),) if id_ is not None else ()
+        return (Ref(state_kind(self.name), id_),) if id_ is not None else ()
 
     def element(self, state: State) -> Element:
         use = self.reuse.uses.get(state.id) if self.reuse is not None else None
         entry = use.entry if use is not None else state.entry
-        values = said(
-            kind=_WORDS[state.kind],
+        values = properties(
+            kind=_KIND_NAMES[state.kind],
             initial=self.state(state.initial) if state.submachine is None else (),
             submachine=(Ref("statemachine", state.submachine),) if state.submachine else (),
-            bindings=assigned(use.bindings, self.name) if use is not None else (),
+            bindings=argument_values(use.bindings, self.name) if use is not None else (),
             activity=self._activity(state.activity),
             entry_effect=self._effects(entry),
             exit_effect=self._effects(state.exit),
@@ -116,24 +122,24 @@ class _Machine:
             *(self._transition(each, state) for each in state.transitions),
             *map(self.element, inner),
         )
-        ref = Ref(state_of(self.name), state.id)
+        ref = Ref(state_kind(self.name), state.id)
         return with_doc(
-            Element(VERTEX, (state.name,), values, children, ref, state.origin), state.doc
+            Element(VERTEX_KIND, (state.name,), values, children, ref, state.origin), state.doc
         )
 
     def _transition(self, transition: Transition, state: State) -> Element:
-        guard = written(transition.guard, self.name)
-        name = joined((self._trigger(each, state) for each in transition.triggers), ", ")
+        guard = expression_value(transition.guard, self.name)
+        name = join_values((self._trigger(each, state) for each in transition.triggers), ", ")
         if not name:
-            # A branch of a choice is told from others by its guard.
+            # The guard identifies a branch of a choice.
             name, guard = ("when ", *guard) if guard else ("else",), ()
-        values = said(
+        values = properties(
             guard=guard,
             effect=self._effects(transition.effects),
             target=self.state(transition.target) or ("none",),
             internal=transition.internal,
         )
-        element = Element(TRANSITION, name, values, origin=transition.origin)
+        element = Element(TRANSITION_KIND, name, values, origin=transition.origin)
         return with_doc(element, transition.doc)
 
     def _trigger(self, trigger: Trigger, state: State) -> Value:
@@ -141,7 +147,7 @@ class _Machine:
             case EventTrigger(event=event):
                 return "on ", Ref("event", event)
             case TimeTrigger(delay=delay):
-                return "after ", *written(delay, self.name)
+                return "after ", *expression_value(delay, self.name)
             case OutcomeTrigger(state=owner, outcome=outcome):
                 of = self.state(owner) if owner != state.id else ()
                 return f"on {outcome}", *((" of ", *of) if of else ())
@@ -155,16 +161,16 @@ class _Machine:
                 )
 
     def _effects(self, effects: Iterable[Effect]) -> Value:
-        return joined(map(self._effect, effects), ", ")
+        return join_values(map(self._effect, effects), ", ")
 
     def _effect(self, effect: Effect) -> Value:
         match effect:
             case Assignment(variable=variable, path=path, value=value):
                 rest = "".join(f".{name}" for name in path)
-                known = Ref(data_of(self.name), variable)
-                return known, f"{rest} = ", *written(value, self.name)
+                known = Ref(variable_kind(self.name), variable)
+                return known, f"{rest} = ", *expression_value(value, self.name)
             case Send(event=event, arguments=arguments):
-                given = assigned(arguments, self.name)
+                given = argument_values(arguments, self.name)
                 return "send ", Ref("event", event), *(("(", *given, ")") if given else ())
 
     def _activity(self, activity: Activity | None) -> Value:
@@ -174,15 +180,15 @@ class _Machine:
         if activity.goal_callback is not None:
             made = (*made, f"(by {activity.goal_callback})")
         elif activity.arguments:
-            made = (*made, "(", *assigned(activity.arguments, self.name), ")")
+            made = (*made, "(", *argument_values(activity.arguments, self.name), ")")
         if activity.result_callback is not None:
             return *made, f" gives by {activity.result_callback}"
         results: list[Value] = [
             (
                 f"{each.field} => ",
-                Ref(data_of(self.name), each.variable),
+                Ref(variable_kind(self.name), each.variable),
                 "".join(f".{name}" for name in each.path),
             )
             for each in activity.results
         ]
-        return (*made, " gives (", *joined(results, ", "), ")") if results else made
+        return (*made, " gives (", *join_values(results, ", "), ")") if results else made

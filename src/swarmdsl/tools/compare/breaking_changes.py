@@ -1,4 +1,4 @@
-"""Which differences break what others build on a model: robots in the field, code, other models."""
+"""Find changes that break robots in the field, code or other models."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from collections.abc import Callable, Iterable, Iterator
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Span
-from swarmdsl.tools.compare.behaviour import TRANSITION, VERTEX
-from swarmdsl.tools.compare.changes import Action, Change, called
+from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
+from swarmdsl.tools.compare.changes import Action, Change, display_name
 from swarmdsl.tools.compare.elements import Element, Ref
-from swarmdsl.tools.compare.matching import Matching, text
+from swarmdsl.tools.compare.matching import Matching, value_text
 
 _INTERFACES = ("message", "service", "action")
 _FIELDS = frozenset(
     ("field", *(f"{part} field" for part in ("request", "response", "goal", "result", "feedback")))
 )
-_GONE = (Action.REMOVED, Action.RENAMED)
-# By the kind of what is different: the rule where it is gone, and those for what is said of it.
-_GONE_RULES = {
+_REMOVALS = (Action.REMOVED, Action.RENAMED)
+# Rules for removed elements by kind, and for changed properties by kind and property.
+_REMOVAL_RULES = {
     **dict.fromkeys(_INTERFACES, "INTERFACE_REMOVED"),
     **dict.fromkeys(_FIELDS, "FIELD_REMOVED"),
     "constant": "CONSTANT_REMOVED",
@@ -30,7 +30,7 @@ _GONE_RULES = {
     "role": "ROLE_REMOVED",
     **dict.fromkeys(("component", "member", "statemachine", "swarm"), "DECLARATION_REMOVED"),
 }
-_SAID_RULES = {
+_PROPERTY_RULES = {
     **{(kind, "kind"): "INTERFACE_REMOVED" for kind in _INTERFACES},
     **{(kind, "type"): "FIELD_TYPE" for kind in _FIELDS},
     ("constant", "value"): "CONSTANT_VALUE",
@@ -52,8 +52,8 @@ _SAID_RULES = {
 
 
 @dataclass(frozen=True)
-class Breach:
-    """Something that others build on and that is not as it was."""
+class BreakingChange:
+    """Breaking change; `change` is None if a machine no longer uses an event."""
 
     rule: str
     message: str
@@ -61,63 +61,68 @@ class Breach:
     origin: Span | None
 
 
-def breaches(changes: Iterable[Change], matching: Matching) -> Iterator[Breach]:
-    """What of the changes breaks something, and what state machines no longer do."""
+def find_breaking_changes(
+    changes: Iterable[Change], matching: Matching
+) -> Iterator[BreakingChange]:
+    """Yield the breaking changes.
+
+    An event that a state machine no longer handles or sends is one as well.
+    """
     for change in changes:
         rule = _rule(change)
         if rule is not None:
-            subject = change.subject or f"{change.kind} `{called(change.element)}`"
+            subject = change.subject or f"{change.kind} `{display_name(change.element)}`"
             within = "" if change.element is change.top else f"{_title(change.top)}: "
-            message = f"{within}{subject} {_words(change)}"
-            yield Breach(rule, message, change, change.element.origin)
+            message = f"{within}{subject} {_describe(change)}"
+            yield BreakingChange(rule, message, change, change.element.origin)
     for old, new in matching.pairs.items():
         if old.kind == "statemachine":
-            yield from _of_machine(old, new, matching)
+            yield from _dropped_events(old, new, matching)
 
 
-def _words(change: Change) -> str:
-    return "is gone" if change.action is Action.REMOVED else change.said
+def _describe(change: Change) -> str:
+    return "is removed" if change.action is Action.REMOVED else change.description
 
 
 def _title(top: Element) -> str:
-    return f"{top.kind} `{called(top)}`"
+    return f"{top.kind} `{display_name(top)}`"
 
 
 def _rule(change: Change) -> str | None:
-    """The rule that a change breaks, if it does."""
+    """Rule that a change breaks, if any."""
     kind, element = change.kind, change.element
     values = dict(change.top.values)
     if change.top.kind in _INTERFACES and "described" in values:
-        # It is defined elsewhere: the model only tells what it is like there.
+        # The interface is defined in another package; the model only describes it.
         return None
-    if change.action in _GONE:
-        if kind == VERTEX and change.owner is change.top and _is_final(change.old):
+    if change.action in _REMOVALS:
+        if kind == VERTEX_KIND and change.owner is change.top and _is_final(change.old):
             return "OUTCOME_LOST"
-        return _GONE_RULES.get(kind)
+        return _REMOVAL_RULES.get(kind)
     if change.action is Action.ADDED and element is not change.top:
         if kind == "param" and "default" not in dict(element.values):
             return "PARAM_REQUIRED"
         return "FIELD_ADDED" if kind in _FIELDS else None
     if change.action is Action.REORDERED:
-        return "FIELD_ORDER" if change.word.removesuffix("s") in _FIELDS else None
+        return "FIELD_ORDER" if change.property_name.removesuffix("s") in _FIELDS else None
     if change.action is not Action.CHANGED:
         return None
-    if (kind, change.word) == ("param", "default"):
+    if (kind, change.property_name) == ("param", "default"):
         return "PARAM_REQUIRED" if not change.after else None
-    if (kind, change.word) == ("role", "number"):
-        return "ROLE_NUMBER" if _narrower(change.before, change.after) else None
-    if (kind, change.word) == ("component", "operations"):
+    if (kind, change.property_name) == ("role", "number"):
+        return "ROLE_NUMBER" if _is_narrower(change.before, change.after) else None
+    if (kind, change.property_name) == ("component", "operations"):
         lost = set(change.before.split(", ")) - set(change.after.split(", "))
         return "OPERATION_REMOVED" if lost else None
-    return _SAID_RULES.get((kind, change.word))
+    return _PROPERTY_RULES.get((kind, change.property_name))
 
 
 def _is_final(state: Element | None) -> bool:
-    return state is not None and text(dict(state.values)["kind"]) == "final state"
+    return state is not None and value_text(dict(state.values)["kind"]) == "final state"
 
 
-def _narrower(before: str, after: str) -> bool:
-    """Whether a number that was allowed is not any more."""
+def _is_narrower(before: str, after: str) -> bool:
+    """Return True if `after` excludes a number that `before` allowed."""
     (low, high), (least, most) = _bounds(before), _bounds(after)
     return least > low or most < high
 
@@ -130,34 +135,34 @@ def _bounds(multiplicity: str) -> tuple[float, float]:
     return int(lower), float("inf") if most == "*" else int(most)
 
 
-def _of_machine(old: Element, new: Element, matching: Matching) -> Iterator[Breach]:
+def _dropped_events(old: Element, new: Element, matching: Matching) -> Iterator[BreakingChange]:
     uses: tuple[tuple[str, str, Callable[[Element], set[Ref]]], ...] = (
-        ("EVENT_UNHANDLED", "handles", _handled),
-        ("EVENT_UNSENT", "sends", _sent),
+        ("EVENT_UNHANDLED", "handles", _handled_events),
+        ("EVENT_UNSENT", "sends", _sent_events),
     )
     for rule, verb, used in uses:
-        before = {matching.names.get(ref, ref): ref for ref in used(old)}
+        before = {matching.new_names.get(ref, ref): ref for ref in used(old)}
         for event in sorted(before.keys() - used(new), key=lambda ref: ref.name):
-            message = f"statemachine `{called(new)}` {verb} `{event.name}` no more"
-            yield Breach(rule, message, None, new.origin)
+            message = f"statemachine `{display_name(new)}` no longer {verb} `{event.name}`"
+            yield BreakingChange(rule, message, None, new.origin)
 
 
-def _handled(machine: Element) -> set[Ref]:
+def _handled_events(machine: Element) -> set[Ref]:
     return {
-        piece
+        part
         for each in machine.walk()
-        if each.kind == TRANSITION
-        for piece in each.name
-        if isinstance(piece, Ref) and piece.kind == "event"
+        if each.kind == TRANSITION_KIND
+        for part in each.name
+        if isinstance(part, Ref) and part.kind == "event"
     }
 
 
-def _sent(machine: Element) -> set[Ref]:
+def _sent_events(machine: Element) -> set[Ref]:
     return {
-        piece
+        part
         for each in machine.walk()
-        for word, value in each.values
-        if word in ("effect", "entry effect", "exit effect")
-        for piece in value
-        if isinstance(piece, Ref) and piece.kind == "event"
+        for name, value in each.values
+        if name in ("effect", "entry effect", "exit effect")
+        for part in value
+        if isinstance(part, Ref) and part.kind == "event"
     }

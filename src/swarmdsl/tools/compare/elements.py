@@ -1,4 +1,4 @@
-"""A model as a tree of what has a name in it, each with what is said of it in words."""
+"""Tree of the elements of a model with their properties."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from swarmdsl.ir import Expression, Type
 
 @dataclass(frozen=True, slots=True)
 class Ref:
-    """Something else of the model that is named: its kind, and its name among those."""
+    """Reference to another element of the model; `name` is unique within `kind`."""
 
     kind: str
     name: str
 
 
 Value = tuple["str | Ref", ...]
-"""What is said of something: text with names in it, which may change without the rest."""
+"""Strings and references; renaming an element does not change a value."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Element:
-    """Something in a model.
+    """Element of a model.
 
-    `kind` is the word that a person has for it, `name` is unique among its kind beside it; what
-    has no name of its own, as a transition, is called by what it is for. `values` are what is
-    said of it, by words; one that is empty is not said. `ref` is how others refer to it.
+    `kind` is the keyword of the language. `name` is unique among siblings of one kind; an element
+    without a name, such as a transition, is named by its triggers. `values` are the properties;
+    empty ones are left out. `ref` is how other elements refer to it.
     """
 
     kind: str
@@ -39,30 +39,30 @@ class Element:
     origin: Span | None = field(default=None, repr=False)
 
     def walk(self) -> Iterator[Element]:
-        """Yield it and all in it."""
+        """Yield the element and all its descendants."""
         yield self
         for child in self.children:
             yield from child.walk()
 
 
-def said(**values: object) -> tuple[tuple[str, Value], ...]:
-    """Values by their words, `_` for a blank; a value that is nothing is left out."""
+def properties(**values: object) -> tuple[tuple[str, Value], ...]:
+    """Properties by name, with `_` for a blank; empty values are left out."""
     return tuple(
-        (word.replace("_", " "), made)
-        for word, value in values.items()
-        if (made := value if isinstance(value, tuple) else text(value))
+        (name.replace("_", " "), made)
+        for name, value in values.items()
+        if (made := value if isinstance(value, tuple) else plain_value(value))
     )
 
 
-def text(value: object) -> Value:
-    """A value without names; nothing for False, None and empty text."""
+def plain_value(value: object) -> Value:
+    """Value without references; empty for False, None and ""."""
     if value is True:
         return ("yes",)
     return (str(value),) if value not in (False, None, "") else ()
 
 
-def joined(values: Iterable[Value], between: str) -> Value:
-    """Several values with something between them."""
+def join_values(values: Iterable[Value], between: str) -> Value:
+    """Join values with a separator."""
     found: list[str | Ref] = []
     for value in values:
         if found:
@@ -71,29 +71,31 @@ def joined(values: Iterable[Value], between: str) -> Value:
     return tuple(found)
 
 
-def written(value: Expression | None, machine: str = "") -> Value:
-    """An expression as the language writes it; variables and params are those of a machine."""
+def expression_value(value: Expression | None, machine: str = "") -> Value:
+    """Expression as `.swarm` text; variables and params refer to `machine`."""
     if value is None:
         return ()
     if not machine:
         return (expression(value),)
     pieces = expression(value, f"{_MARK}{{}}{_MARK}".format).split(_MARK)
-    # Every second one is a name.
-    kind = data_of(machine)
+    # Marks surround names, so that every second piece is one.
+    kind = variable_kind(machine)
     return tuple(
         Ref(kind, piece) if index % 2 else piece for index, piece in enumerate(pieces) if piece
     )
 
 
-def assigned(
+def argument_values(
     values: Iterable[tuple[str, Expression]], machine: str = "", between: str = ", "
 ) -> Value:
-    """Values by name, as arguments are written."""
-    return joined(((f"{name} = ", *written(value, machine)) for name, value in values), between)
+    """Named values in the form of arguments: `a = 1, b = 2`."""
+    return join_values(
+        ((f"{name} = ", *expression_value(value, machine)) for name, value in values), between
+    )
 
 
-def type_of(type_: Type | None) -> Value:
-    """A type; the name of an interface is that of something in the model."""
+def type_value(type_: Type | None) -> Value:
+    """Type as a value; an interface becomes a reference."""
     if type_ is None:
         return ()
     whole = str(type_)
@@ -101,23 +103,23 @@ def type_of(type_: Type | None) -> Value:
     return (Ref("interface", name), f"{bracket}{size}") if "/" in name else (whole,)
 
 
-def state_of(machine: str) -> str:
-    """The kind of a machine's states."""
+def state_kind(machine: str) -> str:
+    """Reference kind of the states of a machine."""
     return f"state of {machine}"
 
 
-def data_of(machine: str) -> str:
-    """The kind of a machine's variables and params."""
+def variable_kind(machine: str) -> str:
+    """Reference kind of the variables and params of a machine."""
     return f"variable of {machine}"
 
 
 def with_doc(element: Element, doc: str) -> Element:
-    """The element with what is said of it in a comment."""
+    """Return the element with its doc comment as a property."""
     if not doc:
         return element
     return replace(element, values=(*element.values, (DOC, (" ".join(doc.split()),))))
 
 
 DOC = "documentation"
-# No text of a model has it.
+# A character that models cannot contain.
 _MARK = "\0"

@@ -1,7 +1,6 @@
-"""Which element of one model is which of another: by name, then by what is said of it.
+"""Match the elements of two models by name, then by content.
 
-Something that another name or another place was given is found again as git finds renamed
-files: by the share of what it has in common with what has gone.
+Renamed and moved elements are found as git finds renamed files: by their share of common content.
 """
 
 from __future__ import annotations
@@ -10,160 +9,184 @@ from collections import Counter, defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.tools.compare.behaviour import TRANSITION, VERTEX
+from swarmdsl.tools.compare.behaviour import TRANSITION_KIND, VERTEX_KIND
 from swarmdsl.tools.compare.elements import DOC, Element, Ref, Value
 
-_ALIKE = 0.6
-# Beyond so many pairs only what is alike in all is looked for: it would take too long.
-_MANY = 20_000
+_MIN_SIMILARITY = 0.6
+# With more pairs than this, comparing all would take too long.
+_MAX_PAIRS = 20_000
 _PSEUDO = ("final state", "choice", "history", "region")
 
 
 @dataclass(eq=False)
 class Matching:
-    """The elements that are in both models, and what names of the older one are now."""
+    """Elements that are in both models, and the new names of renamed elements."""
 
     pairs: dict[Element, Element] = field(default_factory=dict)
-    found: set[Element] = field(default_factory=set)
-    names: dict[Ref, Ref] = field(default_factory=dict)
+    matched: set[Element] = field(default_factory=set)
+    new_names: dict[Ref, Ref] = field(default_factory=dict)
 
-    def now(self, value: Value) -> Value:
-        """A value of the older model with the names that things have now."""
+    def update_names(self, value: Value) -> Value:
+        """Replace old names in a value by the names in the newer model."""
         return tuple(
-            self.names.get(piece, piece) if isinstance(piece, Ref) else piece for piece in value
+            self.new_names.get(piece, piece) if isinstance(piece, Ref) else piece for piece in value
         )
 
     def pair(self, old: Element, new: Element) -> None:
-        """Take two elements for the same."""
+        """Record that two elements are the same."""
         self.pairs[old] = new
-        self.found.add(new)
+        self.matched.add(new)
         if old.ref is not None and new.ref is not None:
-            self.names[old.ref] = new.ref
+            self.new_names[old.ref] = new.ref
 
 
 def match(before: Element, after: Element) -> Matching:
-    """Find everything of one model in another."""
-    made = Matching()
-    made.pair(before, after)
-    _match_siblings(before.children, after.children, made)
-    top = list(made.pairs.items())[1:]
-    # Transitions are known by names of events, states and variables: those come first.
+    """Match all elements of two models."""
+    matching = Matching()
+    matching.pair(before, after)
+    _match_siblings(before.children, after.children, matching)
+    top = list(matching.pairs.items())[1:]
+    # Transitions are matched last: their names refer to events, states and variables.
     for old, new in top:
-        _match_states(old, new, made)
-    for old, new in [*top, *list(made.pairs.items())[len(top) + 1 :]]:
-        _match_siblings(_others(old, TRANSITION), _others(new, TRANSITION), made)
-    for old, new in list(made.pairs.items()):
-        _match_siblings(_only(old, TRANSITION), _only(new, TRANSITION), made)
-    return made
+        _match_states(old, new, matching)
+    for old, new in [*top, *list(matching.pairs.items())[len(top) + 1 :]]:
+        _match_siblings(
+            _other_children(old, TRANSITION_KIND), _other_children(new, TRANSITION_KIND), matching
+        )
+    for old, new in list(matching.pairs.items()):
+        _match_siblings(
+            _children_of_kind(old, TRANSITION_KIND),
+            _children_of_kind(new, TRANSITION_KIND),
+            matching,
+        )
+    return matching
 
 
-def text(value: Value) -> str:
-    """A value as a person reads it."""
+def value_text(value: Value) -> str:
+    """Value as plain text."""
     return "".join(piece.name if isinstance(piece, Ref) else piece for piece in value)
 
 
-def _only(element: Element, kind: str) -> list[Element]:
+def _children_of_kind(element: Element, kind: str) -> list[Element]:
     return [child for child in element.children if child.kind == kind]
 
 
-def _others(element: Element, kind: str) -> list[Element]:
-    return [child for child in element.children if child.kind not in (kind, VERTEX)]
+def _other_children(element: Element, kind: str) -> list[Element]:
+    return [child for child in element.children if child.kind not in (kind, VERTEX_KIND)]
 
 
-def _match_siblings(before: Iterable[Element], after: Iterable[Element], made: Matching) -> None:
-    """Pair those of one name, several of one in their order, and those that are renamed."""
+def _match_siblings(
+    before: Iterable[Element], after: Iterable[Element], matching: Matching
+) -> None:
+    """Pair elements with the same name in order, then renamed ones."""
     known: dict[tuple[str, Value], list[Element]] = defaultdict(list)
     for new in after:
         known[new.kind, new.name].append(new)
     left = []
     for old in before:
-        candidates = known[old.kind, made.now(old.name)]
+        candidates = known[old.kind, matching.update_names(old.name)]
         if candidates:
-            same = _content(old, made)
-            equal = (new for new in candidates if _content(new, _SAME) == same)
+            same = _features(old, matching)
+            equal = (new for new in candidates if _features(new, _IDENTITY) == same)
             new = next(equal, candidates[0]) if len(candidates) > 1 else candidates[0]
             candidates.remove(new)
-            made.pair(old, new)
+            matching.pair(old, new)
         else:
             left.append(old)
     rest = [new for candidates in known.values() for new in candidates]
-    for old, new in _alike(left, rest, made):
-        made.pair(old, new)
+    for old, new in _similar_pairs(left, rest, matching):
+        matching.pair(old, new)
 
 
-def _match_states(before: Element, after: Element, made: Matching) -> None:
-    """Pair the states of a machine: those in their place, then those elsewhere."""
-    _match_inner(before, after, made)
+def _match_states(before: Element, after: Element, matching: Matching) -> None:
+    """Pair the states of a machine, those with the same parent first."""
+    _match_inner(before, after, matching)
     moved: dict[Hashable, list[list[Element]]] = defaultdict(lambda: [[], []])
-    for index, left in enumerate((_left(before, made.pairs), _left(after, made.found))):
+    for index, left in enumerate(
+        (_unmatched_states(before, matching.pairs), _unmatched_states(after, matching.matched))
+    ):
         for state in left:
-            moved[text(state.name), _pseudo(state)][index].append(state)
+            moved[value_text(state.name), _pseudo_kind(state)][index].append(state)
     for olds, news in moved.values():
-        if len(olds) == len(news) == 1 and olds[0] not in made.pairs and news[0] not in made.found:
-            made.pair(olds[0], news[0])
-            _match_inner(olds[0], news[0], made)
-    for old, new in _alike(_left(before, made.pairs), _left(after, made.found), made):
-        if old not in made.pairs and new not in made.found:
-            made.pair(old, new)
-            _match_inner(old, new, made)
+        if (
+            len(olds) == len(news) == 1
+            and olds[0] not in matching.pairs
+            and news[0] not in matching.matched
+        ):
+            matching.pair(olds[0], news[0])
+            _match_inner(olds[0], news[0], matching)
+    for old, new in _similar_pairs(
+        _unmatched_states(before, matching.pairs),
+        _unmatched_states(after, matching.matched),
+        matching,
+    ):
+        if old not in matching.pairs and new not in matching.matched:
+            matching.pair(old, new)
+            _match_inner(old, new, matching)
 
 
-def _match_inner(before: Element, after: Element, made: Matching) -> None:
-    """Pair the states in two that are the same by their names, level by level."""
+def _match_inner(before: Element, after: Element, matching: Matching) -> None:
+    """Pair states with the same name, level by level."""
     waiting = [(before, after)]
     for old, new in waiting:
-        known = {inner.name: inner for inner in _only(new, VERTEX) if inner not in made.found}
-        for inner in _only(old, VERTEX):
-            if inner not in made.pairs and inner.name in known:
-                made.pair(inner, known[inner.name])
+        known = {
+            inner.name: inner
+            for inner in _children_of_kind(new, VERTEX_KIND)
+            if inner not in matching.matched
+        }
+        for inner in _children_of_kind(old, VERTEX_KIND):
+            if inner not in matching.pairs and inner.name in known:
+                matching.pair(inner, known[inner.name])
                 waiting.append((inner, known[inner.name]))
 
 
-def _left(owner: Element, matched: Iterable[Element]) -> list[Element]:
+def _unmatched_states(owner: Element, matched: Iterable[Element]) -> list[Element]:
     taken = set(matched)
-    return [each for each in owner.walk() if each.kind == VERTEX and each not in taken]
+    return [each for each in owner.walk() if each.kind == VERTEX_KIND and each not in taken]
 
 
-def _pseudo(state: Element) -> str:
-    """Which of the vertices it is that no other kind becomes."""
-    kind = text(dict(state.values).get("kind", ()))
+def _pseudo_kind(state: Element) -> str:
+    """Kind of a vertex that cannot become another kind; empty for ordinary states."""
+    kind = value_text(dict(state.values).get("kind", ()))
     return kind if kind in _PSEUDO else ""
 
 
-def _alike(
-    before: Sequence[Element], after: Sequence[Element], made: Matching
+def _similar_pairs(
+    before: Sequence[Element], after: Sequence[Element], matching: Matching
 ) -> Iterator[tuple[Element, Element]]:
-    """Pairs of elements that say much the same, the most alike first."""
+    """Yield pairs of elements with similar content, most similar first."""
     if not before or not after:
         return
     olds: dict[Hashable, list[Element]] = defaultdict(list)
     news: dict[Hashable, list[Element]] = defaultdict(list)
     for old in before:
-        olds[old.kind, _pseudo(old)].append(old)
+        olds[old.kind, _pseudo_kind(old)].append(old)
     for new in after:
-        news[new.kind, _pseudo(new)].append(new)
+        news[new.kind, _pseudo_kind(new)].append(new)
     for kind in olds.keys() & news.keys():
-        yield from _alike_of_a_kind(olds[kind], news[kind], made)
+        yield from _similar_of_kind(olds[kind], news[kind], matching)
 
 
-def _alike_of_a_kind(
-    before: list[Element], after: list[Element], made: Matching
+def _similar_of_kind(
+    before: list[Element], after: list[Element], matching: Matching
 ) -> Iterator[tuple[Element, Element]]:
-    if len(before) == len(after) == 1 and (before[0].kind != VERTEX or _pseudo(before[0])):
+    if len(before) == len(after) == 1 and (
+        before[0].kind != VERTEX_KIND or _pseudo_kind(before[0])
+    ):
         old, new = before[0], after[0]
-        if old.values and _content(old, made) == _content(new, _SAME):
+        if old.values and _features(old, matching) == _features(new, _IDENTITY):
             yield old, new
             return
-    if len(before) * len(after) > _MANY:
+    if len(before) * len(after) > _MAX_PAIRS:
         return
-    contents = [_content(old, made) for old in before]
+    old_features = [_features(old, matching) for old in before]
     scored = []
     for column, new in enumerate(after):
-        content = _content(new, _SAME)
-        for row, known in enumerate(contents):
-            common = (known & content).total()
-            share = 2 * common / ((known.total() + content.total()) or 1)
-            if common >= 2 and share >= _ALIKE:
+        new_features = _features(new, _IDENTITY)
+        for row, features in enumerate(old_features):
+            common = (features & new_features).total()
+            share = 2 * common / ((features.total() + new_features.total()) or 1)
+            if common >= 2 and share >= _MIN_SIMILARITY:
                 scored.append((-share, row, column))
     rows: set[int] = set()
     columns: set[int] = set()
@@ -174,16 +197,16 @@ def _alike_of_a_kind(
             yield before[row], after[column]
 
 
-def _content(element: Element, made: Matching) -> Counter[tuple[str, ...]]:
-    """All that is said of an element and of what is in it, with names as they are now."""
+def _features(element: Element, matching: Matching) -> Counter[tuple[str, ...]]:
+    """Count the properties of an element and its descendants, using new names."""
     found: Counter[tuple[str, ...]] = Counter()
     for each in element.walk():
         if each is not element:
-            found[each.kind, text(made.now(each.name))] += 1
-        for word, value in each.values:
-            if word != DOC:
-                found[each.kind, word, text(made.now(value))] += 1
+            found[each.kind, value_text(matching.update_names(each.name))] += 1
+        for name, value in each.values:
+            if name != DOC:
+                found[each.kind, name, value_text(matching.update_names(value))] += 1
     return found
 
 
-_SAME = Matching()
+_IDENTITY = Matching()

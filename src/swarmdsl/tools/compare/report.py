@@ -1,4 +1,4 @@
-"""Differences as text for a person, as Markdown for a review, and as JSON for programs."""
+"""Format changes as text, Markdown or JSON."""
 
 from __future__ import annotations
 
@@ -7,39 +7,44 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from swarmdsl.base.diagnostics.render.printable import printable
 from swarmdsl.base.source import Span
-from swarmdsl.tools.compare.breaking_changes import Breach
-from swarmdsl.tools.compare.changes import Action, Change, called
+from swarmdsl.tools.compare.breaking_changes import BreakingChange
+from swarmdsl.tools.compare.changes import Action, Change, display_name
 from swarmdsl.tools.compare.elements import Element
 
-Place = Callable[[Span], str]
-"""How a place is written, `file:line`."""
+FormatLocation = Callable[[Span], str]
+"""Formats a location as `file:line`."""
 _MARKS = {Action.ADDED: "+", Action.REMOVED: "-", Action.MOVED: ">"}
 
 
-def differences(
-    changes: Sequence[Change], breaches: Iterable[Breach], format_: str, place: Place
+def format_changes(
+    changes: Sequence[Change],
+    breaking_changes: Iterable[BreakingChange],
+    format_: str,
+    location: FormatLocation,
 ) -> Iterator[str]:
-    """The lines of a report."""
-    rules = {id(breach.change): breach.rule for breach in breaches if breach.change is not None}
+    """Yield the lines of a report on all changes."""
+    rules = {id(each.change): each.rule for each in breaking_changes if each.change is not None}
     if format_ == "json":
-        yield from (json.dumps(_as_json(each, rules, place)) for each in changes)
+        yield from (json.dumps(_as_json(each, rules, location)) for each in changes)
         return
     lines = _markdown if format_ == "markdown" else _text
     for top, inner in _by_declaration(changes).items():
-        yield from lines(top, inner, rules, place)
+        yield from lines(top, inner, rules, location)
 
 
-def breaking(breaches: Iterable[Breach], format_: str, place: Place) -> Iterator[str]:
-    """A line for each thing that breaks something."""
-    for breach in breaches:
-        at = place(breach.origin) if breach.origin is not None else ""
+def format_breaking_changes(
+    breaking_changes: Iterable[BreakingChange], format_: str, location: FormatLocation
+) -> Iterator[str]:
+    """Yield one line for each breaking change."""
+    for each in breaking_changes:
+        at = location(each.origin) if each.origin is not None else ""
         if format_ == "json":
-            found = {"rule": breach.rule, "message": breach.message, "place": at or None}
+            found = {"rule": each.rule, "message": each.message, "place": at or None}
             yield json.dumps(found)
         elif format_ == "markdown":
-            yield f"- **{breach.rule}** {breach.message}{f' ({at})' if at else ''}"
+            yield f"- **{each.rule}** {each.message}{f' ({at})' if at else ''}"
         else:
-            yield f"{f'{at}: ' if at else ''}{printable(breach.message)} [{breach.rule}]"
+            yield f"{f'{at}: ' if at else ''}{printable(each.message)} [{each.rule}]"
 
 
 def _by_declaration(changes: Iterable[Change]) -> dict[Element, list[Change]]:
@@ -49,39 +54,41 @@ def _by_declaration(changes: Iterable[Change]) -> dict[Element, list[Change]]:
     return found
 
 
-def _title(top: Element, changes: list[Change]) -> tuple[str, list[Change]]:
-    """The mark of a declaration, and what is left to say where that is not all."""
-    whole = next((each for each in changes if each.element is top and not each.word), None)
+def _summarize(top: Element, changes: list[Change]) -> tuple[str, list[Change]]:
+    """Mark of a declaration, and the changes to list below it."""
+    whole = next((each for each in changes if each.element is top and not each.property_name), None)
     if whole is not None:
         return _MARKS[whole.action], []
     return "~", changes
 
 
 def _text(
-    top: Element, changes: list[Change], rules: Mapping[int, str], place: Place
+    top: Element, changes: list[Change], rules: Mapping[int, str], location: FormatLocation
 ) -> Iterator[str]:
-    mark, inner = _title(top, changes)
+    mark, inner = _summarize(top, changes)
     rule = _rule(changes[0], rules) if not inner else ""
-    yield f"{mark} {top.kind} {printable(called(top))}{rule}{_at(top, place)}"
+    yield f"{mark} {top.kind} {printable(display_name(top))}{rule}{_at(top, location)}"
     for each in inner:
         sign = _MARKS.get(each.action, "~")
         subject = f"{each.subject}: " if each.subject else ""
-        rest = "" if each.action in (Action.ADDED, Action.REMOVED) else f"{subject}{each.said}"
+        rest = (
+            "" if each.action in (Action.ADDED, Action.REMOVED) else f"{subject}{each.description}"
+        )
         line = rest or each.subject
-        yield f"    {sign} {printable(line)}{_rule(each, rules)}{_at(each.element, place)}"
+        yield f"    {sign} {printable(line)}{_rule(each, rules)}{_at(each.element, location)}"
 
 
 def _markdown(
-    top: Element, changes: list[Change], rules: Mapping[int, str], place: Place
+    top: Element, changes: list[Change], rules: Mapping[int, str], location: FormatLocation
 ) -> Iterator[str]:
-    _, inner = _title(top, changes)
+    _, inner = _summarize(top, changes)
     rule = _rule(changes[0], rules) if not inner else ""
-    said = f" {changes[0].said}" if not inner else ""
-    yield f"- **{top.kind} `{called(top)}`**{said}{rule}{_at(top, place)}"
+    description = f" {changes[0].description}" if not inner else ""
+    yield f"- **{top.kind} `{display_name(top)}`**{description}{rule}{_at(top, location)}"
     for each in inner:
         colon = "" if each.action in (Action.ADDED, Action.REMOVED) else ":"
         subject = f"{each.subject}{colon} " if each.subject else ""
-        yield f"  - {subject}{each.said}{_rule(each, rules)}{_at(each.element, place)}"
+        yield f"  - {subject}{each.description}{_rule(each, rules)}{_at(each.element, location)}"
 
 
 def _rule(change: Change, rules: Mapping[int, str]) -> str:
@@ -89,21 +96,23 @@ def _rule(change: Change, rules: Mapping[int, str]) -> str:
     return f" [{rule}]" if rule is not None else ""
 
 
-def _at(element: Element, place: Place) -> str:
-    return f" ({place(element.origin)})" if element.origin is not None else ""
+def _at(element: Element, location: FormatLocation) -> str:
+    return f" ({location(element.origin)})" if element.origin is not None else ""
 
 
-def _as_json(change: Change, rules: Mapping[int, str], place: Place) -> dict[str, object]:
+def _as_json(
+    change: Change, rules: Mapping[int, str], location: FormatLocation
+) -> dict[str, object]:
     def at(element: Element | None) -> str | None:
-        return place(element.origin) if element is not None and element.origin else None
+        return location(element.origin) if element is not None and element.origin else None
 
     return {
         "change": change.action.value,
-        "declaration": f"{change.top.kind} {called(change.top)}",
+        "declaration": f"{change.top.kind} {display_name(change.top)}",
         "kind": change.kind,
-        "name": called(change.element),
-        "of": called(change.owner) if change.owner is not change.top else None,
-        "what": change.word or None,
+        "name": display_name(change.element),
+        "of": display_name(change.owner) if change.owner is not change.top else None,
+        "what": change.property_name or None,
         "before": change.before or None,
         "after": change.after or None,
         "breaking": rules.get(id(change)),

@@ -1,4 +1,4 @@
-"""Models as git has them: what a revision holds, put into a folder for the compiler."""
+"""Read models from git revisions."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from pathlib import Path, PurePosixPath
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 
-# What a model is made of, and where settings and packages of interfaces are told by.
+# Sources of a model, and files that configure a project or name a package of interfaces.
 _SUFFIXES = frozenset((".swarm", ".msg", ".srv", ".action"))
 _NAMES = frozenset(("swarm.toml", "package.xml"))
 _FILES = ("100644", "100755")
-# As buf writes it: `.git#branch=main`.
-_OF_BUF = re.compile(
+# Notation of buf: `.git#branch=main`.
+_BUF_NOTATION = re.compile(
     r"\.git#(?:branch|tag|ref|commit)=(?P<revision>[^,]+)(?:,subdir=(?P<path>.*))?"
 )
 
 
 @dataclass(frozen=True)
 class Revision:
-    """A path as a revision has it."""
+    """Path in a git revision."""
 
     revision: str
     path: str
@@ -30,59 +30,58 @@ class Revision:
         return f"{self.revision}:{self.path}"
 
 
-def against(text: str, path: Path) -> Revision:
-    """What `--against` means beside a path: `main`, `HEAD~2`, `main:models`, `.git#tag=v1`."""
-    found = _OF_BUF.fullmatch(text)
+def parse_against(text: str, path: Path) -> Revision:
+    """Parse `--against`: `main`, `HEAD~2`, `main:models`, `.git#tag=v1`."""
+    found = _BUF_NOTATION.fullmatch(text)
     if found is not None:
         return Revision(found["revision"], found["path"] or str(path))
     revision, colon, inner = text.partition(":")
     return Revision(revision, inner if colon else str(path))
 
 
-def named(text: str) -> Path | Revision:
-    """A path, or what git calls `REVISION:PATH` where there is no such path."""
+def parse_model(text: str) -> Path | Revision:
+    """Parse a path or, if no such path exists, `REVISION:PATH`."""
     revision, colon, path = text.partition(":")
-    if Path(text).exists() or not colon or len(revision) < 2:  # a drive of Windows is one letter
+    if Path(text).exists() or not colon or len(revision) < 2:  # one letter: a Windows drive
         return Path(text)
     return Revision(revision, path)
 
 
 def is_revision(text: str, beside: Path) -> bool:
-    """Whether git, in the repository of a path, knows a revision of that name."""
+    """Return True if the git repository of a path has such a revision."""
     git = _Git(beside, Diagnostics())
-    return git.line("rev-parse", "--verify", "--quiet", f"{text}^{{commit}}") is not None
+    return git.run_line("rev-parse", "--verify", "--quiet", f"{text}^{{commit}}") is not None
 
 
-def take_out(wanted: Revision, folder: Path, report: Diagnostics) -> Path | None:
-    """Put the models of a revision into a folder; return where the path is in it.
+def extract(wanted: Revision, folder: Path, report: Diagnostics) -> Path | None:
+    """Extract the models of a revision into a folder and return the path in it.
 
-    A path is one in the file system, of which git knows the place, as in `git show REV:./PATH`;
-    one of a file that is gone since is found as well. None, and reported, where git has no such
-    revision or path.
+    The path refers to the file system, as in `git show REV:./PATH`; a file that no longer exists is
+    found as well. If git has no such revision or path, report it and return None.
     """
     git = _Git(Path(wanted.path), report)
-    root = git.line("rev-parse", "--show-toplevel")
+    root = git.run_line("rev-parse", "--show-toplevel")
     if root is None:
         return None
-    commit = git.line("rev-parse", "--verify", "--quiet", f"{wanted.revision}^{{commit}}")
+    commit = git.run_line("rev-parse", "--verify", "--quiet", f"{wanted.revision}^{{commit}}")
     if commit is None:
-        git.complain(wanted.revision, "git knows no such revision")
+        git.fail(wanted.revision, "no such revision in git")
         return None
     path, top = Path(wanted.path).resolve(), Path(root).resolve()
     if not path.is_relative_to(top):
-        git.complain(str(wanted), f"a link leads out of the repository, to `{path}`")
+        git.fail(str(wanted), f"a link leads out of the repository to `{path}`")
         return None
     inner = path.relative_to(top)
-    entries = git.ask("ls-tree", "-r", "-z", "--full-tree", commit)
-    files = dict(_files(entries or b""))
+    entries = git.run("ls-tree", "-r", "-z", "--full-tree", commit)
+    files = dict(list_files(entries or b""))
     place = PurePosixPath(inner.as_posix())
     if not any(place == name or place in name.parents for name in files):
-        git.complain(str(wanted), "there is no model in it")
+        git.fail(str(wanted), "it contains no model")
         return None
-    content = git.ask("cat-file", "--batch", given="\n".join(files.values()).encode())
+    content = git.run("cat-file", "--batch", given="\n".join(files.values()).encode())
     if content is None:
         return None
-    for name, data in zip(files, _contents(content), strict=True):
+    for name, data in zip(files, split_batch(content), strict=True):
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(data)
@@ -90,7 +89,7 @@ def take_out(wanted: Revision, folder: Path, report: Diagnostics) -> Path | None
 
 
 class _Git:
-    """Runs git in the repository of a path."""
+    """Git in the repository of a path."""
 
     def __init__(self, path: Path, report: Diagnostics) -> None:
         self._path = path
@@ -98,31 +97,31 @@ class _Git:
         folders = (path, *path.absolute().parents)
         self._folder = next(folder for folder in folders if folder.is_dir())
 
-    def ask(self, *arguments: str, given: bytes = b"") -> bytes | None:
-        """What git prints; None where it fails."""
+    def run(self, *arguments: str, given: bytes = b"") -> bytes | None:
+        """Output of a git command; None if it fails."""
         command = ["git", "-C", str(self._folder), *arguments]
         try:
             return subprocess.run(command, input=given, capture_output=True, check=True).stdout
         except FileNotFoundError:
-            self.complain(str(self._path), "git is not installed")
+            self.fail(str(self._path), "git is not installed")
         except subprocess.CalledProcessError as error:
             if error.stderr:
                 said = error.stderr.decode(errors="replace").strip().splitlines()[-1]
-                self.complain(str(self._path), said.removeprefix("fatal: "))
+                self.fail(str(self._path), said.removeprefix("fatal: "))
         return None
 
-    def line(self, *arguments: str) -> str | None:
-        """The same as one line of text."""
-        found = self.ask(*arguments)
+    def run_line(self, *arguments: str) -> str | None:
+        """Output of a git command as one line."""
+        found = self.run(*arguments)
         return None if found is None else found.decode(errors="surrogateescape").rstrip("\n")
 
-    def complain(self, name: str, reason: str) -> None:
-        """Report what cannot be compared with."""
+    def fail(self, name: str, reason: str) -> None:
+        """Report a revision that cannot be read."""
         self._report.report("no-revision", None, name=name, reason=reason)
 
 
-def _files(entries: bytes) -> list[tuple[PurePosixPath, str]]:
-    """The files of a tree that models may need, with their object names."""
+def list_files(entries: bytes) -> list[tuple[PurePosixPath, str]]:
+    """Files of a tree that models may need, with their object names."""
     found = []
     for entry in entries.decode(errors="surrogateescape").split("\0"):
         about, _, name = entry.partition("\t")
@@ -134,8 +133,8 @@ def _files(entries: bytes) -> list[tuple[PurePosixPath, str]]:
     return found
 
 
-def _contents(batch: bytes) -> list[bytes]:
-    """The contents of the objects that `git cat-file --batch` prints."""
+def split_batch(batch: bytes) -> list[bytes]:
+    """Contents of the objects that `git cat-file --batch` prints."""
     found, at = [], 0
     while at < len(batch):
         end = batch.index(b"\n", at)
