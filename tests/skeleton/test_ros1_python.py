@@ -165,4 +165,4 @@ def test_a_log_of_rospy_leads_to_the_model(
         '48 |   in    exposure : float64 on "exposure"\n'
         "   |         ^^^^^^^^\n"
     ) in said
-    assert "note: `implementation.py` is yours to fill in, for model.swarm:47:8" in said
+    assert "note: `implementation.py` is yours to implement, for model.swarm:47:8" in said

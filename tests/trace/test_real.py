@@ -30,7 +30,7 @@ def test_a_traceback_of_python(build: Build, trace: Trace, tmp_path: Path) -> No
     said = trace(run.stderr)
 
     assert run.stderr.splitlines()[-1] == "ModuleNotFoundError: No module named 'demo'"
-    assert "  = note: `implementation.py` is yours" in said
+    assert "  = note: `implementation.py` is yours to implement" in said
     assert said.endswith(f"    import demo.msg\n{CLIMB}{run.stderr.splitlines()[-1]}\n")
 
 

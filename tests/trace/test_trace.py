@@ -15,9 +15,9 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.cli import run as swarmc
 from swarmdsl.output import manifest
-from swarmdsl.tools.trace.annotations import Notes
+from swarmdsl.tools.trace.annotations import Annotator
 from swarmdsl.tools.trace.command import run
-from swarmdsl.tools.trace.generated_files import Folders
+from swarmdsl.tools.trace.generated_files import OutputFolders
 from swarmdsl.tools.trace.stream import Tracer
 
 from .conftest import Build, Trace, line_of
@@ -42,7 +42,7 @@ def test_a_traceback_has_the_places_below_its_frames(build: Build, trace: Trace)
     return self.aborted(x)
 +NameError: name 'x' is not defined
 """
-    yours = "  = note: `implementation.py` is yours to fill in, for model.swarm:28:10\n"
+    yours = "  = note: `implementation.py` is yours to implement, for model.swarm:28:10\n"
 
     assert trace(log.replace("@", "").replace("+", "")) == log.replace("@", STATE).replace(
         "+", yours
@@ -61,7 +61,7 @@ def test_a_compiler_has_the_places_below_its_lines(build: Build, trace: Trace) -
       |          \x1b[01;31m\x1b[K^~~~~\x1b[m\x1b[K
 @3compilation terminated.
 """
-    yours = "  = note: `climb.h` is yours to fill in, for model.swarm:28:10\n"
+    yours = "  = note: `climb.h` is yours to implement, for model.swarm:28:10\n"
     notes = {"@1": "  --> model.swarm:30:3\n", "@2": yours, "@3": STATE}
 
     def with_notes(told: bool) -> str:
@@ -129,13 +129,13 @@ def test_a_place_in_a_line_of_any_program(build: Build, trace: Trace, line: str)
 )
 def test_which_file_a_path_means(build: Build, path: str, known: bool) -> None:
     src = build().parent
-    file = Folders([src]).file(path.format(src=src))
+    file = OutputFolders([src]).file(path.format(src=src))
 
     assert (file is not None) == known
 
 
 def test_files_of_the_same_name_are_told_apart_by_what_is_above_them(build: Build) -> None:
-    folders = Folders([build("skeleton", "ros=2").parent])
+    folders = OutputFolders([build("skeleton", "ros=2").parent])
     paths = {
         "/i/climb/lib/python3.10/site-packages/climb/base.py": "skeleton/climb/climb/base.py",
         "/i/camera/lib/python3.10/site-packages/camera/base.py": "skeleton/camera/camera/base.py",
@@ -156,7 +156,7 @@ def test_a_logged_file_leads_to_the_folder_that_it_is_in(
     log = f"{tmp_path}/src/skeleton/climb/setup.py:2: bad\n"
 
     assert f"--> {tmp_path}/model.swarm:28:10\n" in trace(log)
-    assert "`setup.py` as a whole is made for this" in trace(log)
+    assert "the whole of `setup.py` is generated from this" in trace(log)
 
 
 def test_a_place_is_shown_once_and_told_again(build: Build, trace: Trace) -> None:
@@ -175,7 +175,7 @@ def test_lines_of_the_user_in_a_generated_file_move_those_below(build: Build, tr
     mine = line_of(cmake, "  tf2")
 
     assert trace(f"CMake Error at climb/CMakeLists.txt:{mine} (find_package):\n").endswith(
-        "  = note: this line of `CMakeLists.txt` is yours: it was not generated\n"
+        "  = note: you wrote this line of `CMakeLists.txt`\n"
     )
     assert "--> model.swarm:28:10" in trace(f"climb/CMakeLists.txt:{mine + 5}\n")
 
@@ -192,8 +192,8 @@ def test_lines_that_an_edit_has_moved(build: Build, trace: Trace, with_texts: bo
     mine = f"climb/base.py:{line_of(base, 'import sys')}\n"
 
     assert "--> model.swarm:30:3\n" in trace(line)
-    assert ("`base.py` has been edited since" in trace(line)) != with_texts
-    assert ("is yours: it was not generated" in trace(mine)) == with_texts
+    assert ("`base.py` was edited after the build" in trace(line)) != with_texts
+    assert ("you wrote this line" in trace(mine)) == with_texts
 
 
 def test_a_model_that_has_changed_is_not_shown(build: Build, trace: Trace, tmp_path: Path) -> None:
@@ -205,10 +205,12 @@ def test_a_model_that_has_changed_is_not_shown(build: Build, trace: Trace, tmp_p
     assert said == (
         "climb/setup.py:1\n"
         "  --> model.swarm:28:10\n"
-        "  = note: `model.swarm` has changed since it was built: the line may be another one now\n"
+        "  = note: `model.swarm` was edited after the build: the line may be wrong\n"
     )
-    Notes.__init__.__globals__["_model"].cache_clear()
-    assert "note: `model.swarm` is not there to show the line" in trace("climb/setup.py:1\n")
+    Annotator.__init__.__globals__["_read_model"].cache_clear()
+    assert "note: `model.swarm` is missing, so its line cannot be shown" in trace(
+        "climb/setup.py:1\n"
+    )
 
 
 @pytest.mark.parametrize("target", ["smach", "ros2", "yasmin", "scxml"])
@@ -237,7 +239,7 @@ def test_a_file_that_stands_for_no_place_says_so_once(build: Build, trace: Trace
     line = f"{package}/src/{package}/chart.py:12\n"
 
     assert trace(line * 2) == (
-        f"{line}  = note: `chart.py` is swarmc's, and stands for no single place in the model\n"
+        f"{line}  = note: `chart.py` is generated, but not from a single element of the model\n"
         f"{line}"
     )
 
@@ -272,7 +274,7 @@ def test_nothing_is_lost_and_nothing_depends_on_how_it_comes(build: Build, seed:
     src, log = build().parent, junk(seed)
 
     def traced(*cuts: int) -> bytes:
-        tracer = Tracer(Folders([src]), Notes(colour=False))
+        tracer = Tracer(OutputFolders([src]), Annotator(colour=False))
         bounds = [0, *cuts, len(log)]
         out = b"".join(tracer.feed(log[start:end]) for start, end in pairwise(bounds))
         return out + tracer.end()
@@ -291,7 +293,7 @@ def test_nothing_is_lost_and_nothing_depends_on_how_it_comes(build: Build, seed:
 
 def test_what_comes_goes_on_at_once(build: Build) -> None:
     """A line that has not ended, and one whose note waits for the code below it."""
-    tracer = Tracer(Folders([build().parent]), Notes(colour=False))
+    tracer = Tracer(OutputFolders([build().parent]), Annotator(colour=False))
 
     assert tracer.feed(b"[ 50%] buil") == b"[ 50%] buil"
     assert tracer.feed(b"ding\nclimb/setup.py:1") == b"ding\nclimb/setup.py:1"
@@ -370,7 +372,7 @@ def complaints(*outs: Path) -> list[tuple[str, str]]:
 def test_a_manifest_without_maps(build: Build, content: str) -> None:
     out = build().parent
     (out / manifest.NAME).write_text(content, encoding="utf-8")
-    message = f"no source map in `{out}`: it was built by a swarmc that wrote none"
+    message = f"no source map in `{out}`: it was built by a version of swarmc that wrote none"
 
     assert complaints(out) == [("no-source-map", message)]
 
@@ -391,7 +393,7 @@ def test_without_an_output_folder(
     assert complaints() == [
         (
             "no-source-map",
-            "no source map in `.`: nothing was built into it, nor where logged files lie",
+            "no source map in `.`: nothing was built into it or beside the logged files",
         )
     ]
 

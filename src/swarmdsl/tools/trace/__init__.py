@@ -1,1 +1,1 @@
-"""Output of programs that names generated files, with the places in the model that it is about."""
+"""Add model locations to output that names generated files: `swarmc trace`."""

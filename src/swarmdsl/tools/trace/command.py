@@ -1,4 +1,4 @@
-"""`swarmc trace`: from logs to the same logs with notes."""
+"""Command `swarmc trace`: copy logs and add notes."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver.config import find_settings
 from swarmdsl.output import manifest
 from swarmdsl.project.read_source import read_bytes
-from swarmdsl.tools.trace.annotations import Notes
-from swarmdsl.tools.trace.generated_files import Folders, nearby
+from swarmdsl.tools.trace.annotations import Annotator
+from swarmdsl.tools.trace.generated_files import OutputFolders, nearby_folders
 from swarmdsl.tools.trace.stream import Tracer
 
 _AT_ONCE = 1 << 16
@@ -26,14 +26,16 @@ def run(
     *,
     colour: bool,
 ) -> None:
-    """Write the logs with notes; the standard input where none is named.
+    """Write the logs with notes; without logs, read standard input.
 
-    `outs` are output folders, those that are likely here where none is named. What cannot be
-    read and what has no source maps is reported.
+    `outs` are output folders; without them, likely folders nearby are used. Unreadable logs and
+    folders without source maps are reported.
     """
     here = Path()
-    folders = Folders(outs or (find_settings((), Diagnostics()).out, *nearby(here.absolute())))
-    tracer = Tracer(folders, Notes(colour))
+    folders = OutputFolders(
+        outs or (find_settings((), Diagnostics()).out, *nearby_folders(here.absolute()))
+    )
+    tracer = Tracer(folders, Annotator(colour))
     for data in _pieces(logs, stdin, report):
         stdout.write(tracer.feed(data))
         stdout.flush()
@@ -43,33 +45,34 @@ def run(
         if not (out / manifest.NAME).is_file():
             _report_missing(out, "nothing was built into it", report)
     for out in folders.unmapped:
-        _report_missing(out, "it was built by a swarmc that wrote none", report)
+        _report_missing(out, "it was built by a version of swarmc that wrote none", report)
     if not (outs or folders.found or folders.unmapped):
-        hint = "name the folder that `swarmc build` has written to: `--out DIR`"
-        _report_missing(here, "nothing was built into it, nor where logged files lie", report, hint)
+        hint = "name the output folder of `swarmc build`: `--out DIR`"
+        reason = "nothing was built into it or beside the logged files"
+        _report_missing(here, reason, report, hint)
 
 
 def _pieces(logs: Sequence[Path], stdin: BinaryIO, report: Diagnostics) -> Iterator[bytes]:
-    """What is in the logs, as soon as it is there."""
+    """Yield the content of the logs as it arrives."""
     if not logs:
         yield from _read(stdin)
     for path in logs:
         try:
             file = path.open("rb")
         except (OSError, ValueError):
-            read_bytes(path, None, report, "a log")  # which says what is wrong
+            read_bytes(path, None, report, "a log")  # reports the error
             continue
         with file:
             yield from _read(file)
 
 
 def _read(stream: BinaryIO) -> Iterator[bytes]:
-    # `read1` gives what has come, where `read` would wait for all that was asked for.
+    # `read1` returns available data; `read` would wait for the full amount.
     while data := getattr(stream, "read1", stream.read)(_AT_ONCE):
         yield data
 
 
 def _report_missing(
-    out: Path, reason: str, report: Diagnostics, hint: str = "build the model again into it"
+    out: Path, reason: str, report: Diagnostics, hint: str = "build the model into it again"
 ) -> None:
     report.report("no-source-map", path=out, reason=reason, help=hint)

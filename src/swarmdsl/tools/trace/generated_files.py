@@ -1,7 +1,7 @@
-"""The output folders of swarmc, and which file in them a path in a log means.
+"""Find the generated file that a logged path refers to.
 
-A file is logged where it is installed, which is seldom where it was written. It is known by its
-package: what follows the name of the package in the path is the end of the file's own path.
+Logs name installed files, which are seldom where they were generated. A file is recognized by its
+package: the path below the package name ends the path of the generated file.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from swarmdsl.output.texts import Texts
 
 
 @dataclass(frozen=True)
-class Generated:
-    """A file of an output folder, by its path below it.
+class GeneratedFile:
+    """Generated file, by its path below the output folder.
 
-    `package` is the folder of its package, `hash` that of the text that was generated.
+    `package` is the folder of its package, `hash` the hash of the generated content.
     """
 
     out: Path
@@ -39,16 +39,16 @@ class Generated:
             return b""
 
     @cached_property
-    def is_unknown(self) -> bool:
-        """Whether it was edited, and nobody knows any more what it was before."""
+    def lost_original(self) -> bool:
+        """True if the file was edited and its generated text is not recorded."""
         edited = bool(self._content) and manifest.content_hash(self._content) != self.hash
         return edited and not self.map.of_user and Texts(self.out).get(self.hash) is None
 
     @cached_property
-    def _made(self) -> dict[int, int | None]:
-        """The lines of a file that the user has written in, as they were generated.
+    def _generated_lines(self) -> dict[int, int | None]:
+        """Generated line number of each line of an edited file.
 
-        None for those of the user, nothing where there are none.
+        None for a line of the user; empty if the file was not edited.
         """
         content = self._content
         base = Texts(self.out).get(self.hash) or user_regions.generated(content)
@@ -58,52 +58,52 @@ class Generated:
         found = matches(lines, base.splitlines())
         return {at + 1: found[at] + 1 if at in found else None for at in range(len(lines))}
 
-    def is_of_user(self, line: int) -> bool:
-        """Whether the user has written a line."""
-        return self._made.get(line, line) is None
+    def is_users_line(self, line: int) -> bool:
+        """Return True if the user wrote a line."""
+        return self._generated_lines.get(line, line) is None
 
     def position(self, line: int) -> Position | None:
-        """Where a line comes from that was generated, as far as more is known than of the file."""
-        made = self._made.get(line, line)
+        """Model location of a generated line, if known beyond that of the file."""
+        made = self._generated_lines.get(line, line)
         return self.map.position(made) if made is not None else None
 
 
-class Folders:
-    """Output folders: those that were named, and those in which logged files lie.
+class OutputFolders:
+    """Output folders: the given ones, and those that contain logged files.
 
-    `unmapped` are folders with a manifest that has no source maps.
+    `unmapped` are folders whose manifest has no source maps.
     """
 
     def __init__(self, folders: Iterable[Path]) -> None:
         self.found: list[Path] = []
         self.unmapped: list[Path] = []
-        self._files: dict[str, list[Generated]] = {}
-        self._looked: set[str] = set()
-        # Junk that looks like paths may come without end.
+        self._files: dict[str, list[GeneratedFile]] = {}
+        self._visited: set[str] = set()
+        # Bounded: a log can contain any number of strings that look like paths.
         self.file = lru_cache(1 << 12)(self._file)
         for folder in folders:
-            self._look(str(folder))
+            self._load(str(folder))
 
-    def _file(self, path: str) -> Generated | None:
-        """The file that a path in a log means, if swarmc has made it."""
+    def _file(self, path: str) -> GeneratedFile | None:
+        """Generated file that a logged path refers to, if any."""
         parts = [part for part in path.replace("\\", "/").split("/") if part not in ("", ".", "..")]
         if not parts or "\0" in path:
             return None
         for folder in Path(path).parents if path[0] in "/\\" or path[1:2] == ":" else ():
-            self._look(str(folder))
+            self._load(str(folder))
         places = self._files.get(parts[-1], ())
-        exact = [file for file in places if _is_at(file, path)]
+        exact = [file for file in places if _has_path(file, path)]
         return next(iter(exact), None) or max(
             (file for file in places if _matches(file, parts)),
-            key=lambda file: _common(file.path.split("/"), parts),
+            key=lambda file: _common_suffix(file.path.split("/"), parts),
             default=None,
         )
 
-    def _look(self, folder: str) -> None:
-        """Read the manifest of a folder, if it has one, and if that was not done before."""
-        if folder in self._looked:
+    def _load(self, folder: str) -> None:
+        """Read the manifest of a folder once, if there is one."""
+        if folder in self._visited:
             return
-        self._looked.add(folder)
+        self._visited.add(folder)
         if not os.path.isfile(os.path.join(folder, manifest.NAME)):  # noqa: PTH113, PTH118 - often
             return
         out = Path(folder)
@@ -118,35 +118,35 @@ class Folders:
         self.found.append(out)
         packages = {path.rpartition("/")[0] for path in maps if path.endswith("/package.xml")}
         for path, map_ in maps.items():
-            # What is in no package is in the folder of a target.
+            # A file outside of packages is in the folder of its target.
             package = next(
-                (above for above in _above(path) if above in packages), path.partition("/")[0]
+                (above for above in _parents(path) if above in packages), path.partition("/")[0]
             )
-            file = Generated(out, path, map_, package, hashes.get(path))
+            file = GeneratedFile(out, path, map_, package, hashes.get(path))
             self._files.setdefault(path.rpartition("/")[2], []).append(file)
 
 
-def nearby(folder: Path) -> Iterator[Path]:
-    """Where an output folder is likely when none is named: here, somewhat below, or above."""
+def nearby_folders(folder: Path) -> Iterator[Path]:
+    """Yield likely output folders: this one, up to two levels below, and those above."""
     yield from (folder, *folder.parents)
     for pattern in ("*", "*/*"):
         for place in sorted(folder.glob(f"{pattern}/{manifest.NAME}")):
             yield place.parent
 
 
-def _above(path: str) -> Iterator[str]:
-    """The folders that a file is in, from the inside out."""
+def _parents(path: str) -> Iterator[str]:
+    """Yield the folders of a file, innermost first."""
     while path := path.rpartition("/")[0]:
         yield path
 
 
-def _is_at(file: Generated, path: str) -> bool:
-    place = os.path.join(file.out, file.path)  # noqa: PTH118 - of each file that is called so
+def _has_path(file: GeneratedFile, path: str) -> bool:
+    place = os.path.join(file.out, file.path)  # noqa: PTH118 - called often
     return os.path.normpath(path) == os.path.normpath(place)
 
 
-def _matches(file: Generated, parts: list[str]) -> bool:
-    """Whether a file's path ends with what follows the name of its package in the logged one."""
+def _matches(file: GeneratedFile, parts: list[str]) -> bool:
+    """Return True if the path below the package name ends the path of the file."""
     package = file.package.rpartition("/")[2]
     own = file.path.removeprefix(f"{file.package}/").split("/")
     if len(parts) == 1:
@@ -158,7 +158,7 @@ def _matches(file: Generated, parts: list[str]) -> bool:
     )
 
 
-def _common(one: list[str], other: list[str]) -> int:
-    """How many parts two paths have in common at their ends."""
+def _common_suffix(one: list[str], other: list[str]) -> int:
+    """Number of common parts at the ends of two paths."""
     pairs = zip(reversed(one), reversed(other), strict=False)
     return next((n for n, (a, b) in enumerate(pairs) if a != b), min(len(one), len(other)))

@@ -1,33 +1,33 @@
-"""A log as a stream of bytes, to which notes are added and from which nothing is taken away."""
+"""Add notes to a log stream without removing anything from it."""
 
 from __future__ import annotations
 
-from swarmdsl.tools.trace.annotations import Notes
-from swarmdsl.tools.trace.generated_files import Folders
-from swarmdsl.tools.trace.source_locations import Kind, Line, line_of
+from swarmdsl.tools.trace.annotations import Annotator
+from swarmdsl.tools.trace.generated_files import OutputFolders
+from swarmdsl.tools.trace.source_locations import LineKind, LogLine, parse_line
 
-_MOST = 1 << 16
-"""How much of a line is looked at, and how much is held back at most."""
+_MAX_LENGTH = 1 << 16
+"""Bytes of a line that are parsed, and bytes that are held back, at most."""
 
 
 class Tracer:
-    """Adds notes to a log that comes in pieces.
+    """Adds notes to a log that arrives in chunks.
 
-    Whatever comes goes out at once, but for what comes after a line with a note that belongs
-    below the next lines: until one of these has ended, it is held back.
+    Input is passed on at once, except after a line whose note goes below the lines that belong to
+    it: it is held back until they end.
     """
 
-    def __init__(self, folders: Folders, notes: Notes) -> None:
+    def __init__(self, folders: OutputFolders, notes: Annotator) -> None:
         self._folders = folders
         self._notes = notes
-        self._line = b""  # what has come of a line
-        self._above: Line | None = None  # the line that waits for its note
+        self._line = b""  # the incomplete line
+        self._above: LogLine | None = None  # the line whose note is pending
         self._note = b""
-        self._has_note = False  # whether the line before this one has a note
+        self._has_note = False  # of the previous line
         self._held = b""
 
     def feed(self, data: bytes) -> bytes:
-        """What is to be written for the next piece of the log."""
+        """Return the output for the next chunk."""
         *lines, rest = data.split(b"\n")
         out = bytearray()
         for line in lines:
@@ -37,22 +37,22 @@ class Tracer:
         return bytes(out)
 
     def end(self) -> bytes:
-        """What is to be written in the end."""
+        """Return the remaining output."""
         if not self._line:
             return self._flush()
-        # The log ends within a line, which has an end only where something is to follow.
+        # The last line is incomplete: terminate it only if a note follows.
         out = self.feed(b"\n") + self._flush()
         return out if self._has_note else out[:-1]
 
     def _take(self, piece: bytes) -> bytes:
-        self._line += piece[: max(0, _MOST - len(self._line))]
+        self._line += piece[: max(0, _MAX_LENGTH - len(self._line))]
         if self._above is None:
             return piece
         self._held += piece
-        return self._flush() if len(self._held) > _MOST else b""
+        return self._flush() if len(self._held) > _MAX_LENGTH else b""
 
     def _end_line(self) -> bytes:
-        line, self._line = line_of(self._line), b""
+        line, self._line = parse_line(self._line), b""
         if self._above is None:
             out = b"\n"
         elif self._above.owns(line):
@@ -63,18 +63,18 @@ class Tracer:
             out = self._flush()
         note = self._note_for(line).encode(errors="replace")
         self._has_note = bool(note)
-        if note and line.kind in (Kind.PYTHON, Kind.COMPILER):
+        if note and line.kind in (LineKind.PYTHON, LineKind.COMPILER):
             self._above, self._note = line, note
             return out
         return out + note
 
-    def _note_for(self, line: Line) -> str:
+    def _note_for(self, line: LogLine) -> str:
         found = [
             (mention, file)
-            for mention in line.mentions
+            for mention in line.locations
             if (file := self._folders.file(mention.path)) is not None
         ]
-        return self._notes.below(line, found) if found else ""
+        return self._notes.annotate(line, found) if found else ""
 
     def _flush(self) -> bytes:
         out = self._note + self._held
