@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from swarmdsl.driver import pipeline
 from swarmdsl.syntax.ast import Member, Swarm
 from swarmdsl.tools.refactor import element_text
-from swarmdsl.tools.refactor.add import Place, add, declaration, part_of, state
+from swarmdsl.tools.refactor.add import FindInsertion, add, declaration, part_of, state
 
 MODEL = """/// A swarm of robots.
 package yard
@@ -253,21 +253,21 @@ def test_a_file_without_declarations(swarmc, folder) -> None:
         (["function", "f", "--action", "f:std_srvs/Empty"], "SW0604", "service"),
         (["swarm", "S", "--member", "Cart=0"], "SW0301", "write `[3]`"),
         (["state", "Goin.X"], "SW1503", "did you mean `Going`?"),
-        (["state", "Yrd.X"], "SW1503", "name a state machine `Going`, for instance"),
-        (["state", "Cart.X"], "SW1507", "goes into a member"),
-        (["state", "Slow.X"], "SW1504", "say which, such as"),
+        (["state", "Yrd.X"], "SW1503", "such as a state machine `Going`"),
+        (["state", "Cart.X"], "SW1507", "a member cannot contain it"),
+        (["state", "Slow.X"], "SW1504", "qualify it, such as"),
         (["state", "Going.Idle"], "SW1507", "already"),
-        (["state", "Done.X"], "SW1507", "goes into a final state"),
+        (["state", "Done.X"], "SW1507", "a final state cannot contain it"),
         (["state", "Drive.X"], "SW0511", "Drive"),
         (["state", "Going.X", "--do", "drive"], "SW0505", "add `on succeeded"),
         (["state", "Going.X", "--on", "Bump -> Nowhere"], "SW0202", "Nowhere"),
         (["state", "Going.X", "--on", "Bump -> Done } state Y {"], "SW1507", "more than one"),
-        (["component", "X", "--to", "Yard"], "SW1507", "goes into a swarm"),
+        (["component", "X", "--to", "Yard"], "SW1507", "a swarm cannot contain it"),
         (["component", "X", "--to", "Cart.bumper"], "SW1507", "already"),
         (
             ["event", "E", "std_msgs/Empty", "--file", "other.swarm"],
             "SW1507",
-            "it has `yard.swarm`",
+            "use `yard.swarm`",
         ),
     ],
 )
@@ -334,13 +334,13 @@ types = st.sampled_from(["bool", "float64", "std_msgs/String", "geometry_msgs/Po
 
 
 @st.composite
-def things(draw: st.DrawFn) -> Callable[[pipeline.Result, int], Place]:
+def things(draw: st.DrawFn) -> Callable[[pipeline.Result, int], FindInsertion]:
     """Something to add, made for a model."""
     start, doc, type_ = draw(names), draw(docs), draw(types)
     number = draw(st.integers(0, 10_000))
     kind = draw(st.sampled_from(["component", "event", "function", "machine", "part", "state"]))
 
-    def made(checked: pipeline.Result, turn: int) -> Place:
+    def made(checked: pipeline.Result, turn: int) -> FindInsertion:
         name, small = f"{start}{turn}", f"{start.lower()}_{turn}"
         system = checked.system
         assert system is not None

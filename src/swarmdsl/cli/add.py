@@ -274,10 +274,10 @@ def _run(kind: str, given: dict[str, Any]) -> int:
     from swarmdsl.base.usage_error import UsageError
     from swarmdsl.cli.exit_code import exit_code
     from swarmdsl.tools.refactor.add import add as added
-    from swarmdsl.tools.refactor.new_elements import THINGS
+    from swarmdsl.tools.refactor.new_elements import CREATORS
 
     try:
-        places = THINGS[kind](given)
+        places = CREATORS[kind](given)
     except UsageError as error:
         raise click.UsageError(str(error)) from error
     done = added(given["paths"], places, dry_run=given["dry_run"])

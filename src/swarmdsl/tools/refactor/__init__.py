@@ -1,5 +1,5 @@
-"""Changes of models that exist, from the command line: `swarmc add` and `swarmc rename`.
+"""Edit existing models from the command line: `swarmc add` and `swarmc rename`.
 
-All that is not changed stays as it is, byte for byte. A change is tried before it is made: one that
-would make a mistake is not made, and the mistake is told.
+Text outside the change stays the same, byte for byte. A change is checked first; if it would cause
+an error, nothing is written and the error is reported.
 """

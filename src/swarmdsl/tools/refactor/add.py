@@ -1,4 +1,4 @@
-"""`swarmc add`: something new in a model that exists."""
+"""Add elements to an existing model: `swarmc add`."""
 
 from __future__ import annotations
 
@@ -30,76 +30,80 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.formatter import formatted
 from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.refactor import insertion_point
-from swarmdsl.tools.refactor.names import Named, all_named, find, similar
-from swarmdsl.tools.scaffold.names import given
+from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
+from swarmdsl.tools.scaffold.names import command_line_span
 
-Found = tuple[File, Change]
-Place = Callable[[Workspace, Diagnostics], Found | None]
-"""Where something goes in a model, if it needs to; None where it needs not, or has no place,
-which is reported."""
+Insertion = tuple[File, Change]
+FindInsertion = Callable[[Workspace, Diagnostics], Insertion | None]
+"""Finds the insertion of an element.
+
+None if the element is not needed, or if it has no place, which is reported.
+"""
 
 
 @dataclass(frozen=True)
-class Added:
-    """What came of it: the files that change."""
+class AddResult:
+    """Result of `add`: the files that change."""
 
     report: Diagnostics
     files: int
     layouts: Sequence[Layout] = ()
 
 
-def add(paths: Sequence[Path], places: Sequence[Place], *, dry_run: bool = False) -> Added:
-    """Put things into the model of these files, or that of the project, one after the other.
+def add(
+    paths: Sequence[Path], insertions: Sequence[FindInsertion], *, dry_run: bool = False
+) -> AddResult:
+    """Add elements one after the other to the given files or to the project.
 
-    Nothing is written where one of them has no place or makes a mistake.
+    Nothing is written if an element has no place or causes an error.
     """
     report = Diagnostics()
     settings = find_settings(paths, report)
     if report.has_errors:
-        return Added(report, 0)
-    # What is new may be a slip that nobody else would see.
+        return AddResult(report, 0)
+    # An interface that is new and undescribed may be a typing error.
     levels = {"undescribed-interface": Level.WARN, **settings.levels}
     report = Diagnostics(levels)
     workspace = Workspace(paths or settings.sources, replace(settings, levels=levels))
     before = list(workspace.report)
     if not any(not file.library for file in workspace.project.files):
         report.include(before)
-        return Added(report, workspace.files)
+        return AddResult(report, workspace.files)
     contents: dict[Path, bytes] = {}
-    for place in places:
-        found = place(workspace, report)
+    for find_insertion in insertions:
+        found = find_insertion(workspace, report)
         if report.has_errors:
-            return Added(report, workspace.files)
+            return AddResult(report, workspace.files)
         if found is None:
             continue
         file, change = found
         path = Path(file.source.name)
-        start, end, text = change = _fitted(file, change)
+        start, end, text = change = _align(file, change)
         layout = rewritten(str(path), contents.get(path, path.read_bytes()), [change])
         contents[path] = layout.after
         whole = file.source.text
         workspace.update({path: whole[:start] + text + whole[end:]})
-    report.include(_new(before, workspace.report))
+    report.include(_new_diagnostics(before, workspace.report))
     layouts = [Layout(str(path), path.read_bytes(), text) for path, text in contents.items()]
     if report.has_errors or not (dry_run or write(layouts, report)):
-        return Added(report, workspace.files)
-    return Added(report, workspace.files, layouts)
+        return AddResult(report, workspace.files)
+    return AddResult(report, workspace.files, layouts)
 
 
-def _fitted(file: File, change: Change) -> Change:
-    """A change with the columns of what is around it, where that has to change nowhere else."""
+def _align(file: File, change: Change) -> Change:
+    """Align a change with the columns around it, unless other lines would change."""
     start, end, text = change
     before, after = file.source.text[:start], file.source.text[end:]
-    made = formatted(Source(file.source.name, before + text + after), Diagnostics())
-    if made is None or len(made) < len(before) + len(after):
+    text_after = formatted(Source(file.source.name, before + text + after), Diagnostics())
+    if text_after is None or len(text_after) < len(before) + len(after):
         return change
-    if made.startswith(before) and made.endswith(after):
-        return start, end, made[len(before) : len(made) - len(after)]
+    if text_after.startswith(before) and text_after.endswith(after):
+        return start, end, text_after[len(before) : len(text_after) - len(after)]
     return change
 
 
-def _new(before: Sequence[Diagnostic], after: Diagnostics) -> list[Diagnostic]:
-    """What is reported now and was not before, wherever it stood."""
+def _new_diagnostics(before: Sequence[Diagnostic], after: Diagnostics) -> list[Diagnostic]:
+    """List the diagnostics that were not reported before, regardless of location."""
     known = Counter((each.code, each.message) for each in before)
     found = []
     for each in after:
@@ -109,50 +113,50 @@ def _new(before: Sequence[Diagnostic], after: Diagnostics) -> list[Diagnostic]:
     return found
 
 
-def declaration(name: str, text: str, to: Path | None = None) -> Place:
-    """A declaration, in a file or in the one where it fits best."""
+def declaration(name: str, text: str, to: Path | None = None) -> FindInsertion:
+    """Insert a declaration into file `to`, or into the file that fits best."""
 
-    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
-        node = _parsed(name, text, report)
+    def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
+        node = _parse_declaration(name, text, report)
         if node is None:
             return None
         files = [file for file in workspace.project.files if not file.library]
         file = (
             insertion_point.best_file(files, type(node))
             if to is None
-            else _file(workspace, name, to, report)
+            else _model_file(workspace, name, to, report)
         )
         if file is None:
             return None
         for other in workspace.project.files:
             for known in other.model.declarations:
                 if known.name == name and other.package == file.package:
-                    _report_taken(name, Named(other, known, (name,)), report)
+                    _report_taken(name, NamedElement(other, known, (name,)), report)
                     return None
         return file, insertion_point.declaration(file, type(node), text)
 
-    return place
+    return find_insertion
 
 
-def unless_there(name: str, text: str) -> Place:
-    """A declaration that is only needed where no file declares something of this name."""
-    made = declaration(name, text)
+def insert_if_absent(name: str, text: str) -> FindInsertion:
+    """Insert a declaration unless some file declares the name."""
+    insert = declaration(name, text)
 
-    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
-        there = any(
+    def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
+        declared = any(
             known.name == name
             for file in workspace.project.files
             for known in file.model.declarations
         )
-        return None if there else made(workspace, report)
+        return None if declared else insert(workspace, report)
 
-    return place
+    return find_insertion
 
 
-def part_of(owner: str, name: str, kind: type[Member] | type[Swarm], line: str) -> Place:
-    """A part of a member, or a role of a swarm."""
+def part_of(owner: str, name: str, kind: type[Member] | type[Swarm], line: str) -> FindInsertion:
+    """Insert a part of a member or a role of a swarm."""
 
-    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+    def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
         found = _container(workspace, name, owner, (kind,), report)
         if found is None:
             return None
@@ -161,18 +165,18 @@ def part_of(owner: str, name: str, kind: type[Member] | type[Swarm], line: str) 
         items = [each for each in node.items if isinstance(each, (Part, Role))]
         taken = next((each for each in items if each.name == name), None)
         if taken is not None:
-            _report_taken(name, Named(found.file, taken, (owner, name)), report)
+            _report_taken(name, NamedElement(found.file, taken, (owner, name)), report)
             return None
         return found.file, insertion_point.line_in(found.file, found.node, items, line)
 
-    return place
+    return find_insertion
 
 
-def state(path: str, text: str) -> Place:
-    """A state of a machine, of a state or of a region."""
+def state(path: str, text: str) -> FindInsertion:
+    """Insert a state into a machine, a state or a region."""
     owner, _, name = path.rpartition(".")
 
-    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+    def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
         found = _container(workspace, name, owner, insertion_point.CONTAINERS, report)
         if found is None:
             return None
@@ -182,13 +186,13 @@ def state(path: str, text: str) -> Place:
             (each for each in node.items if isinstance(each, Vertex) and each.name == name), None
         )
         if taken is not None:
-            _report_taken(name, Named(found.file, taken, (*found.path, name)), report)
+            _report_taken(name, NamedElement(found.file, taken, (*found.path, name)), report)
             return None
         if "{" not in node.span.text:
             _report_no_braces(name, found, report)
             return None
         wrapped = f"statemachine M {{\n  initial {name}\n{text}\n}}"
-        machine = _parsed(name, wrapped, report)
+        machine = _parse_declaration(name, wrapped, report)
         if not isinstance(machine, StateMachine):
             return None
         if len(machine.items) != 2:  # beside `initial`
@@ -196,13 +200,13 @@ def state(path: str, text: str) -> Place:
             return None
         return found.file, insertion_point.state(found.file, node, name, text)
 
-    return place
+    return find_insertion
 
 
-def transition(source: str, text: str) -> Place:
-    """A transition below the others of a state."""
+def transition(source: str, text: str) -> FindInsertion:
+    """Insert a transition below the others of a state."""
 
-    def place(workspace: Workspace, report: Diagnostics) -> Found | None:
+    def find_insertion(workspace: Workspace, report: Diagnostics) -> Insertion | None:
         found = _container(workspace, text, source, (State, Parallel), report)
         if found is None:
             return None
@@ -214,38 +218,44 @@ def transition(source: str, text: str) -> Place:
         others = [each for each in node.items if isinstance(each, Transition)]
         return found.file, insertion_point.line_in(found.file, node, others or node.items, text)
 
-    return place
+    return find_insertion
 
 
 def _container(
     workspace: Workspace, name: str, owner: str, kinds: tuple[type, ...], report: Diagnostics
-) -> Named | None:
-    every = find(workspace, owner)
+) -> NamedElement | None:
+    every = find_elements(workspace, owner)
     found = [each for each in every if isinstance(each.node, kinds)]
     if len(found) == 1:
         return found[0]
     if found:
-        related = tuple(Label(each.place, str(each)) for each in found)
-        way = f"say which, such as `{'.'.join(found[0].path)}`"
-        report.report("unclear-name", given(owner), name=owner, related=related, help=way)
+        related = tuple(Label(each.name_span, str(each)) for each in found)
+        hint = f"qualify it, such as `{'.'.join(found[0].path)}`"
+        report.report(
+            "unclear-name", command_line_span(owner), name=owner, related=related, help=hint
+        )
     elif every:
-        reason = f"nothing of its kind goes into {kind_of(every[0].node)}"
-        way = f"name {_alternatives(workspace, kinds)}"
-        report.report("cannot-add", every[0].place, what=f"`{name}`", reason=reason, help=way)
+        reason = f"{kind_of(every[0].node)} cannot contain it"
+        hint = f"name {_alternatives(workspace, kinds)}"
+        report.report("cannot-add", every[0].name_span, what=f"`{name}`", reason=reason, help=hint)
     else:
-        close = similar(workspace, owner, kinds)
-        way = f"did you mean `{close}`?" if close else f"name {_alternatives(workspace, kinds)}"
-        report.report("no-such-thing", given(owner), name=owner, help=way)
+        suggestion = suggest_path(workspace, owner, kinds)
+        hint = (
+            f"did you mean `{suggestion}`?"
+            if suggestion
+            else f"name {_alternatives(workspace, kinds)}"
+        )
+        report.report("no-such-thing", command_line_span(owner), name=owner, help=hint)
     return None
 
 
 def _alternatives(workspace: Workspace, kinds: tuple[type, ...]) -> str:
-    names = [str(each) for each in all_named(workspace) if isinstance(each.node, kinds)]
-    return f"{names[0]}, for instance" if names else "something that the model has: it has none"
+    names = [str(each) for each in all_elements(workspace) if isinstance(each.node, kinds)]
+    return f"an existing one, such as {names[0]}" if names else "an existing one: there is none yet"
 
 
-def _parsed(name: str, text: str, report: Diagnostics) -> Declaration | None:
-    """The one declaration in a text; None where it has mistakes, or is more, which is reported."""
+def _parse_declaration(name: str, text: str, report: Diagnostics) -> Declaration | None:
+    """Parse a text with exactly one declaration; otherwise report it and return None."""
     found = Diagnostics()
     model = parse(Source("<command line>", text), found).model
     if found.has_errors:
@@ -259,33 +269,42 @@ def _parsed(name: str, text: str, report: Diagnostics) -> Declaration | None:
 
 
 def _report_several(name: str, text: str, report: Diagnostics) -> None:
-    way = "add one thing at a time"
-    reason = "it is more than one thing"
-    report.report("cannot-add", given(text), what=f"`{name}`", reason=reason, help=way)
+    hint = "add one element at a time"
+    reason = "it is more than one element"
+    report.report("cannot-add", command_line_span(text), what=f"`{name}`", reason=reason, help=hint)
 
 
-def _report_no_braces(name: str, found: Named, report: Diagnostics) -> None:
-    reason, way = f"{found} has no braces", f"write them: `{found.node.span.text} {{ }}`"
-    report.report("cannot-add", found.place, what=f"`{name}`", reason=reason, help=way)
+def _report_no_braces(name: str, found: NamedElement, report: Diagnostics) -> None:
+    reason, hint = f"{found} has no braces", f"add them: `{found.node.span.text} {{ }}`"
+    report.report("cannot-add", found.name_span, what=f"`{name}`", reason=reason, help=hint)
 
 
-def _file(workspace: Workspace, name: str, path: Path, report: Diagnostics) -> File | None:
+def _model_file(workspace: Workspace, name: str, path: Path, report: Diagnostics) -> File | None:
     file = workspace.file(path)
     if file is None or file.library:
         names = [each.source.name for each in workspace.project.files if not each.library]
-        way = f"it has `{names[0]}`" + (" and others" if len(names) > 1 else "")
-        reason = f"`{path.as_posix()}` is no file of the model"
+        hint = f"use `{names[0]}`" + (" or another of its files" if len(names) > 1 else "")
+        reason = f"`{path.as_posix()}` is not a file of the model"
         report.report(
-            "cannot-add", given(path.as_posix()), what=f"`{name}`", reason=reason, help=way
+            "cannot-add",
+            command_line_span(path.as_posix()),
+            what=f"`{name}`",
+            reason=reason,
+            help=hint,
         )
         return None
     return file
 
 
-def _report_taken(name: str, known: Named, report: Diagnostics) -> None:
-    related = (Label(known.place, "declared here"),)
-    way = "choose another name, or change what is there"
-    reason = "there is something of this name already"
+def _report_taken(name: str, known: NamedElement, report: Diagnostics) -> None:
+    related = (Label(known.name_span, "declared here"),)
+    hint = "choose another name, or edit the existing element"
+    reason = "the name is already declared"
     report.report(
-        "cannot-add", given(name), what=f"`{name}`", reason=reason, related=related, help=way
+        "cannot-add",
+        command_line_span(name),
+        what=f"`{name}`",
+        reason=reason,
+        related=related,
+        help=hint,
     )

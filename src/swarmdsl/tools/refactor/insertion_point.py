@@ -1,4 +1,4 @@
-"""Where in a file something new belongs, and how it is laid out there."""
+"""Find the insertion point of a new element and indent it."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.formatter import formatted
 
-# The order in which declarations usually stand in a file.
+# Usual order of declarations in a file.
 _ORDER: Sequence[tuple[type, ...]] = (
     (MessageType, ServiceType, ActionType, StructType, EnumType, AliasType, Constant),
     (Event,),
@@ -51,12 +51,12 @@ Container = StateMachine | State | Region
 
 
 def rank(kind: type) -> int:
-    """Where declarations of a kind usually stand."""
+    """Position of declarations of a kind in the usual order."""
     return next(place for place, kinds in enumerate(_ORDER) if kind in kinds)
 
 
 def best_file(files: Sequence[File], kind: type) -> File:
-    """The file that has most of a kind, else of what stands beside it; else the first."""
+    """File with most declarations of a kind, else of neighboring kinds."""
 
     def fit(file: File) -> tuple[int, ...]:
         counts = [0] * len(_ORDER)
@@ -69,16 +69,16 @@ def best_file(files: Sequence[File], kind: type) -> File:
 
 
 def declaration(file: File, kind: type, text: str) -> Change:
-    """A declaration below the last of its kind in a file, or of what usually stands before it."""
+    """Insert a declaration below the last of its kind or of a kind usually before it."""
     laid_out = formatted(Source("new", text), Diagnostics())
-    assert laid_out is not None  # it has been parsed before
+    assert laid_out is not None  # it was parsed without errors
     lines = laid_out.strip("\n")
     declared: Sequence[Declaration] = file.model.declarations
     before = [each for each in declared if rank(type(each)) <= rank(kind)]
     same = [each for each in before if rank(type(each)) == rank(kind)]
-    beside = same or before
-    if beside:
-        last = max(beside, key=lambda each: each.span.absolute.start)
+    neighbors = same or before
+    if neighbors:
+        last = max(neighbors, key=lambda each: each.span.absolute.start)
         return _below(file, last.span.absolute.end, f"\n{lines}")
     model = file.model
     top = [*([model.package] if model.package is not None else []), *model.imports]
@@ -91,7 +91,7 @@ def declaration(file: File, kind: type, text: str) -> Change:
 
 
 def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change:
-    """A line below the last of some items in a block, or first in it."""
+    """Insert a line below the last of `items` in a block, or first in the block."""
     indent = _indent(file, owner.span.absolute.start) + "  "
     lines = textwrap.indent(text, indent)
     if items:
@@ -100,11 +100,14 @@ def line_in(file: File, owner: Node, items: Sequence[Node], text: str) -> Change
 
 
 def state(file: File, container: Container, name: str, text: str) -> Change:
-    """A state below the last of a container and above its final states, a final one below them."""
+    """Insert a state below the last state of a container, but above its final states.
+
+    A final state goes below the final states.
+    """
     indent = _indent(file, container.span.absolute.start) + "  "
-    alone = f"statemachine M {{\n  initial S\n\n{text}\n}}\n"
-    laid_out = formatted(Source("new", alone), Diagnostics())
-    assert laid_out is not None  # it has been parsed before
+    wrapped = f"statemachine M {{\n  initial S\n\n{text}\n}}\n"
+    laid_out = formatted(Source("new", wrapped), Diagnostics())
+    assert laid_out is not None  # it was parsed without errors
     inner = textwrap.dedent(laid_out.partition("\n\n")[2].rpartition("\n}")[0])
     vertices = [each for each in container.items if isinstance(each, Vertex)]
     finals = [each for each in vertices if isinstance(each, FinalState)]
@@ -112,16 +115,16 @@ def state(file: File, container: Container, name: str, text: str) -> Change:
     if not vertices:
         inner = f"initial {name}\n{inner}"
     is_final = inner.splitlines()[-1].startswith("final ")
-    beside: Sequence[Node] = (finals if is_final and finals else states) or container.items
-    apart = "\n" if beside is states and _is_apart(file, states) else ""
-    lines = apart + textwrap.indent(inner.strip("\n"), indent, lambda line: line.strip() != "")
-    if beside:
-        return _below(file, max(each.span.absolute.end for each in beside), lines)
+    neighbors: Sequence[Node] = (finals if is_final and finals else states) or container.items
+    separator = "\n" if neighbors is states and _is_separated(file, states) else ""
+    lines = separator + textwrap.indent(inner.strip("\n"), indent, lambda line: line.strip() != "")
+    if neighbors:
+        return _below(file, max(each.span.absolute.end for each in neighbors), lines)
     return _below(file, _brace(file, container) + 1, lines)
 
 
-def _is_apart(file: File, states: Sequence[Node]) -> bool:
-    """Whether the last of the states has a blank line above."""
+def _is_separated(file: File, states: Sequence[Node]) -> bool:
+    """Return True if a blank line precedes the last state."""
     start = file.source.text.rfind("\n", 0, states[-1].span.absolute.start)
     return file.source.text[:start].endswith("\n")
 

@@ -1,4 +1,4 @@
-"""What a model declares, by the paths that a person writes: `Uav.altitude`, `Search.Rise`."""
+"""Find declared elements by qualified name: `Uav.altitude`, `Search.Rise`."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from swarmdsl.syntax.ast import Node, Region, children
 
 
 @dataclass(frozen=True, eq=False)
-class Named:
-    """Something that a file declares, and its path, in which regions do not count."""
+class NamedElement:
+    """Declared element and its qualified name, which leaves regions out."""
 
     file: File
     node: Node
     path: tuple[str, ...]
 
     @property
-    def place(self) -> Span:
-        """Where its name stands."""
+    def name_span(self) -> Span:
+        """Span of the name in the declaration."""
         span: Span = self.node.name.span.absolute  # type: ignore[attr-defined]
         return span
 
@@ -32,42 +32,47 @@ class Named:
         return f"{kind_of(self.node)} `{'.'.join(self.path)}`"
 
 
-def all_named(workspace: Workspace, *, library: bool = False) -> Iterator[Named]:
-    """All that the files of the project itself declare, or those of libraries."""
+def all_elements(workspace: Workspace, *, library: bool = False) -> Iterator[NamedElement]:
+    """Yield the declared elements of the project, or with `library` of libraries."""
     for file in workspace.project.files:
         if file.library == library:
             for owner in owners(file):
-                yield from _inside(file, owner, ())
+                yield from _elements_in(file, owner, ())
 
 
-def find(workspace: Workspace, name: str) -> list[Named]:
-    """What a path means: exactly that, else what ends so; `package.Name` names a declaration."""
+def find_elements(workspace: Workspace, name: str) -> list[NamedElement]:
+    """Find the elements with a qualified name.
+
+    An exact match wins over a suffix; `package.Name` finds a declaration.
+    """
     words = tuple(name.split("."))
-    every = list(all_named(workspace))
+    every = list(all_elements(workspace))
     exact = [each for each in every if each.path == words]
     if exact:
         return exact
-    ending = [each for each in every if each.path[-len(words) :] == words]
-    if ending:
-        return ending
+    suffixed = [each for each in every if each.path[-len(words) :] == words]
+    if suffixed:
+        return suffixed
     return [each for each in every if (*each.file.package.split("."), *each.path) == words]
 
 
-def similar(workspace: Workspace, name: str, kinds: type | tuple[type, ...] = Node) -> str | None:
-    """The path of something that may be meant, and is of one of some kinds."""
-    named = [each for each in all_named(workspace) if isinstance(each.node, kinds)]
-    path = closest(name, [".".join(each.path) for each in named])
+def suggest_path(
+    workspace: Workspace, name: str, kinds: type | tuple[type, ...] = Node
+) -> str | None:
+    """Suggest the qualified name of a similarly named element of the given kinds."""
+    elements = [each for each in all_elements(workspace) if isinstance(each.node, kinds)]
+    path = closest(name, [".".join(each.path) for each in elements])
     if path is not None:
         return path
-    last = closest(name.rpartition(".")[2], [each.path[-1] for each in named])
-    return next((".".join(each.path) for each in named if each.path[-1] == last), None)
+    last = closest(name.rpartition(".")[2], [each.path[-1] for each in elements])
+    return next((".".join(each.path) for each in elements if each.path[-1] == last), None)
 
 
-def _inside(file: File, node: Node, around: Sequence[str]) -> Iterator[Named]:
+def _elements_in(file: File, node: Node, around: Sequence[str]) -> Iterator[NamedElement]:
     path = (*around,)
     if type(node) in KINDS:
         own = (*around, str(node.name))  # type: ignore[attr-defined]
-        yield Named(file, node, own)
+        yield NamedElement(file, node, own)
         path = path if isinstance(node, Region) else own
     for child in children(node):
-        yield from _inside(file, child, path)
+        yield from _elements_in(file, child, path)

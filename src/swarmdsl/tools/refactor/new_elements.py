@@ -1,7 +1,6 @@
-"""What each kind of thing becomes that `swarmc add` is asked for: its text, and where it goes.
+"""Text and insertion point of each kind of element that `swarmc add` creates.
 
-What is given are the values of the command line, by the names of its options there. What cannot be
-meant is a UsageError.
+Each function gets the command-line options by name and raises UsageError for invalid values.
 """
 
 from __future__ import annotations
@@ -14,125 +13,135 @@ from swarmdsl.base.usage_error import UsageError
 from swarmdsl.importing.update.merging import commented
 from swarmdsl.syntax.ast import Member, Swarm
 from swarmdsl.tools.refactor import element_text
-from swarmdsl.tools.refactor.add import Place, declaration, part_of, transition, unless_there
+from swarmdsl.tools.refactor.add import (
+    FindInsertion,
+    declaration,
+    insert_if_absent,
+    part_of,
+    transition,
+)
 from swarmdsl.tools.refactor.add import state as state_at
 
-Given = Mapping[str, Any]
+Options = Mapping[str, Any]
 
 
-def component(given: Given) -> list[Place]:
-    """A component, perhaps with a state machine, and as a part of a member."""
-    name = given["name"]
+def component(options: Options) -> list[FindInsertion]:
+    """New component, optionally with a state machine and as a part of a member."""
+    name = options["name"]
     lines = [
-        *_ports(given),
-        *element_text.params(given["params"]),
-        *(f"operation {each}" for each in given["operations"]),
-        *_behaviour(given),
+        *_ports(options),
+        *element_text.params(options["params"]),
+        *(f"operation {each}" for each in options["operations"]),
+        *_behaviour(options),
     ]
-    text = element_text.block(given["doc"], f"{given['kind']} {name}{_base(given)}", lines)
-    made = [*_machine(given), declaration(name, text, given["file"])]
-    if given["to"]:
-        owner, _, part = given["to"].partition(".")
+    text = element_text.block(options["doc"], f"{options['kind']} {name}{_base(options)}", lines)
+    insertions = [*_machine(options), declaration(name, text, options["file"])]
+    if options["to"]:
+        owner, _, part = options["to"].partition(".")
         part = part or snake_case(name)
-        made.append(part_of(owner, part, Member, f"{part} : {name}"))
-    return made
+        insertions.append(part_of(owner, part, Member, f"{part} : {name}"))
+    return insertions
 
 
-def member(given: Given) -> list[Place]:
-    """A member, perhaps with a state machine, and as a role of a swarm."""
-    name = given["name"]
-    head = [*_behaviour(given), *element_text.params(given["params"]), *_ports(given)]
+def member(options: Options) -> list[FindInsertion]:
+    """New member, optionally with a state machine and as a role of a swarm."""
+    name = options["name"]
+    head = [*_behaviour(options), *element_text.params(options["params"]), *_ports(options)]
     parts, connectors = (
-        element_text.parts(given["parts"]),
-        element_text.connectors(given["connectors"]),
+        element_text.parts(options["parts"]),
+        element_text.connectors(options["connectors"]),
     )
     groups = [group for group in (head, list(parts), list(connectors)) if group]
     lines = [line for group in groups for line in ("", *group)][1:]
-    text = element_text.block(given["doc"], f"member {name}{_base(given)}", lines)
-    made = [*_machine(given), declaration(name, text, given["file"])]
-    if given["to"]:
-        swarm_name, _, count = given["to"].partition("=")
+    text = element_text.block(options["doc"], f"member {name}{_base(options)}", lines)
+    insertions = [*_machine(options), declaration(name, text, options["file"])]
+    if options["to"]:
+        swarm_name, _, count = options["to"].partition("=")
         (line,) = element_text.roles([f"{name}={count}" if count else name])
-        made.append(part_of(swarm_name, snake_case(name), Swarm, line))
-    return made
+        insertions.append(part_of(swarm_name, snake_case(name), Swarm, line))
+    return insertions
 
 
-def function(given: Given) -> list[Place]:
-    """A function."""
-    name = given["name"]
+def function(options: Options) -> list[FindInsertion]:
+    """New function."""
+    name = options["name"]
     lines = [
-        element_text.call(given["action"], given["service"]),
-        *element_text.topics("in", given["incoming"]),
-        *element_text.topics("out", given["outgoing"]),
-        *element_text.params(given["params"]),
+        element_text.call(options["action"], options["service"]),
+        *element_text.topics("in", options["incoming"]),
+        *element_text.topics("out", options["outgoing"]),
+        *element_text.params(options["params"]),
     ]
-    text = element_text.block(given["doc"], f"function {name} : {given['category']}", lines)
-    return [declaration(name, text, given["file"])]
+    text = element_text.block(options["doc"], f"function {name} : {options['category']}", lines)
+    return [declaration(name, text, options["file"])]
 
 
-def event(given: Given) -> list[Place]:
-    """An event."""
-    name = given["name"]
-    kind = "swarm event" if given["swarm"] else "event"
-    topic = f' on "{given["topic"]}"' if given["topic"] else ""
-    text = f"{_doc(given)}{kind} {name} : {given['type_']}{topic}"
-    return [declaration(name, text, given["file"])]
+def event(options: Options) -> list[FindInsertion]:
+    """New event."""
+    name = options["name"]
+    kind = "swarm event" if options["swarm"] else "event"
+    topic = f' on "{options["topic"]}"' if options["topic"] else ""
+    text = f"{_doc(options)}{kind} {name} : {options['type_']}{topic}"
+    return [declaration(name, text, options["file"])]
 
 
-def swarm(given: Given) -> list[Place]:
-    """A swarm."""
-    name = given["name"]
-    lines = [*element_text.roles(given["members"])]
-    lines += [f"{word} {given[word]}" for word in ("environment", "fitness") if given[word]]
-    text = element_text.block(given["doc"], f"swarm {name}", lines)
-    return [declaration(name, text, given["file"])]
+def swarm(options: Options) -> list[FindInsertion]:
+    """New swarm."""
+    name = options["name"]
+    lines = [*element_text.roles(options["members"])]
+    lines += [f"{word} {options[word]}" for word in ("environment", "fitness") if options[word]]
+    text = element_text.block(options["doc"], f"swarm {name}", lines)
+    return [declaration(name, text, options["file"])]
 
 
-def state(given: Given) -> list[Place]:
-    """A state, and the transitions that lead to it."""
-    path = given["name"]
+def state(options: Options) -> list[FindInsertion]:
+    """New state and the transitions to it."""
+    path = options["name"]
     owner, _, name = path.rpartition(".")
     if not owner:
-        raise UsageError(f"say where `{name}` is to be: MACHINE.{name}")
-    ways = [element_text.way_in(each, name) for each in given["ways_in"]]
-    led = [transition(f"{owner}.{source}", text) for source, text in ways]
-    lines = [f"do {given['activity']}"] if given["activity"] else []
-    lines += [f"on {each}" for each in given["transitions"]]
-    lines += [f"after {each}" for each in given["delays"]]
-    if given["final"]:
-        if lines or given["runs"]:
-            raise UsageError("a final state does nothing and leads nowhere")
-        return [state_at(path, f"{_doc(given)}final {name}"), *led]
-    head = f"state {name}" + (f" = {given['runs']}" if given["runs"] else "")
-    return [state_at(path, element_text.block(given["doc"], head, lines)), *led]
+        raise UsageError(f"qualify the state with its state machine: `MACHINE.{name}`")
+    incoming = [element_text.incoming_transition(each, name) for each in options["ways_in"]]
+    transitions = [transition(f"{owner}.{source}", text) for source, text in incoming]
+    lines = [f"do {options['activity']}"] if options["activity"] else []
+    lines += [f"on {each}" for each in options["transitions"]]
+    lines += [f"after {each}" for each in options["delays"]]
+    if options["final"]:
+        if lines or options["runs"]:
+            raise UsageError("a final state has no activity and no transitions")
+        return [state_at(path, f"{_doc(options)}final {name}"), *transitions]
+    head = f"state {name}" + (f" = {options['runs']}" if options["runs"] else "")
+    return [state_at(path, element_text.block(options["doc"], head, lines)), *transitions]
 
 
-THINGS: Mapping[str, Callable[[Given], list[Place]]] = {
+CREATORS: Mapping[str, Callable[[Options], list[FindInsertion]]] = {
     each.__name__: each for each in (component, member, function, event, swarm, state)
 }
-"""What makes each of the kinds."""
+"""Creator of each kind of element."""
 
 
-def _doc(given: Given) -> str:
-    return f"{commented(given['doc'])}\n" if given["doc"] else ""
+def _doc(options: Options) -> str:
+    return f"{commented(options['doc'])}\n" if options["doc"] else ""
 
 
-def _ports(given: Given) -> list[str]:
-    ports = element_text.Ports(given["incoming"], given["outgoing"], given["both"])
+def _ports(options: Options) -> list[str]:
+    ports = element_text.Ports(options["incoming"], options["outgoing"], options["both"])
     return list(ports.lines())
 
 
-def _base(given: Given) -> str:
-    return f" extends {given['extends']}" if given["extends"] else ""
+def _base(options: Options) -> str:
+    return f" extends {options['extends']}" if options["extends"] else ""
 
 
-def _behaviour(given: Given) -> list[str]:
-    return [f"behavior {given['behavior']}"] if given["behavior"] else []
+def _behaviour(options: Options) -> list[str]:
+    return [f"behavior {options['behavior']}"] if options["behavior"] else []
 
 
-def _machine(given: Given) -> Sequence[Place]:
-    """The state machine that something is to run, if there is none yet."""
-    name = given["behavior"]
+def _machine(options: Options) -> Sequence[FindInsertion]:
+    """State machine of a new element, unless it exists."""
+    name = options["behavior"]
     if not name:
         return ()
-    return (unless_there(name, element_text.machine(name, f"The behaviour of `{given['name']}`.")),)
+    return (
+        insert_if_absent(
+            name, element_text.machine(name, f"The behaviour of `{options['name']}`.")
+        ),
+    )

@@ -1,8 +1,8 @@
-"""Names of a model in its tests and scenarios, where these are read as such.
+"""References to model elements in test files and scenarios.
 
-What means what there is known by whoever runs them. So a name is changed where, with the model
-as it will be, the old one means nothing any more and the new one does: whatever else is called
-the same keeps its name, and so do comments and texts.
+The readers of tests and scenarios decide which names refer to the model: a name is replaced if, in
+the renamed model, the old name is an error there and the new one is not. Other elements with the
+same name, comments and strings stay.
 """
 
 from __future__ import annotations
@@ -23,96 +23,98 @@ from swarmdsl.execution.testing.models import Model, Models
 from swarmdsl.execution.testing.reading import read_tests
 from swarmdsl.ir import System
 
-Reading = Callable[[Source], Diagnostics]
-"""Reads a file as its tests or its scenario, and says what is wrong with it."""
+Check = Callable[[Source], Diagnostics]
+"""Reads a file as tests or as a scenario and returns its diagnostics."""
 
 
-def word(name: str) -> re.Pattern[str]:
-    """What finds a name where it is a word of its own."""
+def word_pattern(name: str) -> re.Pattern[str]:
+    """Pattern that finds a name as a whole word."""
     return re.compile(rf"(?<![A-Za-z0-9_]){re.escape(name)}(?![A-Za-z0-9_])")
 
 
 @dataclass(frozen=True)
-class Mentions:
-    """Where a file has a name: what is to change, and what means something else for sure."""
+class References:
+    """Uses of a name in a file: those to change, and the offsets of unrelated ones."""
 
     changes: Sequence[Change] = ()
     others: frozenset[int] = frozenset()
 
 
-def mentions(
+def find_references(
     source: Source, old: str, new: str, files: Iterable[Path], before: System, after: System
-) -> Mentions:
-    """The names in a test file or scenario of a model of some files, before and after."""
-    assert source.path is not None  # what has been read from a file
+) -> References:
+    """Find references in a test file or scenario with the model before and after."""
+    assert source.path is not None  # it was read from a file
     if source.path.name.endswith(SUFFIX):
         paths = {path.resolve() for path in files}
-        return _mentions(source, old, new, _tests(before, paths), _tests(after, paths))
+        return _references_in(source, old, new, _tests(before, paths), _tests(after, paths))
     document = parse_toml(source, Diagnostics())
     if document is None or not document.values.keys() <= set(TABLES):
-        return Mentions()
+        return References()
     pairs = zip(_subjects(before), _subjects(after), strict=True)
     found = [
-        _mentions(source, old, new, reads, _scenario(will_be))
-        for reads, will_be in ((_scenario(was), will_be) for was, will_be in pairs)
-        if not reads(source).has_errors
+        _references_in(source, old, new, check, _scenario(renamed))
+        for check, renamed in ((_scenario(was), renamed) for was, renamed in pairs)
+        if not check(source).has_errors
     ]
-    # Nothing says of which swarm or state machine it is.
-    return found[0] if found and all(each == found[0] for each in found) else Mentions()
+    # A scenario does not name its swarm or state machine: all candidates must agree.
+    return found[0] if found and all(each == found[0] for each in found) else References()
 
 
-def _mentions(source: Source, old: str, new: str, reads: Reading, will_read: Reading) -> Mentions:
-    places = [each.span() for each in word(old).finditer(source.text)]
+def _references_in(
+    source: Source, old: str, new: str, check_before: Check, check_after: Check
+) -> References:
+    places = [each.span() for each in word_pattern(old).finditer(source.text)]
 
-    def wrong(chosen: set[int]) -> set[int]:
-        text, now = _with(source.text, places, chosen, new)
-        return _wrong(Source(source.name, text, source.path), now, will_read)
+    def unresolved(chosen: set[int]) -> set[int]:
+        text, now = _substitute(source.text, places, chosen, new)
+        return _unresolved(Source(source.name, text, source.path), now, check_after)
 
-    already = _wrong(source, places, reads)
+    already = _unresolved(source, places, check_before)
     chosen: set[int] = set()
-    # What one mistake hides is seen when it is gone.
-    while not (found := wrong(chosen) - already) <= chosen:
+    # One error can hide another, so repeat until none is new.
+    while not (found := unresolved(chosen) - already) <= chosen:
         chosen |= found
     chosen -= found
-    others = wrong(set(range(len(places)))) - already - chosen
+    others = unresolved(set(range(len(places)))) - already - chosen
     changes = [(*places[each], new) for each in sorted(chosen)]
-    return Mentions(changes, frozenset(places[each][0] for each in others))
+    return References(changes, frozenset(places[each][0] for each in others))
 
 
-def _wrong(source: Source, places: list[tuple[int, int]], read: Reading) -> set[int]:
-    """Which of some places lie in what means nothing."""
-    spans = [each.primary.span for each in read(source) if each.primary is not None]
+def _unresolved(source: Source, places: list[tuple[int, int]], check: Check) -> set[int]:
+    """Indices of the places inside diagnostics on unresolved names."""
+    spans = [each.primary.span for each in check(source) if each.primary is not None]
     inside = [span for span in spans if span.source.path == source.path]
     return {
         number
         for number, (start, end) in enumerate(places)
-        if any(span.start <= start and end <= span.end for span in inside if _is_short(span))
+        if any(span.start <= start and end <= span.end for span in inside if _is_name(span))
     }
 
 
-def _is_short(span: Span) -> bool:
-    """Whether it is that of a name, not of a whole table."""
+def _is_name(span: Span) -> bool:
+    """Return True for the span of a name, False for that of a whole table."""
     return "\n" not in span.text and "=" not in span.text
 
 
-def _with(
+def _substitute(
     text: str, places: list[tuple[int, int]], chosen: set[int], new: str
 ) -> tuple[str, list[tuple[int, int]]]:
-    """A text with another name at some places, and where all of them are then."""
-    pieces: list[str] = []
-    now = []
+    """Replace the chosen places by `new`; return the text and the new places."""
+    parts: list[str] = []
+    offsets = []
     done = length = 0
     for number, (start, end) in enumerate(places):
         name = new if number in chosen else text[start:end]
-        pieces += (text[done:start], name)
+        parts += (text[done:start], name)
         length += start - done + len(name)
-        now.append((length - len(name), length))
+        offsets.append((length - len(name), length))
         done = end
-    return "".join((*pieces, text[done:])), now
+    return "".join((*parts, text[done:])), offsets
 
 
-def _tests(system: System, files: set[Path]) -> Reading:
-    models = _Supposed(system, files)
+def _tests(system: System, files: set[Path]) -> Check:
+    models = _ModelsWith(system, files)
 
     def read(source: Source) -> Diagnostics:
         report = Diagnostics()
@@ -124,7 +126,7 @@ def _tests(system: System, files: set[Path]) -> Reading:
     return read
 
 
-def _scenario(subject: Subject) -> Reading:
+def _scenario(subject: Subject) -> Check:
     def read(source: Source) -> Diagnostics:
         report = Diagnostics()
         document = parse_toml(source, report)
@@ -136,13 +138,13 @@ def _scenario(subject: Subject) -> Reading:
 
 
 def _subjects(system: System) -> list[Subject]:
-    """All that a scenario can be about."""
+    """All possible subjects of a scenario."""
     swarms = [Subject(each.name, system, swarm=each) for each in system.swarms]
     return swarms + [Subject(each.name, system, machine=each) for each in system.machines]
 
 
-class _Supposed(Models):
-    """Takes a system for that of some files; those of other models are read."""
+class _ModelsWith(Models):
+    """Models in which `system` replaces the model of some files."""
 
     def __init__(self, system: System, files: set[Path]) -> None:
         super().__init__()

@@ -13,7 +13,7 @@ _CAMEL = re.compile(r"[A-Z][A-Za-z0-9]*")
 _SNAKE = re.compile(r"[a-z][a-z0-9_]*")
 
 
-def given(text: str) -> Span:
+def command_line_span(text: str) -> Span:
     """The place of what stands on the command line, to show it as it is written."""
     source = Source(COMMAND_LINE, text)
     return Span(source, 0, len(text))
@@ -47,4 +47,6 @@ _HOW = "write it `like_this`, with letters first, and no word of the language"
 
 
 def _report(name: str, kind: str, way: str, report: Diagnostics) -> None:
-    report.report("bad-name", given(name), name=name, what=f"the name of {kind}", help=way)
+    report.report(
+        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=way
+    )

@@ -8,7 +8,7 @@ from collections import Counter
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.base.records import dataclass
-from swarmdsl.tools.scaffold.names import check_project_name, check_type_name, given
+from swarmdsl.tools.scaffold.names import check_project_name, check_type_name, command_line_span
 
 # One of them: packages of both generations of ROS have the same names.
 TARGETS = ("ros2", "smach")
@@ -103,12 +103,14 @@ def check_plan(plan: Plan, report: Diagnostics) -> None:
         if times > 1:
             way = "each member and component has a name of its own"
             what = f"the name of {times} things"
-            report.report("bad-name", given(name), name=name, what=what, help=way)
+            report.report("bad-name", command_line_span(name), name=name, what=what, help=way)
     for robots in plan.robots:
         if not _is_count(robots.count):
             way = "write `3`, `1..5`, `2..*` or `*`, for at least one"
             what = f"the number of `{robots.member}`"
-            report.report("bad-name", given(robots.count), name=robots.count, what=what, help=way)
+            report.report(
+                "bad-name", command_line_span(robots.count), name=robots.count, what=what, help=way
+            )
 
 
 def _report_taken(
@@ -118,7 +120,9 @@ def _report_taken(
     why: str = "what is made has something of this name already",
 ) -> None:
     way = f"{why}: choose another one"
-    report.report("bad-name", given(name), name=name, what=f"the name of {kind}", help=way)
+    report.report(
+        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=way
+    )
 
 
 def _is_count(text: str) -> bool:
