@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from swarmdsl.ir import Binary, Call, Expression, Literal, Primitive, Type, Unary
-from swarmdsl.syntax.types import INTEGERS, STRING
+from swarmdsl.ir.expressions import Binary, Call, Expression, Literal, Unary
+from swarmdsl.syntax.types import INTEGERS, STRING, Primitive, Type
 
 
 def bound_of(value: Expression, wanted: Type | None) -> str | None:
