@@ -10,6 +10,7 @@ from pathlib import Path
 from textx import TextXError
 
 from swarmdsl.base.resources import checkout_root, grammar
+from swarmdsl.syntax import ast
 from swarmdsl.syntax.ast import NODES
 from swarmdsl.syntax.pegen.editors import MarksMissingError, editor_files, missing_words
 from swarmdsl.syntax.pegen.grammar import Grammar, UnsupportedError, read
@@ -78,6 +79,8 @@ def _missing_classes(model: Grammar) -> Iterator[str]:
         node = NODES[rule.name]
         has = {field.name for field in fields(node) if field.init} - {"span"}
         file = f"{_AST}/{node.__module__.rpartition('.')[2]}.py"
+        if not hasattr(ast, rule.name):
+            yield f"{where}: {_AST}/__init__.py does not export class {rule.name} of {file}"
         for name in sorted(rule.attributes.keys() - has):
             yield f"{where}: class {rule.name} in {file} has no field `{name}`"
         for name in sorted(has - rule.attributes.keys()):
