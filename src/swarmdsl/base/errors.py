@@ -1,12 +1,19 @@
-"""What is said of a failure in the code of others: of generators, their options, and libraries."""
+"""Errors of the command line and of plugins."""
 
 from __future__ import annotations
 
 
-def failure(doing: str, error: BaseException) -> str:
-    """An exception in one line, for a person; `--debug` shows where it comes from."""
-    import logging  # is slow to import, and hardly ever needed
+class UsageError(Exception):
+    """Raised for a command line that makes no sense, before anything is done."""
 
-    logging.getLogger(__name__).debug(doing, exc_info=error)
+
+def describe_exception(action: str, error: BaseException) -> str:
+    """Describe an exception of third-party code in one line: `ValueError: not a number`.
+
+    The traceback goes to the log, which `--debug` shows, under the name of the action.
+    """
+    import logging  # slow to import, and seldom needed
+
+    logging.getLogger(__name__).debug(action, exc_info=error)
     text = " ".join(str(error).split())
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -88,7 +88,7 @@ def _run_plainly(arguments: Sequence[str]) -> int | None:
         return serve_on_standard_streams()
     if not arguments or arguments[0] not in PLAIN:
         return None
-    from swarmdsl.base.usage_error import UsageError
+    from swarmdsl.base.errors import UsageError
     from swarmdsl.cli.parameters import read
 
     name, *words = arguments

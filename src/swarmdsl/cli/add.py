@@ -271,7 +271,7 @@ def state(**given: Any) -> int:
 
 def _run(kind: str, given: dict[str, Any]) -> int:
     from swarmdsl.base.diagnostics.render import render
-    from swarmdsl.base.usage_error import UsageError
+    from swarmdsl.base.errors import UsageError
     from swarmdsl.cli.exit_code import exit_code
     from swarmdsl.tools.refactor.add import add as added
     from swarmdsl.tools.refactor.new_elements import CREATORS

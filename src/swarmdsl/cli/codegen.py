@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from swarmdsl.base.diagnostics.collector import Level
-from swarmdsl.base.usage_error import UsageError
+from swarmdsl.base.errors import UsageError
 from swarmdsl.cli import options
 from swarmdsl.cli.output_options import CHECK, DIFF, DRY_RUN, FORCE, RENAME, writing
 from swarmdsl.cli.suggestions import Choice

@@ -11,7 +11,7 @@ from types import ModuleType
 import click
 
 from swarmdsl import __version__
-from swarmdsl.base.usage_error import UsageError
+from swarmdsl.base.errors import UsageError
 from swarmdsl.cli import options
 from swarmdsl.cli.command_names import COMMANDS, PLAIN
 from swarmdsl.cli.exit_code import INTERRUPTED, OK

@@ -7,8 +7,8 @@ import sys
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from swarmdsl.base.errors import UsageError
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.usage_error import UsageError
 from swarmdsl.cli.exit_code import ERRORS, OK, conclude
 from swarmdsl.cli.parameters import Option
 

@@ -12,8 +12,8 @@ from time import perf_counter, sleep, strftime
 import click
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.errors import UsageError
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.usage_error import UsageError
 from swarmdsl.driver.config import places
 from swarmdsl.driver.config.settings import FILE_NAME, Settings
 from swarmdsl.driver.pipeline import Result

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics, Label, Severity
-from swarmdsl.base.errors import failure
+from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.relative_paths import clash_key, stays_inside
 from swarmdsl.base.source import Span
@@ -145,7 +145,7 @@ def _run(
         return list(make())
     # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
     except (Exception, SystemExit) as error:
-        reason = failure(f"running the generator of target {generator.target}", error)
+        reason = describe_exception(f"running the generator of target {generator.target}", error)
         _report_broken(generator.target, reason, report)
         return None
 

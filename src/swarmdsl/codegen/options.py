@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any, get_type_hints
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
-from swarmdsl.base.errors import failure
+from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.records import dataclass, fields_of
 from swarmdsl.base.source import Span
 from swarmdsl.base.suggest import suggest
@@ -129,7 +129,7 @@ def _passes(
         if generator.target in BUILT_IN:
             raise
         # A mistake in the code of others is not a bug of swarmdsl.
-        fault = failure(f"checking an option of target {generator.target}", error)
+        fault = describe_exception(f"checking an option of target {generator.target}", error)
         reason = f"its check of option `{option.name}` ends with {fault}"
         report.report("generator-failed", place, target=generator.target, reason=reason)
         return False

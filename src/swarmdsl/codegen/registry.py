@@ -7,7 +7,7 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import TYPE_CHECKING, get_type_hints
 
-from swarmdsl.base.errors import failure
+from swarmdsl.base.errors import describe_exception
 from swarmdsl.base.records import dataclass, fields_of, is_dataclass
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen.api import API_VERSION, Generator
@@ -112,7 +112,7 @@ def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
         fault = _fault(name, found)
     # Whatever goes wrong in the code of others, `sys.exit` included, is theirs alone.
     except (Exception, SystemExit) as error:
-        return Broken(failure(f"loading the generator of target {name}", error))
+        return Broken(describe_exception(f"loading the generator of target {name}", error))
     if fault is not None:
         return Broken(fault)
     assert isinstance(found, Generator)

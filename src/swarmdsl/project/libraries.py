@@ -109,7 +109,7 @@ def installed_folders(report: Diagnostics) -> list[Path]:
     # Imported here because it is slow and most models do without.
     from importlib.metadata import entry_points
 
-    from swarmdsl.base.errors import failure
+    from swarmdsl.base.errors import describe_exception
 
     found: dict[Path, None] = {}
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
@@ -117,7 +117,7 @@ def installed_folders(report: Diagnostics) -> list[Path]:
             folder = _folder_of(point.module)
         # Whatever goes wrong in the code of others is theirs alone.
         except (Exception, SystemExit) as error:
-            reason = failure(f"looking for the library {point.name}", error)
+            reason = describe_exception(f"looking for the library {point.name}", error)
             report.report("broken-library", name=point.name, reason=reason)
             continue
         found[folder] = None

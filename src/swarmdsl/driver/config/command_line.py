@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Level
+from swarmdsl.base.errors import UsageError
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import COMMAND_LINE, Source, Span
 from swarmdsl.base.suggest import did_you_mean
-from swarmdsl.base.usage_error import UsageError
 from swarmdsl.driver.config import find_settings
 from swarmdsl.driver.config.settings import Settings
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
+from swarmdsl.base.errors import UsageError
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
-from swarmdsl.base.usage_error import UsageError
 from swarmdsl.importing.update.merging import commented
 
 _PORT = re.compile(r"(\w+)\s*:\s*([^@]+?)\s*(?:@\s*(\S+))?")

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from swarmdsl.base.errors import UsageError
 from swarmdsl.base.naming import snake_case
-from swarmdsl.base.usage_error import UsageError
 from swarmdsl.importing.update.merging import commented
 from swarmdsl.syntax.ast import Member, Swarm
 from swarmdsl.tools.refactor import element_text
