@@ -28,7 +28,7 @@ from swarmdsl.syntax.ast import (
     Value,
     Word,
 )
-from swarmdsl.syntax.parser.literals import is_too_large, quantity_value, unquoted
+from swarmdsl.syntax.parser.literals import is_out_of_range, quantity_value, unquoted
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 from swarmdsl.syntax.pegen.metamodel import metamodel
 from swarmdsl.syntax.pegen.swarm_actions import TARGET
@@ -142,7 +142,7 @@ def _depth(tree: Tree[Token]) -> int:
 def _is_too_large(token: object) -> bool:
     if not isinstance(token, Token) or token.type != "QUANTITY":
         return False
-    return is_too_large(token, *_quantity(token))
+    return is_out_of_range(token, *_quantity(token))
 
 
 def _quantity(text: str) -> tuple[str, str]:

@@ -22,7 +22,7 @@ from . import oracle
 from .sentences import Sentences
 
 SEEDS = 5
-TOKENS = (
+LEXER = (
     *("and", "or", "not", "true", "false", "event", "a", "b1", "min", "on", "s", "x", "->", "=>"),
     *("==", "!=", "<=", ">=", "<", ">", "=", "+", "-", "*", "/", "%", ".", "..", ",", "(", ")"),
     *("1", "2.5", "1e3", "3 s", "10 min", "1.2.3", "007", '"text"', r'"\"\n"', "/* */", "[", "]"),
@@ -71,7 +71,7 @@ def test_sentences_and_mutants(seed: int) -> None:
 
 @given(
     st.sampled_from(PLACES),
-    st.lists(st.lists(st.sampled_from(TOKENS), min_size=1, max_size=9), min_size=5, max_size=5),
+    st.lists(st.lists(st.sampled_from(LEXER), min_size=1, max_size=9), min_size=5, max_size=5),
 )
 def test_random_tokens(place: str, expressions: list[list[str]]) -> None:
     check_same(filled(place, [" ".join(tokens) for tokens in expressions]))
@@ -125,9 +125,9 @@ def lark_error(text: str) -> int | None:
     ("text", "place", "message"),
     [
         ("a < b < c", "<", "comparisons cannot be chained"),
-        ("a + not b", "not", "`not` cannot stand here"),
-        ("- not b", "not", "`not` cannot stand here"),
-        ("(a < not b) < c < d", "not", "`not` cannot stand here"),
+        ("a + not b", "not", "`not` must be in parentheses here"),
+        ("- not b", "not", "`not` must be in parentheses here"),
+        ("(a < not b) < c < d", "not", "`not` must be in parentheses here"),
         ("f(18446744073709551616)", "18446744073709551616", "this number is too large"),
         ("1e999 + 1e999", "1e999", "this number is too large"),
         ("1e300 h", "1e300 h", "this number is too large"),
@@ -160,7 +160,7 @@ def test_levels(text: str, levels: int) -> None:
 
 def test_what_failed_leaves_no_fault_behind() -> None:
     source = Source("", "a + (b < c < d")  # the expression is `a`
-    tokens = generated.TOKENS.cut(source.text)
+    tokens = generated.LEXER.tokenize(source.text)
     parser = ExpressionParser(generated.LANGUAGE, source, tokens, NESTING_LIMIT)
     found = parser.expression(0)
 

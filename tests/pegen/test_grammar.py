@@ -14,7 +14,7 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word
 from swarmdsl.syntax.parser.expressions import TooDeepError
 from swarmdsl.syntax.parser.failure_finder import mismatch
-from swarmdsl.syntax.parser.lexer import Cutter
+from swarmdsl.syntax.parser.lexer import Lexer
 from swarmdsl.syntax.pegen.actions import Target
 from swarmdsl.syntax.pegen.grammar import Grammar, UnsupportedError, read
 from swarmdsl.syntax.pegen.module import definitions
@@ -67,7 +67,7 @@ def made(text: str) -> Any:
         name: make_dataclass(name, ["span", *attributes]) for name, attributes in nodes.items()
     }
     names |= {"re": re, "Span": Span, "Word": Word, "Ref": Ref, "TooDeepError": TooDeepError}
-    names["Cutter"] = Cutter
+    names["Lexer"] = Lexer
     exec(f"from __future__ import annotations\n{source}", names)
     return names
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import pytest
 
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.parser.generated import TOKENS, parse
+from swarmdsl.syntax.parser.generated import LEXER, parse
 
 
 def cut(text: str) -> list[tuple[str, int]]:
     """The tokens before the end of a text, each with the place where it begins."""
-    tokens, ends = TOKENS.cut(text)
+    tokens, ends = LEXER.tokenize(text)
     assert tokens[-2:] == ["", ""]
     assert len(ends) == len(tokens)
     found = [(token, end - len(token)) for token, end in zip(tokens, ends[1:], strict=False)]
@@ -55,7 +55,7 @@ def test_what_is_not_ascii_may_stand_in_texts_and_comments() -> None:
 
 
 def test_a_piece_has_its_places_in_the_text() -> None:
-    tokens, ends = TOKENS.cut("a // b\n(c d", 4, 9)
+    tokens, ends = LEXER.tokenize("a // b\n(c d", 4, 9)
 
     assert tokens[:4] == ["b", "(", "c", ""]
     assert ends[:4] == [4, 6, 8, 9]

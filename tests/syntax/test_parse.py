@@ -117,8 +117,8 @@ def test_what_follows_a_wrong_declaration_is_kept() -> None:
 
     assert names == ["syntax-error"]
     assert [str(node.name) for node in result.model.declarations] == ["A", "B", "D"]
-    assert "B" in result.lost_names
-    assert not result.damaged  # nothing but a colon is missing
+    assert "B" in result.skipped_names
+    assert not result.incomplete  # nothing but a colon is missing
 
 
 def test_what_surrounds_a_wrong_statement_is_kept() -> None:
@@ -129,8 +129,8 @@ def test_what_surrounds_a_wrong_statement_is_kept() -> None:
     assert names == ["syntax-error", "syntax-error"]
     assert isinstance(machine, StateMachine)
     assert [getattr(item, "name", "-") for item in machine.items] == ["-", "A", "B", "C"]
-    assert result.damaged == {machine}
-    assert "A" in result.lost_names
+    assert result.incomplete == {machine}
+    assert "A" in result.skipped_names
 
 
 def test_a_block_with_a_wrong_header_is_kept() -> None:
@@ -140,7 +140,7 @@ def test_a_block_with_a_wrong_header_is_kept() -> None:
 
     assert names == ["syntax-error", "syntax-error"]
     assert [str(item.name) for item in member.items] == ["camera", "lamp"]  # type: ignore[union-attr]
-    assert result.damaged == {member}
+    assert result.incomplete == {member}
 
 
 def test_what_is_missing_has_a_name_and_no_width() -> None:

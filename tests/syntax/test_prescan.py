@@ -7,10 +7,10 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
-from swarmdsl.syntax.recovery.prescan import Scan, scan
+from swarmdsl.syntax.recovery.prescan import ScanResult, scan
 
 
-def scanned(text: str) -> tuple[Scan, list[tuple[str, str, int]]]:
+def scanned(text: str) -> tuple[ScanResult, list[tuple[str, str, int]]]:
     """The result, and for each diagnostic its name, the text it marks and its offset."""
     report = Diagnostics()
     result = scan(Source("model.swarm", text), report)

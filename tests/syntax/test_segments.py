@@ -9,9 +9,9 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.syntax.ast import walk
-from swarmdsl.syntax.parse import parse, parse_piece
+from swarmdsl.syntax.parse import parse, parse_segment
 from swarmdsl.syntax.parser import generated
-from swarmdsl.syntax.segments import split
+from swarmdsl.syntax.segments import split_declarations
 
 from .test_mutations import MODELS, MUTATIONS
 
@@ -19,16 +19,16 @@ SEEDS = 4
 
 
 def cut(text: str) -> list[str]:
-    return [text[start:end] for start, end in split(text)]
+    return [text[start:end] for start, end in split_declarations(text)]
 
 
 def said(text: str) -> tuple[list[tuple[object, ...]], list[tuple[str, int, int]]]:
     """What is reported of a text that is parsed piece by piece, and the nodes in it."""
     found: list[tuple[object, ...]] = []
     nodes: list[tuple[str, int, int]] = []
-    for start, end in split(text):
+    for start, end in split_declarations(text):
         report = Diagnostics()
-        parsed = parse_piece(Source("m", text[start:end]), report)
+        parsed = parse_segment(Source("m", text[start:end]), report)
         for one in report:
             assert one.primary is not None
             found.append((one.primary.span.start + start, one.code, one.message))

@@ -230,7 +230,7 @@ class _Loader:
         if name is None or not targets:
             return
         declared = [str(node.name) for target in targets for node in target.model.declarations]
-        if name in declared or any(name in target.parsed.lost_names for target in targets):
+        if name in declared or any(name in target.parsed.skipped_names for target in targets):
             return
         place = place_of(statement)
         whole = place.text
@@ -295,7 +295,7 @@ def parsed_interface(interface: InterfacePath, source: Source, report: Diagnosti
     whole = Span(source, 0, len(source.text))
     parsed = Parsed(Model(whole, None, [], [read.declaration], []))
     if read.damaged:
-        parsed.damaged |= {read.declaration}
+        parsed.incomplete |= {read.declaration}
     return parsed
 
 

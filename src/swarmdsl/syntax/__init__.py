@@ -1,1 +1,1 @@
-"""Syntax: trees, parser, recovery, errors, formatter."""
+"""Front end: syntax tree, parser, error recovery, formatter."""

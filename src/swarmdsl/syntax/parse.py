@@ -1,9 +1,9 @@
-"""One file's text to its syntax tree.
+"""Parse a file to its syntax tree.
 
-`swarm_parser`, which is made from the grammar, parses a file or refuses it. Then it is cut
-into pieces (`pieces`), and for those that are refused the rest comes in: a closer look
-(`scan`), a slower parser that knows where it had to stop (`peg.machine`), and what makes the
-best of it (`recovery`). All of that is imported with the first syntax error.
+The generated parser (`parser.generated`) accepts or rejects a whole file. A rejected file is split
+into segments; for each rejected segment `recovery.prescan` looks for lexical errors, a slower
+parser (`parser.failure_finder`) finds the place of the failure, and `recovery.recover` parses the
+rest. All of that is imported with the first syntax error.
 """
 
 from __future__ import annotations
@@ -27,46 +27,45 @@ from swarmdsl.syntax.parser.result import NESTING_LIMIT, Parsed
 if TYPE_CHECKING:
     from swarmdsl.syntax.errors.report import Failure
 
-# What is nested less than that, by itself and in expressions, has fewer brackets in each
-# other than the limit: nobody needs to count them.
+# With less nesting of blocks, and of expressions, there are fewer nested brackets than the limit.
 _SHALLOW = NESTING_LIMIT // 4
 
 
 def parse(source: Source, report: Diagnostics) -> Parsed:
-    """Parse a file; whatever is wrong with it is reported and left out of the tree."""
+    """Parse a file; report syntax errors and leave them out of the tree."""
     with no_garbage_collection():
-        return parse_flawless(source, report) or _parse_in_pieces(source, report)
+        return parse_strict(source, report) or _parse_segments(source, report)
 
 
-def parse_piece(source: Source, report: Diagnostics) -> Parsed:
-    """Parse a piece of a file on its own; all places are places in the piece."""
+def parse_segment(source: Source, report: Diagnostics) -> Parsed:
+    """Parse a segment of a file; all spans are offsets in the segment."""
     with no_garbage_collection():
-        return parse_flawless(source, report) or _parse_carefully(source, report)
+        return parse_strict(source, report) or _parse_with_recovery(source, report)
 
 
-def _parse_in_pieces(source: Source, report: Diagnostics) -> Parsed:
-    from swarmdsl.syntax.parser.patched_text import Draft
-    from swarmdsl.syntax.segments import joined, split
+def _parse_segments(source: Source, report: Diagnostics) -> Parsed:
+    from swarmdsl.syntax.parser.patched_text import PatchedText
+    from swarmdsl.syntax.segments import join_segments, split_declarations
 
     parts = []
-    for start, end in split(source.text):
-        piece = Source(source.name, source.text[start:end], source.path)
+    for start, end in split_declarations(source.text):
+        segment = Source(source.name, source.text[start:end], source.path)
         found = Diagnostics()
-        part = parse_piece(piece, found)
-        draft = Draft(piece.text, range(start, end + 1))
-        draft.restore(part.model, source)
+        part = parse_segment(segment, found)
+        patched = PatchedText(segment.text, range(start, end + 1))
+        patched.restore(part.model, source)
         moved = partial(_moved, source, start)
         report.include(placed(one, moved) for one in found)
         parts.append(part)
-    return joined(source, parts, report)
+    return join_segments(source, parts, report)
 
 
 def _moved(source: Source, base: int, span: Span) -> Span:
     return Span(source, base + span.start, base + span.end)
 
 
-def parse_flawless(source: Source, report: Diagnostics) -> Parsed | None:
-    """Parse a file without syntax errors; None where it has some, or may have."""
+def parse_strict(source: Source, report: Diagnostics) -> Parsed | None:
+    """Parse a file without syntax errors; None if it has any, or may have."""
     found = Diagnostics()
     comments = documentation(source, found)
     docs = {comment.next: comment.text for comment in comments}
@@ -80,7 +79,7 @@ def parse_flawless(source: Source, report: Diagnostics) -> Parsed | None:
     model.span = Span(source, 0, len(source.text))
     report.include(found)
     for comment in comments:
-        if comment.next in docs:  # nothing has taken it
+        if comment.next in docs:  # no node has taken it
             _report_unattached(comment, report)
     parsed = Parsed(model)
     if faults:
@@ -88,14 +87,14 @@ def parse_flawless(source: Source, report: Diagnostics) -> Parsed | None:
     return parsed
 
 
-def _parse_carefully(source: Source, report: Diagnostics) -> Parsed:
+def _parse_with_recovery(source: Source, report: Diagnostics) -> Parsed:
     from swarmdsl.syntax.recovery.prescan import scan
     from swarmdsl.syntax.recovery.recover import parse_with_recovery
 
     if checkout_root() and grammar_checksum() != generated.GRAMMAR:
         warnings.warn("grammar/*.tx has changed: run `make parser`", stacklevel=3)
     scanned = scan(source, report)
-    # What was refused before is wrong or nested deeply: it need not be parsed again to be wrong.
+    # The text was rejected before, as wrong or as nested deeply.
     whole = None if scanned.faults else _failure(source) or _parse_text(source)
     if isinstance(whole, Model):
         parsed = Parsed(whole)
@@ -118,7 +117,7 @@ def _parse_text(source: Source) -> Model | Failure:
 
 
 def _failure(source: Source) -> Failure | None:
-    """Where a text departs from the grammar, if it does."""
+    """Find the first syntax error of a text; None if it has none."""
     from swarmdsl.syntax.errors.report import TERMINALS, Failure
     from swarmdsl.syntax.parser.failure_finder import mismatch
 
@@ -133,14 +132,14 @@ def _failure(source: Source) -> Failure | None:
 
 
 def _report_faults(parsed: Parsed, report: Diagnostics) -> None:
-    """Report what is wrong with expressions."""
+    """Report expressions without a tree."""
     for node in walk(parsed.model):
         if isinstance(node, Expression) and node.tree is None and node not in parsed.repaired:
             report_fault(generated.LANGUAGE, node.span, report)
 
 
 def _attach(parsed: Parsed, comments: tuple[DocComment, ...], report: Diagnostics) -> None:
-    """Give each `///` comment to what begins behind it."""
+    """Attach each `///` comment to the node that begins after it."""
     if not comments:
         return
     documented: dict[int, Documented] = {}
@@ -151,7 +150,7 @@ def _attach(parsed: Parsed, comments: tuple[DocComment, ...], report: Diagnostic
         owner = documented.get(comment.next)
         if owner is not None:
             owner.doc = comment.text
-        elif not parsed.lost_names:
+        elif not parsed.skipped_names:
             _report_unattached(comment, report)
 
 
@@ -159,13 +158,13 @@ def _report_unattached(comment: DocComment, report: Diagnostics) -> None:
     report.report(
         "unattached-doc-comment",
         comment.span,
-        help="move it to the line before what it documents, or begin it with `//`",
+        help="move it to the line before a declaration or statement, or begin it with `//`",
     )
 
 
 @contextmanager
 def no_garbage_collection() -> Iterator[None]:
-    """Let the collector rest: a tree grows fast, and there is no garbage in it."""
+    """Pause garbage collection: a growing tree has no garbage."""
     was_enabled = gc.isenabled()
     gc.disable()
     try:
@@ -175,4 +174,4 @@ def no_garbage_collection() -> Iterator[None]:
             gc.enable()
 
 
-__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_flawless", "parse_piece"]
+__all__ = ["Parsed", "no_garbage_collection", "parse", "parse_segment", "parse_strict"]

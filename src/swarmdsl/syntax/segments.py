@@ -1,8 +1,7 @@
-"""Where the declarations of a file begin, known before it is parsed and whatever is wrong with it.
+"""Split a file into segments before it is parsed, whatever errors it has.
 
-A piece is what a file can be cut into and put together again: a declaration with the comments
-before it. What stands in one piece does not change how another one is read, so that after an
-edit only the pieces it touches are parsed again.
+A segment is a top-level declaration with the comments before it. Segments are parsed independently
+of each other: after an edit only those that it touches are parsed again.
 """
 
 from __future__ import annotations
@@ -47,16 +46,16 @@ _NO_CODE = re.compile(rf"{_ON_ONE_LINE}|/\*(?s:.*?)(?P<end>\*/|\Z)", re.MULTILIN
 _LINES = re.compile(_ON_ONE_LINE, re.MULTILINE)
 
 
-def split(text: str) -> list[tuple[int, int]]:
-    """The offsets of the pieces of a text, which together are all of it."""
+def split_declarations(text: str) -> list[tuple[int, int]]:
+    """Return the ranges of the segments of a text, without gaps."""
     starts = sorted({0, *_boundaries(text), len(text)})
     return list(pairwise(starts)) or [(0, 0)]
 
 
-def is_closed(text: str) -> bool:
-    """Whether nothing in a piece of a text reaches out of it: no bracket, comment or merge.
+def is_self_contained(text: str) -> bool:
+    """Return True if no bracket, comment or conflict marker of a segment extends beyond it.
 
-    What is around such a piece is cut as if it was not there.
+    The text around such a segment is split as if it was not there.
     """
     code, _ = _code(text)
     if "/*" in code or "*/" in code or _MARK.search(text):
@@ -85,13 +84,13 @@ def _boundaries(text: str) -> Iterator[int]:
         before = code[last:start].rstrip()
         if not before or _continues(before, code, start):
             continue
-        # Comments belong to what they stand before, unless they stand behind something.
+        # Comments belong to the next declaration, except after other text on their line.
         yield code.index("\n", last + len(before)) + 1
         last = start
 
 
 def _continues(before: str, code: str, start: int) -> bool:
-    """Whether what stands at the start of a line belongs to the declaration before it."""
+    """Return True if the keyword at the start of a line belongs to the declaration before it."""
     return any(
         before.endswith(last) and after.match(code, start) is not None
         for last, after in _CONTINUATIONS.items()
@@ -99,9 +98,9 @@ def _continues(before: str, code: str, start: int) -> bool:
 
 
 def _code(text: str) -> tuple[str, list[tuple[int, int]]]:
-    """The text with blanks for comments, also their ends of lines, and what is in quotes.
+    """Replace comments, with their line breaks, and strings by blanks.
 
-    With it come the pieces in which a merge was not finished.
+    The second result are the ranges of unresolved merge conflicts.
     """
     marks: list[tuple[int, str]] = []
     base = 0
@@ -124,7 +123,7 @@ def _code(text: str) -> tuple[str, list[tuple[int, int]]]:
 
 
 def _end_of_comments(text: str) -> int:
-    """Where a comment begins that has no end; it is code, and no other has one behind it."""
+    """Return the offset of the first unclosed comment, or the end; from there on all is code."""
     if text.rfind("/*") > text.rfind("*/"):
         for found in _NO_CODE.finditer(text):
             if found["end"] == "":
@@ -132,50 +131,50 @@ def _end_of_comments(text: str) -> int:
     return len(text)
 
 
-def joined(source: Source, parts: Sequence[Parsed], report: Diagnostics) -> Parsed:
-    """The pieces of a file as one, with a report of what stands in the wrong order."""
+def join_segments(source: Source, parts: Sequence[Parsed], report: Diagnostics) -> Parsed:
+    """Join the segments of a file; report a misplaced package or import."""
     parsed = Parsed(Model(Span(source, 0, len(source.text)), None, [], [], []))
     for part in parts:
         _add(part.model, parsed.model, report)
-        parsed.damaged |= part.damaged
-        parsed.lost_names |= part.lost_names
+        parsed.incomplete |= part.incomplete
+        parsed.skipped_names |= part.skipped_names
         parsed.repaired |= part.repaired
-        parsed.unnamed |= part.unnamed
-    if parsed.unnamed:
-        _lose_references(parsed)
+        parsed.anonymous_kinds |= part.anonymous_kinds
+    if parsed.anonymous_kinds:
+        _skip_dangling_references(parsed)
     return parsed
 
 
-def _add(piece: Model, model: Model, report: Diagnostics) -> None:
-    misplaced = piece.package or (piece.imports[0] if piece.imports else None)
-    if piece.package and model.package:
+def _add(segment: Model, model: Model, report: Diagnostics) -> None:
+    misplaced = segment.package or (segment.imports[0] if segment.imports else None)
+    if segment.package and model.package:
         report.report(
             "syntax-error",
-            piece.package.span,
-            message="a file has one package",
-            related=(Label(model.package.span, "it is given here"),),
-            help="delete one of the two, or make two files",
+            segment.package.span,
+            message="duplicate package",
+            related=(Label(model.package.span, "first given here"),),
+            help="delete one of the two, or split the file",
         )
     elif misplaced and (
-        model.declarations or model.optimizations or (piece.package and model.imports)
+        model.declarations or model.optimizations or (segment.package and model.imports)
     ):
         report.report(
             "syntax-error",
             misplaced.span,
-            message="the package and the imports stand at the top of the file",
-            help="move it up",
+            message="the package and the imports come first in a file",
+            help="move it to the top of the file",
         )
-    model.package = model.package or piece.package
-    model.imports += piece.imports
-    model.declarations += piece.declarations
-    model.optimizations += piece.optimizations
+    model.package = model.package or segment.package
+    model.imports += segment.imports
+    model.declarations += segment.declarations
+    model.optimizations += segment.optimizations
 
 
-def _lose_references(parsed: Parsed) -> None:
-    """Take names that nothing has for those of what has none."""
+def _skip_dangling_references(parsed: Parsed) -> None:
+    """Skip unresolved references to the kinds of elements whose name could not be parsed."""
     names = {str(getattr(node, "name", "")) for node in walk(parsed.model)}
     model = parsed.model
     for owner in (*model.declarations, *model.optimizations):
         for _, ref in references(owner):
-            if ref.kind in parsed.unnamed:
-                parsed.lost_names |= {ref.name} - names
+            if ref.kind in parsed.anonymous_kinds:
+                parsed.skipped_names |= {ref.name} - names

@@ -136,8 +136,8 @@ def check_project(project: Project, context: Context) -> None:
 
 def check_declaration(file: File, declaration: Declaration, context: Context) -> None:
     """Run the passes over one declaration."""
-    check_names_inside(declaration, context.report, file.parsed.lost_names)
-    if declaration in file.parsed.damaged:
+    check_names_inside(declaration, context.report, file.parsed.skipped_names)
+    if declaration in file.parsed.incomplete:
         return
     if file.library:
         _check_in_library(file, declaration, context)

@@ -205,7 +205,7 @@ def read_packages(project: Project) -> dict[str, set[str]]:
 
 def make_context(project: Project, report: Diagnostics, facts: FactCache | None = None) -> Context:
     """Create the context of a project; `facts` are those of an earlier check."""
-    incomplete: set[TopLevel] = {node for file in project.files for node in file.parsed.damaged}
+    incomplete: set[TopLevel] = {node for file in project.files for node in file.parsed.incomplete}
     interfaces = Interfaces(
         # An incomplete enum is still known to be an enum.
         (

@@ -46,7 +46,7 @@ from swarmdsl.syntax.ast import (
     Word,
     by_class,
 )
-from swarmdsl.syntax.parser.patched_text import stands_for_nothing
+from swarmdsl.syntax.parser.patched_text import is_placeholder
 from swarmdsl.syntax.types import PRIMITIVES
 
 Named = (
@@ -161,7 +161,7 @@ _NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
 
 def _check_first(key: Hashable, named: N, seen: dict[Hashable, N], report: Diagnostics) -> None:
     name: Word = named.name
-    if stands_for_nothing(name):
+    if is_placeholder(name):
         return
     first = seen.setdefault(key, named)
     if first is not named:

@@ -62,8 +62,8 @@ class FileScope:
         ]
         self.packages = {self._package, *(package for package, _ in self._imported)}
         # A missing declaration may be in text that could not be parsed or read.
-        self.skipped_names = file.parsed.lost_names.union(
-            *(other.parsed.lost_names for _, other in file.imports)
+        self.skipped_names = file.parsed.skipped_names.union(
+            *(other.parsed.skipped_names for _, other in file.imports)
         )
         found = {statement for statement, _ in file.imports}
         self.imports_resolved = all(statement in found for statement in file.model.imports)

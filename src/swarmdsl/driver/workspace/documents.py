@@ -15,8 +15,8 @@ from swarmdsl.project.loader import File, Reader, parsed_interface, report_empty
 from swarmdsl.project.read_source import decoded, read_bytes, without_control_characters
 from swarmdsl.project.rosidl.package_folder import InterfacePath
 from swarmdsl.syntax.ast import Model
-from swarmdsl.syntax.parse import Parsed, parse_piece
-from swarmdsl.syntax.segments import is_closed, joined, split
+from swarmdsl.syntax.parse import Parsed, parse_segment
+from swarmdsl.syntax.segments import is_self_contained, join_segments, split_declarations
 
 
 class Sheet:
@@ -52,7 +52,7 @@ class Sheet:
         new = []
         for each in texts[before : len(texts) - after]:
             piece = Piece(whole.name, each, whole.path, whole=whole)
-            new.append(Unit(piece, self.file, parse_piece, self._levels))
+            new.append(Unit(piece, self.file, parse_segment, self._levels))
         last = len(old) - after
         gone = old[before:last]
         self.units = [*old[:before], *new, *old[last:]]
@@ -71,10 +71,14 @@ class Sheet:
         last = len(old) - after
         start = sum(len(unit.source.text) for unit in old[:before])
         end = len(text) - sum(len(unit.source.text) for unit in old[last:])
-        local = start <= end and is_closed(text[start:end]) and all(unit.closed for unit in old)
+        local = (
+            start <= end and is_self_contained(text[start:end]) and all(unit.closed for unit in old)
+        )
         if not local or start == end:
-            return split(text)
-        places = [(start + first, start + end) for first, end in split(text[start:end])]
+            return split_declarations(text)
+        places = [
+            (start + first, start + end) for first, end in split_declarations(text[start:end])
+        ]
         lengths = [len(unit.source.text) for unit in old]
         ends = list(accumulate(lengths[:before]))
         head = list(zip([0, *ends], ends, strict=False))
@@ -89,7 +93,7 @@ class Sheet:
         source = self.file.source
         self.said = Diagnostics(self._levels)
         self.said.include(self._control)
-        self.file.parsed = joined(source, [unit.parsed for unit in self.units], self.said)
+        self.file.parsed = join_segments(source, [unit.parsed for unit in self.units], self.said)
         if not len(self.said) and not any(len(unit.syntax) for unit in self.units):
             report_empty(source, self.file.model, self.said)
 

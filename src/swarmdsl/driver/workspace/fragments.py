@@ -12,7 +12,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Component, Declaration, Member, Optimization, StateMachine
 from swarmdsl.syntax.parse import Parsed
-from swarmdsl.syntax.segments import is_closed
+from swarmdsl.syntax.segments import is_self_contained
 
 ReportingParser = Callable[[Source, Diagnostics], Parsed]
 Levels = Mapping[str, Level]
@@ -83,7 +83,7 @@ class Unit:
     @cached_property
     def closed(self) -> bool:
         """Whether no bracket or comment in it goes on in others."""
-        return is_closed(self.source.text)
+        return is_self_contained(self.source.text)
 
     @property
     def has_head(self) -> bool:

@@ -47,11 +47,11 @@ class Change:
     def replace(self, sheet: Sheet, source: Source) -> None:
         """Give a file another text."""
         file = sheet.file
-        package, lost = file.package, file.parsed.lost_names
+        package, lost = file.package, file.parsed.skipped_names
         gone, new = sheet.replace(source)
         self.gone += gone
         self.new += new
-        self.lost |= lost != file.parsed.lost_names
+        self.lost |= lost != file.parsed.skipped_names
         names, others = Counter(_names(gone)), Counter(_names(new))
         self.words |= {name for _, name in (names - others) + (others - names)}
         if package != file.package:

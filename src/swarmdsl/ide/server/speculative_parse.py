@@ -18,7 +18,7 @@ from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Model, StateMachine, TopLevel
-from swarmdsl.syntax.parse import parse_flawless, parse_piece
+from swarmdsl.syntax.parse import parse_segment, parse_strict
 
 WORD = "completed_here_"
 COMMENT_OR_TEXT = re.compile(
@@ -77,7 +77,7 @@ def _models(name: str, head: str, tail: str, words: Sequence[str]) -> Iterator[M
     ]
     flawless = False
     for text in texts:
-        parsed = parse_flawless(Source(name, text), Diagnostics())
+        parsed = parse_strict(Source(name, text), Diagnostics())
         if parsed is not None:
             flawless = True
             yield parsed.model
@@ -86,7 +86,7 @@ def _models(name: str, head: str, tail: str, words: Sequence[str]) -> Iterator[M
     ends = [f"\n{inside}{outside}", *([tail] if tail else [])]
     for word in words:
         for end in ends:
-            yield parse_piece(Source(name, head + word + end), Diagnostics()).model
+            yield parse_segment(Source(name, head + word + end), Diagnostics()).model
 
 
 def _divided(brackets: str) -> tuple[str, str]:

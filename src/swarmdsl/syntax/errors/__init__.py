@@ -1,1 +1,1 @@
-"""Syntax errors and their hints."""
+"""Syntax errors: messages and hints."""

@@ -1,72 +1,72 @@
-"""Lines as people write them who are used to other notations, and how that is said in this one."""
+"""Hints for statements in the syntax of other languages."""
 
 from __future__ import annotations
 
 import re
 from functools import cache
 
-# How much of a line is looked at on either side of where a parser stops.
+# Characters of the line on either side of the error.
 _WIDTH = 200
-_GUARD = "a guard stands in square brackets: `on event [x < 3] -> Target`"
-_SERVER = 'the name of the server comes first: `"cmd/name" : package/Type`'
-_FIELD = r"each value stands behind the name of what it is for: `name = \1`"
-_POWER = "there is no power: multiply, `x * x`"
+_GUARD = "write a guard in square brackets: `on event [x < 3] -> Target`"
+_SERVER = 'write the name of the server first: `"cmd/name" : package/Type`'
+_FIELD = r"name the field of each value: `name = \1`"
+_POWER = "there is no power operator: write `x * x`"
 _MULTIPLICITY = "write `[3]`, `[1..5]`, `[2..*]` or `[*]`"
 _BEFORE_EFFECTS = r"(?:\b(?:entry|exit) *|\b(?:on|after) [^/]*)"
 
-# A line with a mark (@) where the parser stops, what the parser must expect there (anything, if
-# nothing is said), and what to do. The first that fits counts.
-_HABITS = (
+# A line with a mark (@) where the parser stops, a terminal that must be expected there (any, if
+# empty), and the hint. The first that fits counts.
+_HINTS = (
     # transitions
     (r"\bon [^/[\]]*@(?:if|when|where)\b", "", _GUARD),
     (
         r"\bon [\w., ]*@(?:\|\||or\b)",
         "",
-        "write `,`: the transition is taken on any of the events",
+        "write `,`: the transition fires on any of the events",
     ),
     (
         r"\bon [\w., ]*@(?:&&|and\b)",
         "",
-        "events come one after the other: wait for the second one in a state of its own",
+        "events occur one at a time: wait for the second one in another state",
     ),
     (r"\bon +@(entry|exit)\b", "", r"write `\1 / ...` without `on`"),
-    (r"(?:^|\{) *@-> *([\w.]+)", "", r"write `on done -> \1`: the state is left when it is done"),
+    (r"(?:^|\{) *@-> *([\w.]+)", "", r"write `on done -> \1` to leave the state when it is done"),
     (r"\bon +@after\b", "", "write `after` without `on`"),
     (r"\b(entry|exit) *@:", "", r"write `\1 / ...`"),
     (
         r"\b(?:entry|exit) *@(?: *do\b)",
         "",
-        "write `do` on a line of its own: it starts when the state is entered",
+        "write `do` on a line of its own: the activity starts on entry",
     ),
-    (r"(?:^ *|\bon +)@timeout\b", "", "a delay is written `after 5 s -> Target`"),
-    (r"\bon timeout *@[\d(]", "", "a delay is written `after 5 s -> Target`"),
+    (r"(?:^ *|\bon +)@timeout\b", "", "write a delay as `after 5 s -> Target`"),
+    (r"\bon timeout *@[\d(]", "", "write a delay as `after 5 s -> Target`"),
     (r"\bon +[\w., ]*@: *-+>", "", "delete the `:`"),
     (r"\bon [\w., ]+@enter +(\w+)", "", r"write `-> \1`"),
     (
         rf"{_BEFORE_EFFECTS}/ *(?:[^/]*, *)?[\w.]+(?:\([^()]*\))? *@ *(?:$|->|,)",
         "`=`",
-        "an effect is `name = value` or `send Event`: what takes time is what a state does",
+        "an effect is `name = value` or `send Event`: what takes time is an activity, `do`",
     ),
-    (r"/ *@\{", "", "effects stand without braces, with `,` between them"),
-    (r"/ *\w[^\[\]>]*@; *\w", "", "effects stand with `,` between them"),
+    (r"/ *@\{", "", "write effects without braces, separated by `,`"),
+    (r"/ *\w[^\[\]>]*@; *\w", "", "separate effects by `,`"),
     (
         r"[/,] *(?:raise|emit|publish|fire|trigger) +@(\w+)",
         "",
-        r"an event is sent with `send \1`",
+        r"send an event with `send \1`",
     ),
     (
         r"[/,] *(?:(?:call|run|start) +@\w|@do\b)",
         "",
-        "an effect starts no activity: lead to a state that has `do`",
+        "an effect cannot start an activity: go to a state with `do`",
     ),
     (r"/ *[^/]*= *[\w.]+ +@(\w+) *=(?!=)", "`,`", r"write `,` before `\1`"),
-    (r"^ *@every\b", "", "a time that comes again: `after 5 s` leads back to the state it is in"),
+    (r"^ *@every\b", "", "for a periodic action, let `after 5 s` target its own state"),
     # activities
     (r"\bdo *@/ *([\w.]+)", "", r"write `do \1`"),
     (
         r"\bdo ([\w.]+) +@(\w+) *=",
         "",
-        r"the values stand in parentheses: `do \1(\2 = ...)`",
+        r"write the arguments in parentheses: `do \1(\2 = ...)`",
     ),
     (
         r"(?:\b(?:do|send) |\bstate \w+ *= *)[\w.]+\((?:[^()]*, *)?@(-?[\w.]+|\"[^\"]*\")",
@@ -79,24 +79,24 @@ _HABITS = (
         _FIELD,
     ),
     # expressions
-    (r"\[[^]]*\b([\w.]+) @in\b", "", r"write both ends: `\1 >= 1 and \1 <= 3`"),
+    (r"\[[^]]*\b([\w.]+) @in\b", "", r"compare with both bounds: `\1 >= 1 and \1 <= 3`"),
     (r"\*@\*|@\^", "", _POWER),
     (
         r"\w@\[",
         "`+`",
-        "elements of arrays cannot be used: of an array, expressions have only `len`",
+        "expressions cannot index arrays: only `len` applies to them",
     ),
     # states
     (r"^ *@\[\*\] *-+> *(\w+)", "", r"write `initial \1`"),
     (
         r"^ *@(\w+) *-+> *\[\*\]",
         "",
-        r"the end is a state, too: write `final Done`, and in `\1` a transition to it",
+        r"the end is a state: declare `final Done`, and a transition to it in `\1`",
     ),
     (
         r"^ *@states? *[:{]|^ *states *@: *(?:$|\{)",
         "",
-        "states stand one by one: `state Name { ... }`",
+        "declare each state: `state Name { ... }`",
     ),
     (r"^ *@state +machine\b", "", "write `statemachine`"),
     (r"\binitial +enter +@(\w+)", "", r"write `initial \1`"),
@@ -107,45 +107,49 @@ _HABITS = (
         r"write `state \1 { ... }`",
     ),
     (r"\bfinal @state +(\w+)", "", r"write `final \1`"),
-    (r"\binitial @state +(\w+)", "", r"write `initial \1`, and the state beside it"),
+    (r"\binitial @state +(\w+)", "", r"write `initial \1`, and declare the state next to it"),
     (r"\bparallel @(?!state\b)(\w+)", "`state`", r"write `parallel state \1`"),
     (
         r"^ *@(?:deep +)?(?:state|initial|final|choice|history|parallel)\b",
         "`region`",
-        "the states of a parallel state stand in regions: `region Name { ... }`",
+        "put the states of a parallel state in regions: `region Name { ... }`",
     ),
-    (r"^ *@region\b", "", "a region stands in a `parallel state`"),
-    (r"^ *@submachine +(\w+)", "", r"a machine is reused by `state \1 = Machine`"),
+    (r"^ *@region\b", "", "a region belongs to a `parallel state`"),
+    (r"^ *@submachine +(\w+)", "", r"reuse a state machine with `state \1 = Machine`"),
     (r"= *new +@([A-Z]\w*)", "", r"write `= \1`"),
-    (r"^ *@(?:on|do|entry|exit|after)\b", "`{`", "what a state has stands in braces behind it"),
+    (
+        r"^ *@(?:on|do|entry|exit|after)\b",
+        "`{`",
+        "write the items of a state in braces after its name",
+    ),
     # what stands where
     (
         r"^ *@const\b",
         "",
-        "a constant is a declaration of its own, outside of all others",
+        "declare a constant at the top level of the file",
     ),
     (
         r"^ *const +@\w+ *:",
         "`:`",
-        "a constant is a declaration of its own, outside of all others",
+        "declare a constant at the top level of the file",
     ),
     (
         r"^ *@#define +(\w+)",
         "",
-        r"a constant is declared with its type: `const \1 : type = value`",
+        r"declare a constant with its type: `const \1 : type = value`",
     ),
     (
         r"^ *@(?:void|int|float|double|bool|auto|char|string|def|fn|func)\b[^()]*\(",
         "",
-        "this is no program: what a robot can do is a `function`, its behaviour a `statemachine`",
+        "declare what a robot can do as `function`, and its behaviour as `statemachine`",
     ),
-    (r"\} *@default +\w+", "", "a variable says what it begins with: `var x : Mode = Mode.IDLE`"),
-    (r"^ *@(?:swarm|member) *:|^ *(?:swarm|member) *@:", "", "a block stands in `{` and `}`"),
+    (r"\} *@default +\w+", "", "give the variable an initial value: `var x : Mode = Mode.IDLE`"),
+    (r"^ *@(?:swarm|member) *:|^ *(?:swarm|member) *@:", "", "enclose a block in `{` and `}`"),
     # types
     (
         r"^ *(\w+) *@\[(\w*)\] *: *([\w./]+)",
         "`:`",
-        r"the size stands behind the type: `\1 : \3[\2]`",
+        r"write the size after the type: `\1 : \3[\2]`",
     ),
     (
         r": *(?:std::)?(?:list|vector|Vec|sequence|array|Array|List)@<([\w./]+)>",
@@ -155,82 +159,82 @@ _HABITS = (
     (
         r": *(?:std::)?(?:map|dict|Map|Dict|HashMap|unordered_map|Record)@[<\[]",
         "",
-        "there are no maps: declare a struct for an entry, and use an array of it",
+        "there are no maps: declare a struct for the entries, and use an array of it",
     ),
     (
         r": *[\w./]+@\?|^ *\w+@\? *:",
         "",
-        "no field is optional: add one that says whether it is there",
+        "fields cannot be optional: add a `bool` field for its presence",
     ),
     (
         r"^ *[a-z]\w* *: *(?:[a-z][\w.]*|\w+/[\w/]+)(?:\[[^]]*\])* *@= *[^=]",
         "`[`",
-        "a field has no value of its own: who sends it says what is in it",
+        "a field has no default value: the sender sets it",
     ),
     (
         r"\bparam +(\w+) *: *@(-?[\d.]+|\"[^\"]*\"|true|false)",
         "a type",
-        r"a type stands before the value: `param \1 : type = \2`",
+        r"write the type before the value: `param \1 : type = \2`",
     ),
     (
         r"^ *@var\b",
         "",
-        "a variable stands directly in a state machine; a value for all of them is a `const`",
+        "declare a variable directly in a state machine, or a `const` at the top level",
     ),
     (
         r"^ *@param +\w+ *:",
         "",
-        "a param belongs to a function, component, member, state machine or fitness",
+        "declare a param in a function, component, member, state machine or fitness",
     ),
-    (r"^ *@abstract\b", "", "leave it out: what is extended is declared like all others"),
+    (r"^ *@abstract\b", "", "delete it: any component or member can be extended"),
     # interfaces
     (r"^ *import +ros +@([\w./-]+)", "", r'write `import ros "\1"`'),
-    (r"\bfunction +\w+ *@\{", "", "say which kind it is: `: abstraction` or `: swarm`"),
-    (r"\b(?:action|service) +@:", "a text in double quotes", _SERVER),
+    (r"\bfunction +\w+ *@\{", "", "add the category: `: abstraction` or `: swarm`"),
+    (r"\b(?:action|service) +@:", "a string in double quotes", _SERVER),
     (
         r"\bevent +\w+@ *$",
         "",
-        "say what it carries: `: std_msgs/Empty` if it is nothing",
+        "add the type of its message: `: std_msgs/Empty` if it carries no data",
     ),
     (
         r"\bfunction +(\w+) *@\(",
         "",
-        r"a function says how it is asked for: `function \1 : abstraction { ... }`",
+        r"write `function \1 : abstraction { ... }`, with its action or service inside",
     ),
     (
         r"^ *(in|out) +@(\w+) *:",
-        "a text in double quotes",
-        r'a function names the topic: `\1 "\2" : package/Type`',
+        "a string in double quotes",
+        r'write the topic: `\1 "\2" : package/Type`',
     ),
-    (r"\bevent +(\w+) *@[{(]", "", r"an event carries a message: `event \1 : package/Name`"),
+    (r"\bevent +(\w+) *@[{(]", "", r"add the type of its message: `event \1 : package/Name`"),
     (r"\bevent +@swarm\b", "", "write `swarm event`"),
     (
         r"\b(?:event|in|out|inout) +\w+ *: *[\w./]+ +@(?:\w+ *|= *)?(\"[^\"]*\")",
         "`on`",
-        r"the topic stands behind `on`: `on \1`",
+        r"write `on` before the topic: `on \1`",
     ),
     # members
-    (r"\bextends +[\w.]+ *@,", "", "one is extended, not several"),
+    (r"\bextends +[\w.]+ *@,", "", "extend one only"),
     (r"\b(behavior|environment|fitness) *@[:=] *(\w+)", "", r"write `\1 \2`"),
     (r"^ *([a-z]\w*) *@= *([A-Z]\w*) *$", "`:`", r"write `\1 : \2`"),
     (
         r"^ *([A-Z]\w*) +@([a-z_]\w*) *(?:$|[{[])",
         "`:`",
-        r"the name comes first: `\2 : \1`",
+        r"write the name first: `\2 : \1`",
     ),
-    (r": *[A-Z][\w.]*@\[", "`{`", "a part is one component: declare a part for each"),
-    (r": *[A-Z][\w.]*@\(", "`{`", "values of params stand in braces: `{ name = value }`"),
+    (r": *[A-Z][\w.]*@\[", "`{`", "a part is one component: declare several parts"),
+    (r": *[A-Z][\w.]*@\(", "`{`", "write values of params in braces: `{ name = value }`"),
     (r"\bconnect +[\w.]+ +@(?:to|with|and)\b", "", "write `->`"),
     (
         r"\bconnect +([\w.]+) *@<-+ *([\w.]+)",
         "",
-        r"the arrow leads from what is sent: `connect \2 -> \1`",
+        r"connect from the sender to the receiver: `connect \2 -> \1`",
     ),
     (r"^ *instance +@(\w+) *:", "`:`", r"write `\1 : ...` without `instance`"),
     (
         r"^ *connections? *(?:\w+ *)?@(?:\w+ *)?\{",
         "",
-        "connectors stand in the member, one by one: `connect a.b -> c.d`",
+        "write each connector in the member: `connect a.b -> c.d`",
     ),
     (
         r"^ *@(?:publish\w*|pub|advertise\w*|(?:a?sync +)?output(?: +port)?) +(\w+)",
@@ -242,20 +246,20 @@ _HABITS = (
         "`in`",
         r"write `in \1`",
     ),
-    (r"^ *\w+@\.\w+ *->", "", "a connector begins with `connect`"),
+    (r"^ *\w+@\.\w+ *->", "", "begin a connector with `connect`"),
     # swarms
     (
         r"^ *([A-Z]\w*) *@\[ *([^\]\n]*)\]",
         "`:`",
-        r"what they are called comes first: `name : \1[\2]`",
+        r"write the name of the role first: `name : \1[\2]`",
     ),
     (
         r"(?:^ *|: *)@(\d+) *[x*]? *([A-Z]\w*)",
         "",
-        r"how many there are stands behind: `\2[\1]`",
+        r"write the number after the member: `\2[\1]`",
     ),
-    (r": *([A-Z][\w.]*) *@\* *(\d+)", "`[`", r"how many there are stands behind: `\1[\2]`"),
-    (r": *([A-Z][\w.]*) +x +@(\d+)", "", r"how many there are stands behind: `\1[\2]`"),
+    (r": *([A-Z][\w.]*) *@\* *(\d+)", "`[`", r"write the number after the member: `\1[\2]`"),
+    (r": *([A-Z][\w.]*) +x +@(\d+)", "", r"write the number after the member: `\1[\2]`"),
     (r"\w\[[^]]*@", "a number or `*`", _MULTIPLICITY),
     (r"\w\[ *\d+@ *[,.:;]", "`..`", _MULTIPLICITY),
     (r"\bsize +[\d.]+ *([a-z]+) *@ *(?:$|\})", "", r"write width and depth: `10 \1 x 10 \1`"),
@@ -270,15 +274,15 @@ _HABITS = (
 
 @cache
 def _compiled() -> list[tuple[re.Pattern[str], str, str]]:
-    return [(re.compile(line.replace("@", "\0")), needed, said) for line, needed, said in _HABITS]
+    return [(re.compile(line.replace("@", "\0")), needed, hint) for line, needed, hint in _HINTS]
 
 
-def habit(expected: set[str], text: str, at: int) -> str | None:
-    """How to say here what the line around an offset says elsewhere; None if unknown."""
+def foreign_statement_hint(expected: set[str], text: str, at: int) -> str | None:
+    """Return a hint for the line around an offset; None if nothing fits."""
     start = max(text.rfind("\n", 0, at) + 1, at - _WIDTH)
     end = text.find("\n", at, at + _WIDTH)
     line = f"{text[start:at]}\0{text[at : end if end >= 0 else at + _WIDTH]}".replace("\t", " ")
-    for pattern, needed, advice in _compiled():
+    for pattern, needed, hint in _compiled():
         if (not needed or needed in expected) and (found := pattern.search(line)):
-            return found.expand(advice)
+            return found.expand(hint)
     return None

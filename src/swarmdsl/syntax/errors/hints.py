@@ -1,4 +1,4 @@
-"""What a person may have meant who wrote what the grammar does not have."""
+"""Hints for unexpected tokens."""
 
 from __future__ import annotations
 
@@ -6,22 +6,24 @@ import re
 import unicodedata
 
 from swarmdsl.base.suggest import closest
-from swarmdsl.syntax.errors.foreign_tokens import mark
+from swarmdsl.syntax.errors.foreign_tokens import symbol_hint
 from swarmdsl.syntax.parser.keywords import RESERVED
 from swarmdsl.syntax.types import PRIMITIVES
 
 _NAMES = "a name has ASCII letters, digits and `_`, and starts with no digit"
-SIZES = "write `[]` for any number of elements, `[4]` for as many, `[<=4]` for at most as many"
+SIZES = "write `[]` for any number of elements, `[4]` for exactly 4, `[<=4]` for at most 4"
 _ARROWS = {"->", "=>", "-", "=", ">", ":", "\N{RIGHTWARDS ARROW}"}
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-# How like a keyword a word must be: `Start` is not meant to be `state`.
-_SLIP = 0.85
+# Similarity to a keyword: `Start` is too far from `state`.
+_MIN_SIMILARITY = 0.85
 _PARAMETER = re.compile(r"[(,]\s*(?:inout|(?:in|out)\s+(?:in|out))$")
 _UPDATES = (":=", "+=", "-=", "*=", "/=", "++", "--")
 
 
-def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str]) -> str | None:
-    """A way out for the token `found`, which stands after `before`; None if none is known."""
+def token_hint(
+    expected: set[str], before: re.Match[str] | None, found: re.Match[str]
+) -> str | None:
+    """Return a hint for the unexpected token `found` after `before`; None if there is none."""
     token, text, at = found[0], found.string, found.start()
     last = before[0] if before is not None else ""
     joined = before is not None and before.end() == at
@@ -29,34 +31,34 @@ def advice(expected: set[str], before: re.Match[str] | None, found: re.Match[str
         if f"`{arrow}`" in expected and token in _ARROWS:
             return f"write `{arrow}`"
     if "`=`" in expected and text.startswith(_UPDATES, at):
-        return "write a variable, `=` and its new value: `x = x + 1`"
+        return "write the new value after `=`: `x = x + 1`"
     if token == "=" and joined and last == "=":
         return "write one `=` to assign"
     if token == "=" and "`]`" in expected:
         return "write `==` to compare"
     if token == "-" and text.startswith("--", at):
-        return mark("#")
+        return symbol_hint("#")
     if token == "-" and joined and last[0].isalpha():
         return _NAMES
     if "a name" in expected and re.fullmatch(r"\w+", token) and not _NAME.fullmatch(token):
         return _NAMES
     if before and "`:`" in expected and _PARAMETER.search(text, 0, before.end()):
-        return "a parameter is `in` or `out`: what goes both ways are two parameters"
+        return "a parameter is `in` or `out`: declare two parameters for both directions"
     if "`:`" in expected and last in PRIMITIVES and _NAME.fullmatch(token):
-        return f"the name comes first: `{token} : {last}`"
+        return f"write the name first: `{token} : {last}`"
     if token == "[" and "`[`" in expected:
         return SIZES
     if token == "/" and joined:
-        return "the name of a type follows, as in `std_msgs/Empty`"
+        return "complete the name of the type, as in `std_msgs/Empty`"
     if last[:1].isdigit() and token[0].isalpha() and "`->`" in expected:
         return "the units of time are `us`, `ms`, `s`, `min` and `h`"
     if token in "})]" and "`struct`" in expected:
-        return "nothing is open here that it could close"
-    if said := mark(token):
-        return said
-    # A keyword with a slip in it was taken for the name of a part or field.
+        return "delete it: there is no open bracket"
+    if hint := symbol_hint(token):
+        return hint
+    # The parser took a misspelled keyword for the name of a part or field.
     slip, meant = (last, RESERVED) if "`:`" in expected else (token, _literals(expected))
-    keyword = closest(slip, meant, _SLIP)
+    keyword = closest(slip, meant, _MIN_SIMILARITY)
     return f"did you mean `{keyword}`?" if keyword and keyword != slip else None
 
 
@@ -65,7 +67,7 @@ def _literals(expected: set[str]) -> list[str]:
 
 
 def strange_character(character: str) -> str | None:
-    """The name of a character that looks like nothing, or like a space; None for others."""
+    """Return the name of an invisible character or unusual space; None for others."""
     if not character or character in " \t\r\n" or character.isprintable():
         return None
     name = unicodedata.name(character, "")

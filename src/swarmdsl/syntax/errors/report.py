@@ -1,4 +1,4 @@
-"""What a parser's complaint means, in the words of the language."""
+"""Report a syntax error: from the expected terminals to a message with a hint."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from collections.abc import Iterable
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.errors.delayed import noticed_late
-from swarmdsl.syntax.errors.foreign_statements import habit
-from swarmdsl.syntax.errors.foreign_tokens import foreign
-from swarmdsl.syntax.errors.hints import advice, strange_character
+from swarmdsl.syntax.errors.delayed import find_delayed_error
+from swarmdsl.syntax.errors.foreign_statements import foreign_statement_hint
+from swarmdsl.syntax.errors.foreign_tokens import foreign_token_hint
+from swarmdsl.syntax.errors.hints import strange_character, token_hint
 from swarmdsl.syntax.parser.keywords import FIRST, RESERVED
-from swarmdsl.syntax.parser.patched_text import Draft
+from swarmdsl.syntax.parser.patched_text import PatchedText
 
-# How terminals of the grammar are called when one of them is missing.
+# Terminals of the grammar in messages.
 TERMINALS = {
     "IDENT": "a name",
     "QNAME": "a name",
     "WORD": "a name",
     "INTERFACE": "the name of an interface",
     "TYPENAME": "a type",
-    "QUOTED": "a text in double quotes",
+    "QUOTED": "a string in double quotes",
     "ARRAY": "`[`",
     "STRINGBOUND": "`<=`",
     "LIBRARY": "the name of a package",
@@ -45,21 +45,25 @@ _GROUPS = {
     "an item of a region": FIRST["RegionItem"],
     "an item of a member": FIRST["MemberItem"],
 }
-# Left out when these are possible: they say it all.
+# Left out of a message next to a phrase that covers them.
 _IMPLIED = {
     "a trigger": {"a name"},
     "a declaration": {"the end of the file", "`package`", "`import`"},
     "an item of a member": {"a name"},
-    "a value": {"a name", "a text in double quotes", "`true`", "`false`", "`event`", "`(`"},
+    "a value": {"a name", "a string in double quotes", "`true`", "`false`", "`event`", "`(`"},
 }
-# Left out of a list of what is possible when something more specific is there.
+# Left out of a message when something more specific is expected.
 _OPERATORS = {"and", "or", "==", "!=", "<=", ">=", "<", ">", "+", "*", "/", "%", ".", "not", "-"}
-# What goes on behind something that could as well be complete.
-_GOES_ON = {f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends")}
-# The same for what belongs to the line above.
-_ABOVE = {f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..")}
+# Continuations of a statement that could end here.
+_CONTINUATIONS = {
+    f"`{word}`" for word in ("[", ",", "->", "/", "(", "{", "=", "on", "gives", "extends")
+}
+# Continuations of the line above.
+_LINE_CONTINUATIONS = {
+    f"`{word}`" for word in (",", "->", "/", "(", "=", "on", "gives", "extends", "..")
+}
 _COLON = re.compile(r"[ \t]*:")
-_MOST_SHOWN = 8
+_MAX_SHOWN = 8
 
 TOKEN = re.compile(
     r'"(?:[^"\\\n]|\\[^\n])*"|[^\W\d]\w*|\d[\w.]*|-*->|=+>|[-+*/:=!<>]=|\+\+|--|&&|\|\||::|<<|>>|\.\.|\S'
@@ -68,23 +72,23 @@ TOKEN = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Where a parser had to stop, and what could have stood there.
+    """Farthest offset that any alternative reached, and the terminals expected there.
 
-    `at` is the offset of the first token that does not fit, the furthest that any
-    alternative came. `expected` are the names of terminals of the grammar, and keywords and
-    symbols in backquotes.
+    `expected` are names of terminals of the grammar, and keywords and symbols in backquotes.
     """
 
     at: int
     expected: frozenset[str]
 
 
-def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: Diagnostics) -> int:
-    """Report a syntax error in `draft`, a piece of the source; return its place in the draft.
+def report_syntax_error(
+    failure: Failure, source: Source, patched: PatchedText, report: Diagnostics
+) -> int:
+    """Report a syntax error in `patched`, a segment of the source; return its offset there.
 
-    This is the first token that does not fit, or the one behind which something is missing.
+    This is the first unexpected token, or the token after which something is missing.
     """
-    at, text = failure.at, draft.text
+    at, text = failure.at, patched.text
     words = _words(failure.expected)
     found = TOKEN.match(text, at)
     before = _token_before(text, at)
@@ -95,23 +99,23 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
     inside = before is not None and before[0] not in "{}" and not new_line
     complete = found is not None and inside and _may_begin_anew(words)
     anew = found is not None and new_line and _may_begin_anew(words)
-    # What looks like what is expected, and is not: an array whose size is none.
+    # An unexpected `[` is not expected: it begins a malformed array.
     expected = _grouped(words - {f"`{text[at : at + 1]}`"}, complete=complete, anew=anew)
 
     def place(token: re.Match[str]) -> Span:
-        start = draft.origins[token.start()]
-        return Span(source, start, max(start, draft.origins[token.end()]))
+        start = patched.origins[token.start()]
+        return Span(source, start, max(start, patched.origins[token.end()]))
 
-    if before and (late := noticed_late(text, at, before.start())):
+    if before and (late := find_delayed_error(text, at, before.start())):
         start, end, message, help_ = late
-        span = Span(source, draft.origins[start], draft.origins[end])
+        span = Span(source, patched.origins[start], patched.origins[end])
         report.report("syntax-error", span, message=message, help=help_)
         return start
     if found and (strange := strange_character(text[at])):
         report.report(
             "syntax-error",
             Span(source, place(found).start, place(found).start + 1),
-            message=f"the character {strange} cannot stand here",
+            message=f"unexpected character {strange}",
             help="write a plain space" if text[at].isspace() else "delete it",
         )
     elif (
@@ -124,12 +128,13 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
             "keyword-as-name",
             place(found),
             word=found[0],
-            help=habit(words, text, at) or f"choose another name, `{found[0]}_` for instance",
+            help=foreign_statement_hint(words, text, at)
+            or f"choose another name, for example `{found[0]}_`",
         )
     elif before and (found is None or (new_line and not _may_begin_anew(words))):
-        # The mistake is where something is missing, not at the line that follows.
+        # The error is where something is missing, not on the next line.
         message = f"expected {_either(expected)} after `{before[0]}`"
-        help_ = habit(words, text, before.end())
+        help_ = foreign_statement_hint(words, text, before.end())
         report.report("syntax-error", place(before), message=message, help=help_)
         return before.start()
     else:
@@ -139,29 +144,35 @@ def report_syntax_error(failure: Failure, source: Source, draft: Draft, report: 
             "syntax-error",
             place(found) if found else Span(source, end, end),
             message=f"expected {_either(expected)}, found {what}",
-            help=habit(words, text, at) or foreign(words, text, at) or advice(words, before, found)
-            if found
-            else None,
+            help=_hint(words, before, found) if found else None,
         )
     return min(at, len(text))
 
 
+def _hint(words: set[str], before: re.Match[str] | None, found: re.Match[str]) -> str | None:
+    at, text = found.start(), found.string
+    return (
+        foreign_statement_hint(words, text, at)
+        or foreign_token_hint(words, text, at)
+        or token_hint(words, before, found)
+    )
+
+
 def _may_begin_anew(words: set[str]) -> bool:
-    """Whether a new statement may begin here, so that the next line is to blame itself."""
+    """Return True if a statement may begin here: then the next line is at fault itself."""
     return "`}`" in words or "the end of the file" in words
 
 
 def _words(expected: Iterable[str]) -> set[str]:
-    """What could have stood here: phrases, and keywords in backquotes."""
+    """Return phrases for terminals; keywords stay in backquotes."""
     return {TERMINALS.get(terminal, terminal) for terminal in expected}
 
 
 def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:
-    """The same in few words, the most general ones last.
+    """Summarize expected words, with the most general ones last.
 
-    Where what stands before is `complete`, and what stands here on its line, what could begin
-    behind it is called the end of the line. Where a line begins `anew`, nobody means to go on
-    with what stands above it.
+    If the statement before is `complete` and on the same line, words that could begin another one
+    become "the end of the line". If a line begins `anew`, it does not continue the one above.
     """
     general = []
     for phrase, members in _GROUPS.items():
@@ -173,13 +184,13 @@ def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:
         if phrase in words or phrase in general:
             words = words - _IMPLIED.get(phrase, set())
     if "`=`" in words:
-        words = words - {"`(`"}  # nothing is assigned to a call
+        words = words - {"`(`"}  # a call has no value to assign
     if anew and general:
-        words = words - _ABOVE
+        words = words - _LINE_CONTINUATIONS
         if not {"an item of a state", "`else`"} & {*general, *words}:
             words = words - {"`[`"}  # no guard begins here
     if complete:
-        words = words & _GOES_ON
+        words = words & _CONTINUATIONS
         general = ["the end of the line"]
     specific = {word for word in words if word.strip("`") not in _OPERATORS}
     shown = (specific or words) if not general else specific
@@ -189,13 +200,13 @@ def _grouped(words: set[str], *, complete: bool, anew: bool) -> list[str]:
 def _either(expected: list[str]) -> str:
     if not expected:
         return "something else"
-    if len(expected) > _MOST_SHOWN:
-        return ", ".join([*expected[: _MOST_SHOWN - 1], "..."])
+    if len(expected) > _MAX_SHOWN:
+        return ", ".join([*expected[: _MAX_SHOWN - 1], "..."])
     return " or ".join(filter(None, (", ".join(expected[:-1]), expected[-1])))
 
 
 def _token_before(text: str, at: int) -> re.Match[str] | None:
-    """The last token before an offset, comments left out."""
+    """Find the last token before an offset, without comments."""
     code = re.sub(r"//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/", lambda c: " " * len(c[0]), text[:at])
     tokens = list(TOKEN.finditer(code, max(code.rstrip().rfind("\n"), 0)))
     return tokens[-1] if tokens else None

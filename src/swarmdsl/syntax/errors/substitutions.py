@@ -1,4 +1,4 @@
-"""What to put in the place of text that the language does not have, to read on behind it."""
+"""Token substitutions that let the parser continue after foreign syntax."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import re
 from swarmdsl.base.suggest import closest
 from swarmdsl.syntax.errors.hints import strange_character
 
-# How like a keyword a word must be to be taken for it.
-_SLIP = 0.82
-# What is written, where these could stand (anywhere, if none), and what is meant by it.
+# Similarity from which a word is taken for a keyword.
+_MIN_SIMILARITY = 0.82
 _VALUE = frozenset({"PREFIX", "ROOT", "PRIMARY", "IDENT"})
-_INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
+# Text, terminals of which one must be expected (any, if none), and its replacement.
+_SUBSTITUTIONS: tuple[tuple[str, frozenset[str], str], ...] = (
     ("-->", frozenset({"`->`"}), "->"),
     ("- >", frozenset({"`->`"}), "->"),
     ("==>", frozenset({"`->`"}), "->"),
@@ -31,7 +31,7 @@ _INSTEAD: tuple[tuple[str, frozenset[str], str], ...] = (
 )
 
 
-# The same for what has many forms; the place is anywhere in it.
+# The same as regular expressions, which match around the error.
 _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
     (r"(?<=\w)::(?=\w)", frozenset(), "/"),
     (r"\bstate[ \t]+machine\b", frozenset({"`statemachine`"}), "statemachine"),
@@ -51,9 +51,11 @@ _PATTERNS: tuple[tuple[str, frozenset[str], str], ...] = (
 )
 
 
-def replacement(expected: frozenset[str], text: str, at: int) -> tuple[int, int, str] | None:
-    """What to put in place of which piece of `text`, where a parser stops; None if unknown."""
-    for wrong, words, right in _INSTEAD:
+def suggest_substitution(
+    expected: frozenset[str], text: str, at: int
+) -> tuple[int, int, str] | None:
+    """Return the start and end of a range around `at` and its replacement; None if unknown."""
+    for wrong, words, right in _SUBSTITUTIONS:
         starts = (at - back for back in range(min(len(wrong), at + 1)))
         start = next((each for each in starts if text.startswith(wrong, each)), None)
         if start is not None and (not words or words & expected):
@@ -74,14 +76,14 @@ def replacement(expected: frozenset[str], text: str, at: int) -> tuple[int, int,
     word = re.compile(r"[A-Za-z]+").match(text, at)
     if word and not text[word.end() : word.end() + 1].isalnum():
         literals = [one.strip("`") for one in expected if re.fullmatch(r"`[a-z]+`", one)]
-        keyword = closest(word[0], literals, _SLIP)
+        keyword = closest(word[0], literals, _MIN_SIMILARITY)
         if keyword and keyword != word[0]:
             return at, word.end(), keyword
     return None
 
 
-# Characters that word processors, web pages and other keyboards have for plain ones.
-_LIKE = {
+# Typographic characters and the ASCII text that they stand for.
+_EQUIVALENTS = {
     "\u2018": '"', "\u2019": '"', "\u201c": '"', "\u201d": '"', "\u201e": '"',
     "\u2010": "-", "\u2011": "-", "\u2012": "-", "\u2013": "-", "\u2014": "-", "\u2212": "-",
     "\u2190": "<-", "\u2192": "->", "\u27f6": "->", "\u21d2": "=>",
@@ -90,12 +92,11 @@ _LIKE = {
 }  # fmt: skip
 
 
-def likeness(character: str) -> str | None:
-    """What a character that the language does not have is likely to stand for.
+def plain_equivalent(character: str) -> str | None:
+    """Return the ASCII text that a character looks like; None for others.
 
-    This is a space for other kinds of space, nothing for what nobody can see, and None for a
-    character that is like none.
+    This is a space for other spaces, and the empty string for invisible characters.
     """
     if character.isspace():
         return " "
-    return _LIKE.get(character, "" if strange_character(character) else None)
+    return _EQUIVALENTS.get(character, "" if strange_character(character) else None)

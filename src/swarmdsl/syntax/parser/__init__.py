@@ -1,1 +1,1 @@
-"""Parser: tokens, expressions, documentation comments, syntax trees."""
+"""Lexer, expression parser and generated parser."""

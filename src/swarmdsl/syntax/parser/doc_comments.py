@@ -1,4 +1,4 @@
-"""Documentation, which stands in `///` comments, and escapes in texts: what no parser looks at."""
+"""Documentation in `///` comments, and escapes in strings: the parser skips both."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 
-# What has no end goes on to that of its line, or of the file.
+# An unclosed string ends with its line, an unclosed comment with the file.
 _TOKEN = r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*(?P<closed>")?|//[^\n]*|/\*(?s:.*?)(?:\*/|\Z)'
 _DOC_LINE = re.compile(r"///(?!/)")
 _BLANK = re.compile(r"(?:\s+|//(?!/(?!/))[^\n]*|/\*(?s:.*?)\*/)*")
@@ -18,15 +18,15 @@ _ESCAPES = {r"\"", r"\\", r"\n", r"\t"}
 
 @dataclass(frozen=True, slots=True)
 class DocComment:
-    """Lines of `///` that stand together; `next` is the offset of what follows them."""
+    """Consecutive lines of `///`; `next` is the offset of the token after them."""
 
     span: Span
     text: str
     next: int
 
 
-class Comments:
-    """Collects the documentation in a file, and reports what is wrong with comments and texts."""
+class DocCommentCollector:
+    """Collector of `///` comments; reports misplaced ones, and wrong escapes in strings."""
 
     def __init__(self, source: Source, report: Diagnostics) -> None:
         self._source = source
@@ -34,31 +34,31 @@ class Comments:
         self._lines: list[tuple[int, int]] = []
 
     def comment(self, start: int, end: int) -> None:
-        """Look at a comment that ends with its line."""
+        """Add a comment that ends with its line."""
         if not _DOC_LINE.match(self._source.text, start):
             return
-        if starts_line(self._source.text, start):
+        if is_first_on_line(self._source.text, start):
             self._lines.append((start, end))
         else:
             self._report.report(
                 "unattached-doc-comment",
                 Span(self._source, start, end),
-                help="it documents what follows on the next line: move it before",
+                help="move it to the line before: it documents what follows it",
             )
 
     def quoted(self, start: int, end: int) -> None:
-        """Look at a text in double quotes."""
+        """Check the escapes of a string."""
         for escape in re.compile(_ESCAPE).finditer(self._source.text, start + 1, end - 1):
             if escape[0] not in _ESCAPES:
                 self._report.report(
                     "syntax-error",
                     Span(self._source, *escape.span()),
-                    message=f"`{escape[0]}` means nothing in a text",
+                    message=f"unknown escape `{escape[0]}` in a string",
                     help="write `\\\\` for `\\`",
                 )
 
     def documentation(self) -> tuple[DocComment, ...]:
-        """What has been found: lines that follow each other are one comment."""
+        """Return the comments; consecutive lines are one comment."""
         text = self._source.text
         groups: list[list[tuple[int, int]]] = []
         for start, end in self._lines:
@@ -78,17 +78,17 @@ class Comments:
 
 
 def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]:
-    """The documentation in a file without syntax errors."""
+    """Return the documentation in a file without syntax errors."""
     text = source.text
-    comments = Comments(source, report)
+    comments = DocCommentCollector(source, report)
     if "\\" in text or "/*" in text:
-        _look_at_all(source, comments)
+        _scan_tokens(source, comments)
         return comments.documentation()
     at = text.find("///")
     while at >= 0:
-        if not starts_line(text, at):  # it may be in a text
-            comments = Comments(source, report)
-            _look_at_all(source, comments)
+        if not is_first_on_line(text, at):  # it may be in a string
+            comments = DocCommentCollector(source, report)
+            _scan_tokens(source, comments)
             break
         end = text.find("\n", at)
         end = end if end >= 0 else len(text)
@@ -97,7 +97,7 @@ def documentation(source: Source, report: Diagnostics) -> tuple[DocComment, ...]
     return comments.documentation()
 
 
-def _look_at_all(source: Source, comments: Comments) -> None:
+def _scan_tokens(source: Source, comments: DocCommentCollector) -> None:
     has_escapes = "\\" in source.text
     for token in re.finditer(_TOKEN, source.text):
         written = token[0]
@@ -108,19 +108,16 @@ def _look_at_all(source: Source, comments: Comments) -> None:
             comments.comment(*token.span())
 
 
-def starts_line(text: str, offset: int) -> bool:
-    """Whether nothing but space stands before an offset on its line."""
+def is_first_on_line(text: str, offset: int) -> bool:
+    """Return True if only spaces are before an offset on its line."""
     if text[offset - 1 : offset] in ("", "\n"):
         return True
-    end = end_before(text, offset)
+    end = skip_space_back(text, offset)
     return end == 0 or "\n" in text[end:offset]
 
 
-def end_before(text: str, offset: int) -> int:
-    """Where what stands before an offset ends: the space between is passed over.
-
-    As fast in a large text as in a small one.
-    """
+def skip_space_back(text: str, offset: int) -> int:
+    """Return the end of the token before an offset, in time independent of the text's length."""
     while offset and text[offset - 1].isspace():
         offset -= 1
     return offset

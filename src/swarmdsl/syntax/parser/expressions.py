@@ -1,7 +1,7 @@
-"""Expressions to trees, in one go with the file they stand in.
+"""Parser of expressions, which the generated parser calls.
 
-`grammar/expression.lark` says what binds how, and EXPRESSION in `grammar/lexical.tx` where
-an expression ends. Both are followed here at once; tests hold the three against each other.
+`grammar/expression.lark` defines precedence, and EXPRESSION in `grammar/lexical.tx` the end of an
+expression. This parser follows both; tests compare the three.
 """
 
 from __future__ import annotations
@@ -21,20 +21,26 @@ from swarmdsl.syntax.ast import (
     Word,
     depth,
 )
-from swarmdsl.syntax.parser.lexer import MARKS, Tokens
-from swarmdsl.syntax.parser.literals import UNITS, Language, is_too_large, quantity_value, unquoted
+from swarmdsl.syntax.parser.lexer import SYMBOLS, Tokens
+from swarmdsl.syntax.parser.literals import (
+    UNITS,
+    Language,
+    is_out_of_range,
+    quantity_value,
+    unquoted,
+)
 from swarmdsl.syntax.parser.precedence import BINDING, NOT, SIGN, Fault, Operation, Operator, join
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 
-# The tokens that can begin an operator, as a whole or in part.
+# Tokens that can begin an operator.
 _OPERATORS = frozenset({*BINDING, "=", "!"})
 # Without `/`, which begins the effects of a transition.
 _DELAY_OPERATORS = frozenset({"+", "-", "*"})
 _PARTS_OF_COMPARISONS = frozenset("=!<>")
 _PREFIXES = frozenset({"not", "-"})
-# Before these a number may go on; before those an expression that begins with one or a name.
+# A number may continue with the first; an expression after a number or a name with the second.
 _IN_NUMBERS = UNITS.keys() | {"."}
-_GOES_ON = _OPERATORS | _IN_NUMBERS | {"("}
+_CONTINUATIONS = _OPERATORS | _IN_NUMBERS | {"("}
 _SIMPLE_NUMBER = 9  # digits: no such number is too large
 
 # To call the classes takes longer.
@@ -42,21 +48,20 @@ new_node = object.__new__
 new_span = tuple.__new__
 new_word = str.__new__
 
-# A tree, where it begins and ends with the parentheses around it, and the number of the
-# token that follows.
+# A tree, its start and end including parentheses, and the index of the next token.
 _Found = tuple[ExpressionTree, int, int, int]
 
 
 class TooDeepError(Exception):
-    """Something is nested deeper than a parser goes."""
+    """Raised for nesting beyond the limit of the parser."""
 
 
 class ExpressionParser:
-    """Parses the expressions of a file: each method from the token of a number on.
+    """Parser of the expressions of a file.
 
-    A method returns an expression and the number of the token that follows; None where there
-    is no expression. One that is wrong has no tree, but its first fault is added to `faults`.
-    Raises TooDeepError for more parentheses in each other than `limit`.
+    Each method takes the index of a token, and returns an expression and the index of the token
+    after it, or None if there is no expression. A wrong expression has no tree, and its first
+    fault is in `faults`. Raises TooDeepError for more nested parentheses than `limit`.
     """
 
     __slots__ = (
@@ -85,15 +90,15 @@ class ExpressionParser:
         return self._finished(self._binary(at, _DELAY_OPERATORS))
 
     def operand(self, at: int) -> tuple[Expression, int] | None:
-        """Parse what can stand on one side of an operator."""
+        """Parse an operand of an operator."""
         return self._simple(at) or self._finished(self._binary(at, frozenset()))
 
     def _simple(self, at: int) -> tuple[Expression, int] | None:
-        """Parse what most expressions are: one token, of which nothing behind it is a part."""
+        """Parse an expression of one token, as most are."""
         tokens = self._tokens
         token = tokens[at]
         at += 1
-        if tokens[at] in _GOES_ON:
+        if tokens[at] in _CONTINUATIONS:
             return None
         tree: ExpressionTree
         if token >= "A":
@@ -121,7 +126,7 @@ class ExpressionParser:
             return None
         tree, start, end, following = found
         span = tree.span
-        if span[1] != start or span[2] != end:  # else it is the same, which is kept once
+        if span[1] != start or span[2] != end:  # else they share one
             span = new_span(Span, (self._source, start, end))
         made = new_node(Expression)
         made.span = span
@@ -143,12 +148,12 @@ class ExpressionParser:
 
     def _check_depth(self, tree: ExpressionTree, span: Span) -> None:
         if self._fault is None and depth(tree) > NESTING_LIMIT:
-            help_ = "each operator is a level: store a part of the value in a variable first"
+            help_ = "each operator is a level: assign a part of it to a variable first"
             fields = {"limit": NESTING_LIMIT, "help": help_}
             self._fault = Fault(span, "nested-too-deeply", fields)
 
     def _binary(self, at: int, operators: frozenset[str]) -> _Found | None:
-        """Operands with operators between them, or one operand."""
+        """Parse operands with operators between them, or one operand."""
         tokens = self._tokens
         prefixes: Sequence[Operator] = ()
         if tokens[at] in _PREFIXES:
@@ -174,7 +179,7 @@ class ExpressionParser:
         return tree, start, end, last[3]
 
     def _operation(self, at: int) -> Operation[_Found] | None:
-        """An operator with its operand; an operator that none follows is not part of it."""
+        """Parse an operator with its right operand; None if there is no operand."""
         tokens = self._tokens
         token = tokens[at]
         if token == "-" and self._is_arrow(at):
@@ -199,7 +204,7 @@ class ExpressionParser:
         return (BINDING[token], self._word(token, end), False), prefixes, found
 
     def _prefixes(self, at: int) -> tuple[Sequence[Operator], int]:
-        """Each `not` and each sign, and the number of the token that follows them."""
+        """Parse prefixes; return them and the index of the next token."""
         prefixes: list[Operator] = []
         while (token := self._tokens[at]) in _PREFIXES and not (
             token == "-" and self._is_arrow(at)
@@ -210,7 +215,7 @@ class ExpressionParser:
         return prefixes, at
 
     def _primary(self, at: int) -> _Found | None:
-        """A value, a name, a call, or an expression in parentheses."""
+        """Parse a value, a name, a call, or an expression in parentheses."""
         tokens = self._tokens
         token = tokens[at]
         if token < "A":
@@ -248,7 +253,7 @@ class ExpressionParser:
         return found[0], self._start(at), self._ends[following], following
 
     def _call(self, at: int) -> _Found | None:
-        """A call; None where what follows the name are no arguments."""
+        """Parse a call; None if no arguments follow the name."""
         before = self._fault, self._large
         tokens = self._tokens
         self._descend()
@@ -274,14 +279,14 @@ class ExpressionParser:
         return Call(self._span(start, end), function, tuple(arguments)), start, end, following
 
     def _path(self, at: int) -> _Found:
-        """A name, and fields of what it means."""
+        """Parse a name and field accesses."""
         tokens, start = self._tokens, self._start(at)
         end = self._ends[at + 1]
         tree: ExpressionTree = NameUse(self._span(start, end), tokens[at])
         at += 1
         while tokens[at] == ".":
             field = tokens[at + 1]
-            if field < "A" or field in MARKS:
+            if field < "A" or field in SYMBOLS:
                 break
             at += 2
             end = self._ends[at]
@@ -301,7 +306,7 @@ class ExpressionParser:
         return made, start, end, at
 
     def _literal(self, at: int) -> _Found | None:
-        """A text, a number or a duration."""
+        """Parse a string, a number or a duration."""
         token, start = self._tokens[at], self._start(at)
         if token[:1] == '"' or self._tokens[at + 1] not in _IN_NUMBERS:
             value = _simple_value(token)
@@ -314,10 +319,10 @@ class ExpressionParser:
         written, digits, unit = match.group(0, 1, 2)
         end = match.end()
         unit = unit or ""
-        is_large = is_too_large(written, digits, unit)
+        is_large = is_out_of_range(written, digits, unit)
         found = self._value(at, end, 0 if is_large else quantity_value(digits), unit)
         if self._ends[found[3]] > end:
-            return None  # what stands behind it is not ASCII
+            return None  # other characters than ASCII follow
         if is_large and self._large is None:
             self._large = self._span(*match.span())
         return found
@@ -331,7 +336,7 @@ class ExpressionParser:
             raise TooDeepError
 
     def _blame(self, fault: Fault) -> None:
-        """Keep what is wrong, if nothing before it is."""
+        """Keep a fault unless there is an earlier one."""
         if self._fault is None or fault.span.start < self._fault.span.start:
             self._fault = fault
 
@@ -348,7 +353,7 @@ class ExpressionParser:
 
 
 def _simple_value(token: str) -> int | float | str | None:
-    """The value of a text, or of a number without exponent and unit; None of all else."""
+    """Return the value of a string or of a number without exponent and unit; None for others."""
     if token[:1] == '"':
         return unquoted(token) if token != '"' else None
     digits = token.replace(".", "", 1)
@@ -358,8 +363,8 @@ def _simple_value(token: str) -> int | float | str | None:
 
 
 def report_fault(language: Language, span: Span, report: Diagnostics) -> None:
-    """Report what is wrong with the expression at a span."""
-    tokens = language.tokens.cut(span.source.text, span.start, span.end)
+    """Report the faults of the expression at a span."""
+    tokens = language.tokens.tokenize(span.source.text, span.start, span.end)
     parser = ExpressionParser(language, span.source, tokens, NESTING_LIMIT)
     parser.expression(0)
     for fault in parser.faults:

@@ -1,9 +1,8 @@
-"""Finds how far a text follows a grammar, and what could have come there.
+"""Find the first syntax error of a text, and the terminals expected there.
 
-It follows a program, as the parsing machine of LPeg does (R. Ierusalimschy, A Text Pattern-
-Matching Tool based on Parsing Expression Grammars, 2009), with a stack of its own: nothing
-is nested too deeply for it. It takes about three times as long as a generated parser, which
-makes a tree as well.
+It interprets a program as the parsing machine of LPeg does (R. Ierusalimschy, A Text Pattern-
+Matching Tool based on Parsing Expression Grammars, 2009), with an explicit stack, so that no
+nesting is too deep. It takes about three times as long as the generated parser.
 """
 
 from __future__ import annotations
@@ -14,24 +13,24 @@ from functools import cache
 
 from swarmdsl.base.records import dataclass
 
-# What an instruction does, and what its number means:
-MATCH = 0  # match a terminal; its number
-CHOICE = 1  # when something fails from here on, go on at an address instead
-COMMIT = 2  # what was tried has succeeded: forget the other way, and go to an address
-CALL = 3  # do what is at an address, up to its RETURN
+# Operations of instructions, each with the meaning of its number:
+MATCH = 0  # match the terminal of that number
+CHOICE = 1  # on a failure from here on, continue at an address
+COMMIT = 2  # drop the last alternative and go to an address
+CALL = 3  # call the rule at an address
 RETURN = 4
 END = 5
 
 Instruction = tuple[int, int]
 
 
-# A regular expression, the name of its rule, and the text where it is one.
+# A regular expression, the name of its rule, and the literal if it is one.
 MachineTerminal = tuple[str, str, str]
 
 
 @dataclass(frozen=True, slots=True)
 class Mismatch:
-    """The place where a text stops following a grammar, and all that could come there."""
+    """Offset at which a text departs from the grammar, and the expected terminals."""
 
     at: int
     expected: frozenset[MachineTerminal]
@@ -40,10 +39,10 @@ class Mismatch:
 def mismatch(
     program: Sequence[Instruction], terminals: Sequence[MachineTerminal], blank: str, text: str
 ) -> Mismatch | None:
-    """Where a text departs from the grammar of a program; None when it follows it."""
+    """Find where a text departs from the grammar of a program; None if it does not."""
     skip = _matcher(blank)
     furthest, expected = -1, set[MachineTerminal]()
-    # Where to go on, and at which offset: None where a call returns.
+    # Addresses to continue at, with the offset to go back to, or None for a return.
     stack: list[tuple[int, int | None]] = []
     address = at = begin = 0
     skipped = -1

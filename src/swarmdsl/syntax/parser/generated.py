@@ -9,7 +9,7 @@ from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word, ActionType, Activity, AliasType, Argument, Assignment, BehaviorUse, Branch, Choice, Communication, CommunicationSettings, Component, Connector, Constant, CountRange, DoneTrigger, Entry, EnumType, EnumValue, Environment, EnvironmentUse, Event, EventTrigger, Exit, Field, FinalState, Fitness, FitnessInput, FitnessUse, Function, FunctionPort, History, ImportFile, ImportLibrary, ImportRos, Initial, Member, MessageType, Model, MonitorTrigger, Multiplicity, Objective, Operation, Optimization, OutcomeTrigger, Package, Parallel, Param, ParamRange, Parameter, Part, PartValue, Port, PortRef, Region, ResultMapping, Role, Send, ServiceType, Setting, Size, State, StateMachine, StructType, Swarm, TimeTrigger, Transition, TypeRef, Variable, World
-from swarmdsl.syntax.parser.lexer import Cutter
+from swarmdsl.syntax.parser.lexer import Lexer
 
 GRAMMAR = 406189138
 new_node = object.__new__
@@ -18,7 +18,7 @@ new_word = str.__new__
 
 BLANK = '[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*'
 BLANKS = re.compile(BLANK).match
-TOKENS = Cutter('\t\n\r ', re.compile('[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)(?:[^\\x00-@\\[-^`{-\\x7f][^\\x00-/:-@\\[-^`{-\\x7f]*|[0-9]+(?:\\.[0-9]+)?[^\\x00-/:-@\\[-^`{-\\x7f]*|"(?:[^"\\\\\\n]|\\\\[^\\n])*"|/\\*(?s:.*\\S)?|(?s:.)|\\Z)').findall, BLANKS)
+LEXER = Lexer('\t\n\r ', re.compile('[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*(?:(?:\\/\\/[^\\n]*|\\/\\*(?:[^*]|\\*(?!\\/))*\\*\\/)[\\\t\\\n\\\r\\ ]*)*|)(?:[^\\x00-@\\[-^`{-\\x7f][^\\x00-/:-@\\[-^`{-\\x7f]*|[0-9]+(?:\\.[0-9]+)?[^\\x00-/:-@\\[-^`{-\\x7f]*|"(?:[^"\\\\\\n]|\\\\[^\\n])*"|/\\*(?s:.*\\S)?|(?s:.)|\\Z)').findall, BLANKS)
 
 def REGEX0(text, at):
     global REGEX0
@@ -1257,7 +1257,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
     """
     text = source.text
     depth = at = 0
-    tokens, ends = TOKENS.cut(text)
+    tokens, ends = LEXER.tokenize(text)
     token = tokens[0]
     expressions = ExpressionParser(LANGUAGE, source, (tokens, ends), limit)
     expression = expressions.expression
@@ -3985,4 +3985,4 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[Model, int]
         # They refer to each other: so they are gone at once, without the garbage collector.
         r_Model = r_Package = r_Optimization = r_ImportRos = r_ImportFile = r_ImportLibrary = r_StructType = r_EnumType = r_AliasType = r_Constant = r_MessageType = r_ServiceType = r_ActionType = r_Event = r_Function = r_Component = r_Member = r_StateMachine = r_Swarm = r_Environment = r_Fitness = r_Field = r_TypeRef = r_EnumValue = r_Setting = r_CountRange = r_ParamRange = r_Communication = r_FunctionPort = r_Param = r_Port = r_Operation = r_BehaviorUse = r_CommunicationSettings = r_Connector = r_Part = r_Variable = r_Initial = r_EnvironmentUse = r_FitnessUse = r_Role = r_World = r_Size = r_FitnessInput = r_Objective = r_Parameter = r_PartValue = r_PortRef = r_State = r_Parallel = r_Choice = r_History = r_FinalState = r_Multiplicity = r_Argument = r_Branch = r_Activity = r_Entry = r_Exit = r_Transition = r_Region = r_ResultMapping = r_TimeTrigger = r_MonitorTrigger = r_Send = r_Assignment = r_OutcomeTrigger = r_DoneTrigger = r_EventTrigger = try_ImportRos_ImportFile_ImportLibrary = try_Event_Swarm = try_CountRange_ParamRange = try_Setting_ParamRange = try_DoneTrigger_EventTrigger = Import_RULES = Declaration_RULES = OptimizationItem_RULES = FunctionItem_RULES = ComponentItem_RULES = MemberItem_RULES = MachineItem_RULES = SwarmItem_RULES = EnvironmentItem_RULES = FitnessItem_RULES = StateItem_RULES = ParallelItem_RULES = Effect_RULES = Trigger_RULES = RegionItem_RULES = None
 
-LANGUAGE = Language(TOKENS, RESERVED)
+LANGUAGE = Language(LEXER, RESERVED)

@@ -1,4 +1,4 @@
-"""Texts cut into tokens, all at once: in Python that is much faster than one after the other."""
+"""Lexer: all tokens of a text at once, much faster in Python than one after the other."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from itertools import accumulate
 from string import punctuation
 from typing import NamedTuple
 
-# ASCII characters that are tokens by themselves. A quotation mark begins a text. No language has
-# the last one, which alone among all that is no letter is not less than `A`, and no punctuation.
-MARKS = frozenset(punctuation) - {"_", '"'} | {"\x7f"}
+# ASCII characters that are tokens by themselves; a quotation mark begins a string. The last one is
+# in no language, but it is the only character not less than `A` that is no letter or punctuation.
+SYMBOLS = frozenset(punctuation) - {"_", '"'} | {"\x7f"}
 _COMMENTS = ("//", "/*")
-# What `str.strip` takes off in ASCII that languages have no use for.
+# ASCII characters that `str.strip` removes, but that are no blanks of the language.
 _ODD_SPACES = "\x0b\x0c\x1c\x1d\x1e\x1f"
 
-# The texts of tokens, and for each where the one before it ends. Behind what there is come empty
-# ones, so that one can look at the token behind the next one, too.
+# The strings of tokens, and for each the end offset of the one before it. Empty tokens follow the
+# last one, so that a parser can look ahead.
 Tokens = tuple[list[str], list[int]]
 
 
-class Cutter(NamedTuple):
-    """How to cut a text: finds all tokens with the blanks before them, or matches blanks.
+class Lexer(NamedTuple):
+    """Functions that find all tokens with the blanks before them, and that match blanks.
 
     `spaces` are the characters that are blanks.
     """
@@ -31,11 +31,11 @@ class Cutter(NamedTuple):
     find: Callable[[str, int, int], list[str]]
     blanks: Callable[[str], re.Match[str]]
 
-    def cut(self, text: str, start: int = 0, end: int | None = None) -> Tokens:
-        """Cut a text, or a piece of it.
+    def tokenize(self, text: str, start: int = 0, end: int | None = None) -> Tokens:
+        """Tokenize a text, or a range of it.
 
-        A token is a word, a mark, a number or a text in quotation marks. What is not ASCII
-        stands there as NULs, as many as its characters are, because it is no name.
+        A token is a word, a symbol, a number or a string. Outside of strings, a token with other
+        characters than ASCII becomes as many NULs, because it is no name.
         """
         pieces = self.find(text, start, len(text) if end is None else end)
         ends = list(accumulate(map(len, pieces), initial=start))

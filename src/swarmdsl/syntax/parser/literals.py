@@ -1,4 +1,4 @@
-"""The words of expressions: names, texts, numbers and durations, as they are written."""
+"""Literals: strings, numbers and durations."""
 
 from __future__ import annotations
 
@@ -6,43 +6,43 @@ import re
 from collections.abc import Iterable
 from math import isinf
 
-from swarmdsl.syntax.parser.lexer import MARKS, Cutter
+from swarmdsl.syntax.parser.lexer import SYMBOLS, Lexer
 
 # Nanoseconds in each unit of durations.
 UNITS = {"us": 1_000, "ms": 1_000_000, "s": 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
-# What a `uint64` holds at most, and a duration in nanoseconds.
+# Maximum of `uint64`, and of a duration in nanoseconds.
 _LARGEST, _LONGEST = 2**64 - 1, 2**63 - 1
 _ESCAPE = r"\\(.)"
-# More would take Python long to read, and nobody needs them.
+# Python takes long to convert longer ones.
 _MOST_DIGITS = 400
 _ESCAPED = {"n": "\n", "t": "\t"}
 
 
 class Language:
-    """The tokens and words of the language, which the grammar of files says."""
+    """Lexer and reserved words of a grammar."""
 
-    def __init__(self, tokens: Cutter, reserved: Iterable[str]) -> None:
+    def __init__(self, tokens: Lexer, reserved: Iterable[str]) -> None:
         self.tokens = tokens
-        self.not_a_name = frozenset(reserved) | MARKS
+        self.not_a_name = frozenset(reserved) | SYMBOLS
         self.quantity = re.compile(
             r"(\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?:[ \t]*(us|ms|s|min|h))?\b(?!\.\d)"
         ).match
 
 
 def unquoted(text: str) -> str:
-    r"""The content of a text in double quotes, with `\"`, `\\`, `\n` and `\t` replaced."""
+    r"""Return the content of a string literal, with `\"`, `\\`, `\n` and `\t` replaced."""
     if "\\" not in text:
         return text[1:-1]
     return re.sub(_ESCAPE, lambda found: _ESCAPED.get(found[1], found[1]), text[1:-1])
 
 
 def quantity_value(digits: str) -> int | float:
-    """The number that is written so."""
+    """Return the value of a number literal."""
     return int(digits) if digits.isdigit() else float(digits)
 
 
-def is_too_large(text: str, digits: str, unit: str) -> bool:
-    """Whether no type holds a number with its unit, which may be empty."""
+def is_out_of_range(text: str, digits: str, unit: str) -> bool:
+    """Return True if no type can hold a number with its unit, which may be empty."""
     if len(text) > _MOST_DIGITS:
         return True
     value = quantity_value(digits)
@@ -54,9 +54,9 @@ def is_too_large(text: str, digits: str, unit: str) -> bool:
 
 
 def nanoseconds(text: str, unit: str) -> int:
-    """The length of a duration, exactly as written, which a float may not be."""
+    """Return a duration in nanoseconds, exactly; a float could be inexact."""
     digits = text.removesuffix(unit).rstrip()
-    if digits.isdecimal() and len(digits) < 20:  # what is said most often, without an import
+    if digits.isdecimal() and len(digits) < 20:  # the most frequent case needs no import
         return int(digits) * UNITS[unit]
     from decimal import Decimal
 

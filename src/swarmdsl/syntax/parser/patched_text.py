@@ -1,4 +1,4 @@
-"""A text with repairs in it, which knows where each of its characters stood before them."""
+"""Source text with repairs, and a map from its characters back to the source."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _WORD = r"[A-Za-z_][A-Za-z0-9_]*"
 
 
 class Repair(NamedTuple):
-    """What to put in the place of a piece of text so that what is around it can be read."""
+    """Replacement of a range of the text that lets the parser read what is around it."""
 
     start: int
     end: int
@@ -22,21 +22,27 @@ class Repair(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Draft:
-    """A repaired text; `origins` are the offsets of its characters, and of its end, in the source.
+class PatchedText:
+    """Repaired text.
 
-    What was put in has the place where it was put in.
+    `origins` are the offsets in the source of its characters and of its end. Inserted characters
+    have the offset at which they were inserted.
     """
 
     text: str
     origins: Sequence[int]
 
-    def piece(self, start: int, end: int) -> Draft:
-        """The part between two offsets."""
-        return Draft(self.text[start:end], self.origins[start : end + 1])
+    @classmethod
+    def of(cls, text: str) -> PatchedText:
+        """Return a text without repairs."""
+        return cls(text, range(len(text) + 1))
 
-    def repaired(self, *repairs: Repair) -> Draft:
-        """The same with more repairs, in order; of those that overlap the first is made."""
+    def piece(self, start: int, end: int) -> PatchedText:
+        """Return the text between two offsets."""
+        return PatchedText(self.text[start:end], self.origins[start : end + 1])
+
+    def repaired(self, *repairs: Repair) -> PatchedText:
+        """Apply more repairs, which are sorted; of overlapping ones only the first."""
         texts: list[str] = []
         origins: list[int] = []
         done = 0
@@ -48,19 +54,19 @@ class Draft:
             origins += self.origins[done:start]
             origins += (min(first + at, last) for at in range(len(text)))
             done = end
-        return Draft("".join([*texts, self.text[done:]]), [*origins, *self.origins[done:]])
+        return PatchedText("".join([*texts, self.text[done:]]), [*origins, *self.origins[done:]])
 
-    def blanked(self, start: int, end: int) -> Draft:
-        """The same with spaces in place of a piece."""
-        return Draft(
+    def blanked(self, start: int, end: int) -> PatchedText:
+        """Replace a range by spaces, except for line breaks."""
+        return PatchedText(
             self.text[:start] + re.sub(r"[^\n]", " ", self.text[start:end]) + self.text[end:],
             self.origins,
         )
 
     def restore(self, node: Node, source: Source) -> set[Expression]:
-        """Give all in a tree that was made of this text its place in the source.
+        """Map all spans of a tree that was parsed from this text to the source.
 
-        Return the expressions with a repair in them: what they say is not in the source.
+        Return the expressions with a repair in them: they differ from the source.
         """
         repaired: set[Expression] = set()
         self._restore(node, source, repaired)
@@ -73,7 +79,7 @@ class Draft:
             span = self._place(value.span, source)
             if value.strip("_") or not re.fullmatch(_WORD, value):
                 return Word(value, span)
-            # A placeholder: for a keyword, which it is as long as, or for nothing.
+            # A placeholder, for a keyword of the same length or for nothing.
             return Word(span.text if re.fullmatch(_WORD, span.text) else f"_{span.start}", span)
         if isinstance(value, Ref):
             value.span = self._place(value.span, source)
@@ -93,11 +99,6 @@ class Draft:
         return Span(source, start, max(start, self.origins[span.end]))
 
 
-def stands_for_nothing(name: Word) -> bool:
-    """Whether a name was put in where none could be read."""
+def is_placeholder(name: Word) -> bool:
+    """Return True if a name is a placeholder for a missing one."""
     return name.startswith("_") and name[1:].isdecimal() and name.span.text != name
-
-
-def untouched(text: str) -> Draft:
-    """A text without repairs."""
-    return Draft(text, range(len(text) + 1))

@@ -1,4 +1,4 @@
-"""Operands and operators to a tree, by what binds more: E. W. Dijkstra's shunting-yard."""
+"""Operator precedence: E. W. Dijkstra's shunting-yard algorithm."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.syntax.ast import ExpressionTree, OperatorUse, Word
 
 _OR, _AND, NOT, _COMPARISON, _SUM, _PRODUCT, SIGN = range(1, 8)
-# As in expression.lark; `not` and the sign have bindings of their own.
+# Precedences as in expression.lark; `not` and the sign have their own.
 BINDING = {
     "or": _OR,
     "and": _AND,
@@ -19,18 +19,18 @@ BINDING = {
     **dict.fromkeys(("*", "/", "%"), _PRODUCT),
 }
 _new_span = tuple.__new__  # Span itself takes twice as long to make one
-# How an operator binds, its word, and whether it is a prefix.
+# Precedence of an operator, its word, and True for a prefix.
 Operator = tuple[int, Word, bool]
-# A tree, and where it begins and ends with the parentheses around it; the rest is not asked for.
+# A tree, and its start and end including parentheses; the rest is ignored.
 Operand = tuple[ExpressionTree, int, int, Any]
 O = TypeVar("O", bound=Operand)  # noqa: E741
-# An operator, the prefixes of the operand behind it, and that operand.
+# An operator, the prefixes of its right operand, and that operand.
 Operation = tuple[Operator, Sequence[Operator], O]
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """What is wrong with an expression: a diagnostic and its place."""
+    """Error in an expression: the fields of a diagnostic."""
 
     span: Span
     name: str
@@ -40,15 +40,15 @@ class Fault:
 def join(
     prefixes: Sequence[Operator], first: Operand, operations: Sequence[Operation[O]]
 ) -> tuple[ExpressionTree, int, int, Fault | None]:
-    """The tree of an operand with its prefixes and of what follows it, with its place.
+    """Build the tree of an operand and the operations after it; return it with start and end.
 
-    A fault is the first operator that cannot stand where it does; the tree is none then.
+    The fault is the first misplaced operator; the tree is not valid then.
     """
     if len(operations) == 1 and not prefixes and not operations[0][1]:
         (_, word, _), _, (right, _, end, _) = operations[0]
         tree, start, _, _ = first
         return _operation(first[0].span, start, end, word, (tree, right)), start, end, None
-    joining = _Joining()
+    joining = _OperatorStack()
     joining.add(prefixes, first)
     for operator, before, operand in operations:
         joining.operator(operator)
@@ -57,20 +57,20 @@ def join(
     return *joining.values[0], joining.fault
 
 
-class _Joining:
+class _OperatorStack:
     def __init__(self) -> None:
         self.values: list[tuple[ExpressionTree, int, int]] = []
         self.fault: Fault | None = None
         self._waiting: list[Operator] = []
 
     def add(self, prefixes: Sequence[Operator], operand: Operand) -> None:
-        """Add an operand; prefixes wait for what binds more than they do."""
+        """Add an operand with its prefixes."""
         for prefix in prefixes:
             if prefix[0] == NOT and self._waiting and self._waiting[-1][0] > NOT:
                 self._blame(
                     prefix[1],
-                    "`not` cannot stand here",
-                    "put parentheses around it and what it negates",
+                    "`not` must be in parentheses here",
+                    "put parentheses around it and its operand",
                 )
             self._waiting.append(prefix)
         self.values.append(operand[:3])
@@ -85,7 +85,7 @@ class _Joining:
         self._waiting.append(operator)
 
     def reduce(self, binding: int) -> None:
-        """Join what binds more than what comes next, or as much unless it does not chain."""
+        """Reduce operators of higher precedence, and of the same unless they do not chain."""
         while self._waiting and self._waiting[-1][0] >= binding:
             if self._waiting[-1][0] == binding == _COMPARISON:
                 return

@@ -1,27 +1,26 @@
-"""What comes of parsing a file."""
+"""Result of parsing a file."""
 
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import Expression, Model, TopLevel
 
-# Deeper than any model a person writes, and what the parser takes without overflow.
+# Deeper than hand-written models, and safe for the recursion of the parser.
 NESTING_LIMIT = 64
 
 
 @dataclass
 class Parsed:
-    """The syntax tree of a file, or a piece of one, and what could not be read of it.
+    """Syntax tree of a file or segment, and what could not be parsed of it.
 
-    `damaged` holds declarations with a piece missing: checks of what they lack would
-    mislead. `lost_names` are the words in statements that could not be parsed; whatever is
-    not found under one of these names may well be declared there. `repaired` are the
-    expressions that were read otherwise than they are written, `unnamed` the kinds of what has
-    no name that could be read.
+    `incomplete` are declarations with a part missing; checks of missing parts would mislead.
+    `skipped_names` are the words in statements that could not be parsed: an unresolved name may be
+    declared there. `repaired` are expressions that differ from the source, `anonymous_kinds` the
+    kinds of elements whose name could not be parsed.
     """
 
     model: Model
-    damaged: frozenset[TopLevel] = frozenset()
-    lost_names: frozenset[str] = frozenset()
+    incomplete: frozenset[TopLevel] = frozenset()
+    skipped_names: frozenset[str] = frozenset()
     repaired: frozenset[Expression] = frozenset()
-    unnamed: frozenset[str] = frozenset()
+    anonymous_kinds: frozenset[str] = frozenset()

@@ -8,7 +8,7 @@ from string import ascii_letters
 from typing import Any
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.parser.lexer import MARKS
+from swarmdsl.syntax.parser.lexer import SYMBOLS
 from swarmdsl.syntax.pegen.grammar import (
     Assign,
     Choice,
@@ -172,8 +172,8 @@ def _first_of_terminal(terminal: Terminal) -> First:
     if terminal.reserved is not None:
         return First(but=terminal.reserved)
     characters, _ = _first_characters(sre.parse(terminal.regex))
-    tokens = characters & MARKS
-    if characters - MARKS:
+    tokens = characters & SYMBOLS
+    if characters - SYMBOLS:
         tokens |= {""}  # also where letters go on beyond ASCII
     return First(frozenset(tokens), frozenset() if characters & _LETTERS else None)
 

@@ -250,8 +250,8 @@ class Emission:
                 if len(regexes) < len(parts):
                     raise self._unsupported("a text is too complicated")
                 return self._text(Terminal("|".join(regexes)), fail)
-            case Terminal(literal=literal) if part.is_marks:
-                self._line(f"if not ({_marks(literal)}): {fail}")
+            case Terminal(literal=literal) if part.is_symbols:
+                self._line(f"if not ({_symbols(literal)}): {fail}")
                 self._line(f"at += {len(literal)}; token = tokens[at]")
                 return repr(literal)
             case Terminal(regex) if not self.look.is_token(part):
@@ -355,7 +355,7 @@ class Emission:
         return UnsupportedError(self._rule.name if self._rule else "?", what)
 
 
-def _marks(marks: str) -> str:
+def _symbols(marks: str) -> str:
     """Whether the next tokens are these marks, with nothing between them."""
     return f"token == {marks[0]!r}" + "".join(
         f" and tokens[at + {n}] == {mark!r} and ends[at + {n + 1}] == ends[at + {n}] + 1"

@@ -15,7 +15,7 @@ from textx.const import MULT_ONEORMORE, MULT_ZEROORMORE, RULE_ABSTRACT, RULE_MAT
 from textx.lang import ALL_TYPE_NAMES, BASE_TYPE_NAMES
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.syntax.parser.lexer import MARKS
+from swarmdsl.syntax.parser.lexer import SYMBOLS
 
 WORD = r"[A-Za-z_][A-Za-z0-9_]*\b"
 _NAME = re.compile(r"(?:\(\?!\(\?:([a-z|]+)\)\\b\))?" + re.escape(WORD))
@@ -49,14 +49,14 @@ class Terminal:
         return self.regex == self.literal + r"\b"
 
     @property
-    def is_mark(self) -> bool:
+    def is_symbol(self) -> bool:
         """Whether it is one ASCII character that is no part of words."""
-        return self.literal in MARKS
+        return self.literal in SYMBOLS
 
     @property
-    def is_marks(self) -> bool:
+    def is_symbols(self) -> bool:
         """Whether it is several of them, such as an arrow."""
-        return len(self.literal) > 1 and MARKS.issuperset(self.literal)
+        return len(self.literal) > 1 and SYMBOLS.issuperset(self.literal)
 
     @property
     def reserved(self) -> frozenset[str] | None:

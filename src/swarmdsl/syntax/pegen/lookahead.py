@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 
 from swarmdsl.base.records import dataclass, field
-from swarmdsl.syntax.parser.lexer import MARKS
+from swarmdsl.syntax.parser.lexer import SYMBOLS
 from swarmdsl.syntax.pegen.analysis import Analysis, First
 from swarmdsl.syntax.pegen.grammar import (
     Assign,
@@ -52,7 +52,7 @@ class Lookahead:
         return [
             f"BLANK = {grammar.blank!r}",
             "BLANKS = re.compile(BLANK).match",
-            f"TOKENS = Cutter({grammar.spaces!r}, re.compile({self._tokens()!r}).findall, BLANKS)",
+            f"LEXER = Lexer({grammar.spaces!r}, re.compile({self._tokens()!r}).findall, BLANKS)",
             *(_REGEX.format(name=name, regex=regex) for regex, name in self._regexes.items()),
             *(f"{name} = frozenset({sorted(members)!r})" for members, name in self._sets.items()),
         ]
@@ -74,7 +74,7 @@ class Lookahead:
         """Whether the next token alone decides that it matches, and is the match."""
         match part:
             case Terminal():
-                return part.is_word or part.is_mark or part.reserved is not None
+                return part.is_word or part.is_symbol or part.reserved is not None
             case Use(rule):
                 found = self.analysis.grammar.rules[rule]
                 return found.kind == "text" and self.is_token(found.body)
@@ -95,13 +95,13 @@ class Lookahead:
         """
         words_and_marks = first.tokens - {""}
         if first.but is not None:
-            others = (MARKS | first.but) - first.tokens
+            others = (SYMBOLS | first.but) - first.tokens
             if "" in first.tokens:
                 return f"token not in {self._set(others)}"
             test = f"token >= 'A' and token not in {self._set(others)}"
             words_and_marks = frozenset(token for token in words_and_marks if token < "A")
         elif "" in first.tokens:
-            test = f"token < 'A' and token not in {self._set(MARKS)}"
+            test = f"token < 'A' and token not in {self._set(SYMBOLS)}"
         else:
             return self._is_in(words_and_marks)
         return f"({self._is_in(words_and_marks)} or {test})" if words_and_marks else test

@@ -36,7 +36,7 @@ def parse(source: Source, docs: dict[int, str], limit: int) -> tuple[{start}, in
     """
     text = source.text
     depth = at = 0
-    tokens, ends = TOKENS.cut(text)
+    tokens, ends = LEXER.tokenize(text)
     token = tokens[0]
 {begin}
 {functions}
@@ -57,7 +57,7 @@ _FUNCTION = re.compile(r" {4}def (\w+)\(")
 def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
     """The source of the definitions, and the classes of nodes that it needs.
 
-    It also needs `re`, `Cutter`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
+    It also needs `re`, `Lexer`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
     """
     look = Lookahead(Analysis(grammar), target.nodes)
     emission = Emission(look, target)

@@ -48,11 +48,11 @@ from swarmdsl.syntax.parser.expressions import ExpressionParser, TooDeepError
 from swarmdsl.syntax.parser.literals import Language, unquoted
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Ref, Word, {classes}
-from swarmdsl.syntax.parser.lexer import Cutter
+from swarmdsl.syntax.parser.lexer import Lexer
 
 GRAMMAR = {checksum}
 {definitions}
-LANGUAGE = Language(TOKENS, RESERVED)
+LANGUAGE = Language(LEXER, RESERVED)
 '''
 
 

@@ -1,1 +1,1 @@
-"""Recovery from syntax errors."""
+"""Error recovery of the parser."""

@@ -1,9 +1,8 @@
-"""Brackets without their other half: which they are, and where that half belongs.
+"""Match brackets: find unmatched ones, and where the other one belongs.
 
-Where closers are missing, those that are there do not say whose they are: a parser
-complains of the one at the end of the file, not of the one the writer forgot. So indentation
-is asked as well: a line that stands as far left as the one with the opener, or further, is
-outside of the block. Where that makes for more mistakes than counting, it is not trusted.
+If a closing bracket is missing, counting alone finds it missing at the end of the file. Indentation
+tells more: a line that is indented no further than the line of the opening brace is outside of
+its block. If that finds more errors than counting, it is not used.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from bisect import bisect_right
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
-from swarmdsl.syntax.parser.doc_comments import end_before, starts_line
+from swarmdsl.syntax.parser.doc_comments import is_first_on_line, skip_space_back
 from swarmdsl.syntax.parser.patched_text import Repair
 
 CLOSER = {"{": "}", "(": ")", "[": "]"}
@@ -27,10 +26,10 @@ _INDENTATION = re.compile(r"[ \t]*")
 
 @dataclass(frozen=True, slots=True)
 class BracketFault:
-    """A bracket without its other half.
+    """Unmatched bracket.
 
-    `at` is its offset, that of the last word before it for a block without `{`; `before` is
-    the line before which the closer seems to belong, None where it does not matter.
+    `at` is its offset, or that of the last word of the header for a block without `{`; `before`
+    is the line before which the closing bracket seems to belong, None if that does not matter.
     """
 
     kind: str  # unclosed, unopened, extra or wrong
@@ -41,7 +40,7 @@ class BracketFault:
 
 
 def find_faults(code: str) -> list[BracketFault]:
-    """The faulty brackets of a text in which comments and texts are blank, in order."""
+    """Find unmatched brackets in a text without comments and strings, sorted."""
     if _balanced(code):
         return []
     counted = _Match(code, trust_indentation=False).faults
@@ -50,7 +49,7 @@ def find_faults(code: str) -> list[BracketFault]:
 
 
 def outermost(code: str) -> list[tuple[int, int]]:
-    """The pairs of brackets that are in no other, of a text where all have their other half."""
+    """Return the outermost pairs of matching brackets."""
     pairs: list[tuple[int, int]] = []
     opened: list[int] = []
     for bracket in _BRACKET.finditer(code):
@@ -74,7 +73,7 @@ def _balanced(code: str) -> bool:
 
 
 def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> None:
-    """Say what is wrong with a bracket."""
+    """Report an unmatched bracket."""
     at, text = fault.at, source.text
     place = Span(source, at, at + 1)
     bracket = text[at]
@@ -84,9 +83,9 @@ def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> No
         if fault.before is not None:
             end = text.find("\n", fault.before)
             line = Span(source, fault.before, end if end >= 0 else len(text))
-            message = f"the indentation says that `{closer}` is missing before this"
+            message = f"by its indentation, `{closer}` is missing before this line"
             related = (Label(line, message),)
-        help_ = f"write `{closer}` where it ends" if bracket == "{" else None
+        help_ = f"write `{closer}` at the end of the block" if bracket == "{" else None
         report.report("unclosed-bracket", place, bracket=bracket, related=related, help=help_)
     elif fault.kind == "wrong" and fault.opener is not None:
         opener = text[fault.opener]
@@ -105,13 +104,13 @@ def report_fault(fault: BracketFault, source: Source, report: Diagnostics) -> No
         report.report(
             "syntax-error",
             place,
-            message=f"this `{bracket}` closes nothing",
-            help="nothing is open here that it could close: delete it, or open it before",
+            message=f"unmatched `{bracket}`",
+            help="delete it, or open it before",
         )
 
 
 class _Match:
-    """One walk over the brackets."""
+    """One pass over the brackets of a text."""
 
     def __init__(self, code: str, *, trust_indentation: bool) -> None:
         self.faults: list[BracketFault] = []
@@ -145,19 +144,19 @@ class _Match:
             self._unclosed(at, at if block else None)
 
     def _end_of_brackets(self, at: int) -> None:
-        """Nothing in parentheses or square brackets goes on behind what stands here."""
+        """Close parentheses and square brackets: they cannot extend beyond this token."""
         while self._open and self._code[self._open[-1]] != "{":
             self._unclosed(at, None)
 
     def _close(self, at: int) -> int:
-        """Match a closer; return the offset from which to go on."""
+        """Match a closing bracket; return the offset to continue from."""
         code = self._code
         opener = _OPENER[code[at]]
         if opener == "{":
             if self._open and self._is_wrong(at):
                 return self._wrong(at)
             self._end_of_brackets(at)
-            if self._trusts and starts_line(code, at):
+            if self._trusts and is_first_on_line(code, at):
                 column = self._column(at)
                 while len(self._open) > 1 and column < self._indentation(self._open[-1]):
                     self._unclosed(at, at)
@@ -178,7 +177,7 @@ class _Match:
         return at + 1
 
     def _is_wrong(self, at: int) -> bool:
-        """Whether a `}` closes a parenthesis of its line: no block was opened there."""
+        """Return True if a `}` closes a parenthesis of its line: no block was opened there."""
         line = self._line(at)
         block = self._last_block()
         return self._open[-1] >= line and (block < 0 or self._open[block] < line)
@@ -195,17 +194,17 @@ class _Match:
 
     def _unclosed(self, end: int, before: int | None) -> None:
         at = self._open.pop()
-        if before is None and self._code[at] != "{":  # it does not go on on the next line
+        if before is None and self._code[at] != "{":  # it ends with its line
             following = bisect_right(self._lines, at)
             end = min(end, *self._lines[following : following + 1], len(self._code))
-        end = end_before(self._code, end)
-        # A brace gets a line of its own, or a parser would find it where something is missing.
+        end = skip_space_back(self._code, end)
+        # A brace gets its own line, so that errors before it are not reported at the brace.
         closer = "\n}" if self._code[at] == "{" else CLOSER[self._code[at]]
         repair = Repair(end, end, closer)
         self.faults.append(BracketFault("unclosed", at, repair, before=before))
 
     def _extra(self, at: int) -> int:
-        """A closer, and those that follow it at once, are too many, or a block has no opener."""
+        """Add a fault for extra closing brackets, or for a block without `{`."""
         header = self._header(at) if self._trusts and self._code[at] == "}" else None
         if header is not None:
             self.faults.append(header)
@@ -217,13 +216,13 @@ class _Match:
         return end
 
     def _header(self, at: int) -> BracketFault | None:
-        """The line before an indented block without `{` that the closer at `at` closes."""
+        """Find the header of an indented block without `{` that ends with the brace at `at`."""
         code = self._code
-        end = end_before(code, at)
-        if not starts_line(code, at) or self._indentation(end) <= self._column(at):
+        end = skip_space_back(code, at)
+        if not is_first_on_line(code, at) or self._indentation(end) <= self._column(at):
             return None
         while end and self._indentation(end) > self._column(at):
-            end = end_before(code, self._line(end))
+            end = skip_space_back(code, self._line(end))
         header = code[self._line(end) : end].lstrip()
         if not header[:1].isalpha() or "{" in header or "}" in header:
             return None
@@ -237,9 +236,9 @@ class _Match:
         return len(found[0].expandtabs(4)) if found else 0
 
     def _column(self, at: int) -> int:
-        """The column of what begins a line."""
+        """Return the column of the first token of a line."""
         return len(self._code[self._line(at) : at].expandtabs(4))
 
     def _line(self, at: int) -> int:
-        """Where the line of an offset begins."""
+        """Return the offset of the start of the line."""
         return self._lines[bisect_right(self._lines, at) - 1]

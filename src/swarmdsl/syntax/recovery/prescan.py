@@ -1,9 +1,8 @@
-"""One pass over a file before it is parsed: comments, texts, brackets, odd characters.
+"""Scan a file before parsing: comments, strings, brackets, foreign characters.
 
-It finds what a parser reports badly or in the wrong place: a bracket that is never closed,
-text and comments without an end, nesting too deep to parse, characters that only look like
-those of the language, marks of a merge. For each it says how the text can be repaired so
-that the rest can be read. It also gathers the `///` comments with the place they document.
+It finds errors that a parser would report badly or in the wrong place: unclosed brackets, strings
+and comments, too deep nesting, lookalike characters, conflict markers. For each there is a repair,
+so that the rest can be parsed. It also collects `///` comments with the offset they document.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics, Label
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.errors.hints import strange_character
-from swarmdsl.syntax.errors.substitutions import likeness
-from swarmdsl.syntax.parser.doc_comments import Comments, DocComment
+from swarmdsl.syntax.errors.substitutions import plain_equivalent
+from swarmdsl.syntax.parser.doc_comments import DocComment, DocCommentCollector
 from swarmdsl.syntax.parser.patched_text import Repair
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 from swarmdsl.syntax.recovery.brackets import CLOSER, find_faults, report_fault
@@ -35,23 +34,23 @@ _OPEN_BLOCK = re.compile(r"/\*[^\n]*(?:\n[ \t]*\*[^\n]*)*")
 
 
 @dataclass(frozen=True, slots=True)
-class Scan:
-    """What the pass found.
+class ScanResult:
+    """Result of a scan.
 
-    `faults` are the offsets of what it reported and `repairs` what lets the rest be read, in
-    order; `hopeless` is the offset of what is nested too deeply. In `code` comments and texts
-    are blank, and what is repaired is as it was.
+    `faults` are the offsets of reported errors, and `repairs` the changes that let the rest be
+    parsed, both sorted. `nesting_exceeded_at` is the first offset nested too deeply. `code` is the
+    unrepaired text with blanks for comments and strings.
     """
 
     docs: tuple[DocComment, ...]
     faults: tuple[int, ...]
     repairs: tuple[Repair, ...]
-    hopeless: int | None
+    nesting_exceeded_at: int | None
     code: str
 
 
-def scan(source: Source, report: Diagnostics) -> Scan:
-    """Look over a file, reporting brackets, texts and comments without an end and the like."""
+def scan(source: Source, report: Diagnostics) -> ScanResult:
+    """Scan a file and report unclosed brackets, strings and comments, and the like."""
     return _Scanner(source, report).scan()
 
 
@@ -59,13 +58,13 @@ class _Scanner:
     def __init__(self, source: Source, report: Diagnostics) -> None:
         self._source = source
         self._report = report
-        self._comments = Comments(source, report)
+        self._comments = DocCommentCollector(source, report)
         self._found: list[tuple[int, Repair]] = []
         self._code: list[str] = []
         self._done = 0
         self._spaces: set[str] = set()
 
-    def scan(self) -> Scan:
+    def scan(self) -> ScanResult:
         text = self._source.text
         marks: list[re.Match[str]] = []
         last_end = text.rfind("*/")
@@ -97,20 +96,22 @@ class _Scanner:
             self._blank(start, end)
         self._blank(len(text), len(text))
         code = _without("".join(self._code), self._conflicts(marks))
-        hopeless = _too_deep(code)
-        if hopeless is not None:
-            place = Span(self._source, hopeless, hopeless + 1)
+        nesting_exceeded_at = _too_deep(code)
+        if nesting_exceeded_at is not None:
+            place = Span(self._source, nesting_exceeded_at, nesting_exceeded_at + 1)
             self._report.report("nested-too-deeply", place, limit=NESTING_LIMIT)
         else:
             for fault in find_faults(code):
                 report_fault(fault, self._source, self._report)
                 self._found.append((fault.at, fault.repair))
-        faults = {at for at, _ in self._found} | ({hopeless} if hopeless is not None else set())
-        return Scan(
+        faults = {at for at, _ in self._found}
+        if nesting_exceeded_at is not None:
+            faults.add(nesting_exceeded_at)
+        return ScanResult(
             self._comments.documentation(),
             tuple(sorted(faults)),
             tuple(sorted(repair for _, repair in self._found)),
-            hopeless,
+            nesting_exceeded_at,
             code,
         )
 
@@ -124,12 +125,12 @@ class _Scanner:
         self._done = end
 
     def _open_text(self, start: int, end: int) -> int:
-        """A text without an end: its first word is likely in it. Return where it ends."""
+        """Report an unclosed string, which likely ends after its first word; return its end."""
         text = self._source.text
         before = re.search(r"[\w./]+$", text[max(0, start - 80) : start])
         if before and not text[start + 1 : end].strip(" \t;,{}"):
             at = start - len(before[0])
-            message = 'this text has no opening `"`'
+            message = 'this string has no opening `"`'
             self._fault(
                 "syntax-error",
                 at,
@@ -142,7 +143,7 @@ class _Scanner:
         end -= len(text[start:end]) - len(text[start:end].rstrip())
         inside = re.compile(r'"[^\s,;)}\]]*').match(text, start)
         close = inside.end() if inside else end
-        help_ = 'close the text with `"` on the same line'
+        help_ = 'close the string with `"` on the same line'
         self._fault("unterminated-text", start, end, Repair(close, close, '"'), help=help_)
         return close
 
@@ -150,14 +151,14 @@ class _Scanner:
         text = self._source.text
         inside = re.sub(r'[\\"]', " ", text[start + 1 : end - 1])
         repair = Repair(start, end, f'"{inside}"')
-        message = f"the quotes of this text are `{text[start]}` and `{text[end - 1]}`"
+        message = f"the quotes of this string are `{text[start]}` and `{text[end - 1]}`"
         help_ = f'write plain quotes: `"{inside}"`'
         self._fault("syntax-error", start, end, repair, message=message, help=help_)
 
     def _odd(self, start: int, end: int) -> None:
-        """Characters that are no part of the language, but look like some that are."""
+        """Report characters that only look like those of the language."""
         character = self._source.text[start]
-        plain = likeness(character)
+        plain = plain_equivalent(character)
         if plain is None:
             return
         repair = Repair(start, end, plain * (end - start))
@@ -172,13 +173,13 @@ class _Scanner:
             start,
             start + 1,
             repair,
-            message=f"the character {strange} cannot stand here",
-            notes=(f"{more} more of them are in this file",) if more else (),
+            message=f"unexpected character {strange}",
+            notes=(f"the file has {more} more of them",) if more else (),
             help={"": "delete it", " ": "write a plain space"}.get(plain, f"write `{plain}`"),
         )
 
     def _conflicts(self, marks: list[re.Match[str]]) -> list[tuple[int, int]]:
-        """Report unfinished merges; return the marks before, and all after, the first versions."""
+        """Report merge conflicts; return the ranges of markers and of second versions."""
         found: list[tuple[int, int]] = []
         first: re.Match[str] | None = None
         middle: re.Match[str] | None = None
@@ -198,12 +199,12 @@ class _Scanner:
                     "syntax-error",
                     *first.span(),
                     Repair(*first.span(), " " * len(first[0])),
-                    message="a merge stopped here: both versions are in the file",
+                    message="unresolved merge conflict",
                     related=(
                         Label(Span(self._source, *middle.span()), "the other version"),
                         Label(Span(self._source, *mark.span()), "it ends here"),
                     ),
-                    help="keep what is right of the two, and delete the three marks",
+                    help="keep the correct version, and delete the three markers",
                 )
                 self._found.append((middle.start(), ends))
                 found += (first.span(), (middle.start(), mark.end()))
@@ -217,15 +218,15 @@ class _Scanner:
                 "syntax-error",
                 *mark.span(),
                 Repair(*mark.span(), " " * len(mark[0])),
-                message="this is left of a merge",
-                help="delete it, and keep what is right of what stands on either side",
+                message="marker of a merge conflict without its counterpart",
+                help="delete it, and keep the correct version",
             )
             found.append(mark.span())
         return sorted(found)
 
 
 def _without(text: str, pieces: Iterable[tuple[int, int]]) -> str:
-    """The text with blanks for pieces of it, which are in order."""
+    """Replace sorted ranges of a text by blanks."""
     kept: list[str] = []
     done = 0
     for start, end in pieces:

@@ -1,11 +1,10 @@
-"""What can be read of a declaration with syntax errors, which is nearly all.
+"""Parse a declaration with syntax errors.
 
-Where the parser stops, the mistake is reported and the statement it is in is mended, as
-little as will do, or else left out; then the parser looks at the declaration again. What
-fails in a statement that was mended has the same cause and is not reported.
+Where the parser stops, the error is reported, and the statement around it is repaired with the
+smallest change, or deleted; then the declaration is parsed again. Further errors in a repaired
+statement have the same cause and are not reported.
 
-All that this needs of a parser is a function from a text to its tree, or to where it had
-to stop and what could have stood there: `Parser`.
+The parser is a function from a source to a tree or a failure: `Parser`.
 """
 
 from __future__ import annotations
@@ -20,41 +19,43 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.syntax.ast import Model, Vertex, Word, walk
 from swarmdsl.syntax.errors.report import Failure, report_syntax_error
-from swarmdsl.syntax.parser.patched_text import Draft, untouched
+from swarmdsl.syntax.parser.patched_text import PatchedText
 from swarmdsl.syntax.parser.result import Parsed
-from swarmdsl.syntax.recovery.prescan import Scan
-from swarmdsl.syntax.recovery.repair import mend
+from swarmdsl.syntax.recovery.prescan import ScanResult
+from swarmdsl.syntax.recovery.repair import repair_statement
 from swarmdsl.syntax.recovery.statements import Statement, statement_at, statements_at
 
 Parser = Callable[[Source], Model | Failure]
-"""Parses a whole source; of the failures, that furthest on."""
+"""Parses a whole source; returns the farthest failure if it cannot."""
 
-_ERRORS_PER_DECLARATION = 50
-# Characters: what is longer is no statement that could be mended, and so much may be read to
-# mend those of a declaration, so that nobody waits for seconds.
-_LONGEST_MENDED = 4_000
-_MOST_READ = 2_000_000
-# Where one of these could stand, nothing is missing before it.
+_MAX_ERRORS_PER_SEGMENT = 50
+# In characters: longer statements are not repaired, and all attempts for one segment together
+# parse at most so much. Otherwise a large broken file would take seconds.
+_MAX_STATEMENT_LENGTH = 4_000
+_MAX_PARSED_LENGTH = 2_000_000
+# If one of these is expected, the text before is complete.
 _COMPLETE = frozenset({"`}`", "EOF"})
 _IDENTIFIER = re.compile(r"[A-Za-z_]\w*")
 
 
 def parse_with_recovery(
     source: Source,
-    scanned: Scan,
+    scanned: ScanResult,
     parser: Parser,
     report: Diagnostics,
     failure: Failure | None = None,
 ) -> Parsed:
-    """Parse a text with a syntax error, which is reported.
+    """Parse a text with syntax errors and report them.
 
-    `failure` is what the parser says of the text as it is, if that is known.
+    `failure` is the result of the parser for the unchanged text, if it is known.
     """
     return _Recovery(source, scanned, parser, report).parse(failure)
 
 
 class _Recovery:
-    def __init__(self, source: Source, scanned: Scan, parser: Parser, report: Diagnostics) -> None:
+    def __init__(
+        self, source: Source, scanned: ScanResult, parser: Parser, report: Diagnostics
+    ) -> None:
         self._source = source
         self._scanned = scanned
         self._parser = parser
@@ -63,58 +64,58 @@ class _Recovery:
         self._read = 0
 
     def parse(self, failure: Failure | None) -> Parsed:
-        """Parse what can be read of the text, of which the first failure may be known."""
+        """Parse the text; the first failure may be known."""
         parsed, source = self._parsed, self._source
-        draft = untouched(source.text).repaired(*self._scanned.repairs)
-        if self._scanned.hopeless is not None:
-            self._lose_names(draft.text)
+        patched = PatchedText.of(source.text).repaired(*self._scanned.repairs)
+        if self._scanned.nesting_exceeded_at is not None:
+            self._skip_names(patched.text)
             return parsed
-        # Where what was reported stands; what is in the same statement is its consequence.
+        # Offsets of reported errors; another error in the same statement follows from them.
         known = set(self._scanned.faults)
-        damaged = bool(known)
+        incomplete = bool(known)
         failed: set[int] = set()
         doubtful: list[tuple[int, int]] = []
-        for _ in range(_ERRORS_PER_DECLARATION):
-            result = failure or self._parser(Source(source.name, draft.text))
+        for _ in range(_MAX_ERRORS_PER_SEGMENT):
+            result = failure or self._parser(Source(source.name, patched.text))
             failure = None
             if isinstance(result, Model):
-                parsed.repaired |= draft.restore(result, source)
-                if damaged:
-                    parsed.damaged |= {*result.declarations, *result.optimizations}
-                # What a broken import leads to is anyone's guess.
+                parsed.repaired |= patched.restore(result, source)
+                if incomplete:
+                    parsed.incomplete |= {*result.declarations, *result.optimizations}
+                # The target of a repaired import is unknown.
                 result.imports = [
                     one
                     for one in result.imports
                     if not any(start <= one.span.start < end for start, end in doubtful)
                 ]
-                self._lose(draft, known)
-                parsed.unnamed |= {*_unnamed(result)}
+                self._skip_names_around(patched, known)
+                parsed.anonymous_kinds |= {*_anonymous_kinds(result)}
                 parsed.model = result
                 return parsed
             silent = Diagnostics()
-            at = report_syntax_error(result, source, draft, silent)
-            statement = _blamed(draft.text, at, result.expected)
-            span = draft.origins[statement.start], draft.origins[statement.header]
-            mended = None
-            short = statement.header - statement.start <= _LONGEST_MENDED
-            if span[0] not in failed and short and self._read < _MOST_READ:
-                mended = mend(draft, statement, self._failure)
+            at = report_syntax_error(result, source, patched, silent)
+            statement = _statement_at_fault(patched.text, at, result.expected)
+            span = patched.origins[statement.start], patched.origins[statement.header]
+            repaired = None
+            short = statement.header - statement.start <= _MAX_STATEMENT_LENGTH
+            if span[0] not in failed and short and self._read < _MAX_PARSED_LENGTH:
+                repaired = repair_statement(patched, statement, self._failure)
             failed.add(span[0])
             if not any(span[0] <= place <= span[1] for place in known):
-                advice = mended.help if mended else None
-                self._report.include(replace(one, help=one.help or advice) for one in silent)
-            known.add(draft.origins[at])
-            if mended is not None:
-                if not mended.whole:
+                hint = repaired.help if repaired else None
+                self._report.include(replace(one, help=one.help or hint) for one in silent)
+            known.add(patched.origins[at])
+            if repaired is not None:
+                if not repaired.complete:
                     doubtful.append((span[0], span[1]))
-                self._lose_names(draft.text[statement.start : statement.header] + " _")
-                damaged = damaged or not mended.whole
-                draft = mended.draft
+                self._skip_names(patched.text[statement.start : statement.header] + " _")
+                incomplete = incomplete or not repaired.complete
+                patched = repaired.patched
             else:
-                self._lose_names(draft.text[statement.start : statement.end])
-                damaged = True
-                draft = draft.blanked(statement.start, max(statement.end, statement.start + 1))
-        self._lose_names(draft.text)
+                self._skip_names(patched.text[statement.start : statement.end])
+                incomplete = True
+                patched = patched.blanked(statement.start, max(statement.end, statement.start + 1))
+        self._skip_names(patched.text)
         return parsed
 
     def _failure(self, text: str) -> Failure | None:
@@ -122,22 +123,22 @@ class _Recovery:
         result = self._parser(Source(self._source.name, text))
         return result if isinstance(result, Failure) else None
 
-    def _lose(self, draft: Draft, known: set[int]) -> None:
-        """Take the names in statements with a mistake for possibly declared there."""
-        inside = (bisect_right(draft.origins, at) - 1 for at in known)
-        found = {(one.start, one.header) for one in statements_at(draft.text, inside)}
+    def _skip_names_around(self, patched: PatchedText, known: set[int]) -> None:
+        """Note the names in statements with errors: they may be declared there."""
+        inside = (bisect_right(patched.origins, at) - 1 for at in known)
+        found = {(one.start, one.header) for one in statements_at(patched.text, inside)}
         for start, end in found:
-            self._lose_names(draft.text[start:end])
+            self._skip_names(patched.text[start:end])
 
-    def _lose_names(self, text: str) -> None:
-        self._parsed.lost_names |= {*_IDENTIFIER.findall(text)}
+    def _skip_names(self, text: str) -> None:
+        self._parsed.skipped_names |= {*_IDENTIFIER.findall(text)}
 
 
-def _blamed(text: str, at: int, expected: frozenset[str]) -> Statement:
-    """The statement that a complaint at `at` is about.
+def _statement_at_fault(text: str, at: int, expected: frozenset[str]) -> Statement:
+    """Return the statement that causes a failure at `at`.
 
-    A closing brace is of the block around it, and what begins a statement is not to blame for
-    one before it on the line that is not complete.
+    A closing brace belongs to the block around it. The start of a statement is not the cause
+    if an incomplete one is before it on the same line.
     """
     before = text[:at].rstrip()
     if text[at : at + 1] == "}" and before and before[-1] not in "{}":
@@ -149,8 +150,8 @@ def _blamed(text: str, at: int, expected: frozenset[str]) -> Statement:
     return statement
 
 
-def _unnamed(model: Model) -> Iterator[str]:
-    """What may refer to the nodes in a tree whose name could not be read."""
+def _anonymous_kinds(model: Model) -> Iterator[str]:
+    """Yield the kinds of references to nodes whose name could not be parsed."""
     for node in walk(model):
         name = getattr(node, "name", None)
         if isinstance(name, Word) and name.span.text != name:

@@ -1,8 +1,8 @@
-"""Where a statement begins and ends, in a text that the parser does not accept.
+"""Find statements in a text with syntax errors.
 
-A statement stands on a line of its own, goes on on lines that are further to the right or
-begin with what can begin nothing, and ends with its block, if it has one. Some keywords begin
-a statement wherever they stand.
+A statement begins on its own line, continues on lines that are indented further or begin with a
+token that cannot begin a statement, and ends with its block, if it has one. Some keywords begin
+a statement anywhere.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ def _words(text: str) -> frozenset[str]:
     return frozenset(text.split())
 
 
-# These begin a statement only at the start of a line, or after a modifier of theirs. People who
-# write `on after 5 s` mean one statement.
+# A keyword does not begin a statement after its modifier. `on after 5 s`, a common error, is one
+# statement.
 _NOT_AFTER: dict[str, set[str]] = {"after": {"on"}}
 for _modifier, _targets in MODIFIERS.items():
     for _target in _targets:
@@ -38,26 +38,26 @@ for _modifier, _targets in MODIFIERS.items():
 _CONTINUATIONS = CLAUSES.keys() | _words(
     "-> => / , ) ] = : . .. + * % == != < > <= >= ( && || and or {"
 )
-# After these a keyword is a name, or belongs to them.
+# After these a keyword is a name or a part of the same statement.
 _LEADS = BEFORE_NAMES | (MODIFIERS.keys() - STATEMENTS) | _words("< -> => = : . , ( [ - /")
 _NEXT = re.compile(r"[ \t]*(\S?)")
 
 
 @dataclass(frozen=True, slots=True)
 class Statement:
-    """Offsets of a statement: of its start, of the `{` of its block or else its end, its end.
+    """Range of a statement; `header` is the offset of the `{` of its block, or else its end.
 
-    `inside` is the statement whose block it is in.
+    `inside` is the statement whose block contains it.
     """
 
     start: int
     header: int
     end: int
-    inside: _Open | None = None
+    inside: _OpenStatement | None = None
 
     @property
     def around(self) -> tuple[tuple[int, int], ...]:
-        """The headers of the blocks that it is in, outermost first."""
+        """Headers of the blocks around it, outermost first."""
         found = []
         block = self.inside
         while block is not None:
@@ -67,17 +67,17 @@ class Statement:
 
 
 @dataclass(slots=True)
-class _Open:
+class _OpenStatement:
     start: int
     column: int
     brace: int = -1
     brackets: int = 0
     word: str = ""
-    inside: _Open | None = None
+    inside: _OpenStatement | None = None
 
 
 def statement_at(text: str, at: int) -> Statement:
-    """The innermost statement that covers an offset, or the last that ends before it."""
+    """Return the innermost statement around an offset, or the last one before it."""
     last: Statement | None = None
     for one in _statements(text):
         if one.start <= at < max(one.end, one.start + 1):
@@ -85,12 +85,12 @@ def statement_at(text: str, at: int) -> Statement:
         if last is None or one.start <= at:
             last = one
         elif not one.around or one.around[0][0] > at:
-            break  # all that follow begin further on
+            break  # all others begin after it
     return last or Statement(0, len(text), len(text))
 
 
 def statements_at(text: str, places: Iterable[int]) -> Iterator[Statement]:
-    """What `statement_at` finds for many offsets, for all of them at once."""
+    """Yield `statement_at` for each of many offsets, in one pass."""
     ordered = sorted(_statements(text), key=lambda one: one.start)
     around: list[Statement] = []
     begun = 0
@@ -104,14 +104,14 @@ def statements_at(text: str, places: Iterable[int]) -> Iterator[Statement]:
 
 
 def _statements(text: str) -> Iterator[Statement]:
-    """All statements, outer ones after those inside them."""
-    opened: list[_Open] = []  # statements whose block is open
-    current: _Open | None = None
+    """Yield all statements, inner ones first."""
+    opened: list[_OpenStatement] = []  # statements whose block is open
+    current: _OpenStatement | None = None
     last = ""
     last_end = line_end = 0
     column = 0
 
-    def finished(current: _Open, end: int) -> Statement:
+    def finished(current: _OpenStatement, end: int) -> Statement:
         header = current.brace if current.brace >= 0 else end
         return Statement(current.start, header, end, opened[-1] if opened else None)
 
@@ -127,7 +127,7 @@ def _statements(text: str) -> Iterator[Statement]:
             line_end = len(text) if line_end < 0 else line_end
         if word == "{":
             if current is None:
-                current = _Open(at, column)
+                current = _OpenStatement(at, column)
             current.brace = at
             current.inside = opened[-1] if opened else None
             opened.append(current)
@@ -143,7 +143,7 @@ def _statements(text: str) -> Iterator[Statement]:
                 yield finished(current, last_end)
                 current = None
             if current is None:
-                current = _Open(at, column, word=word)
+                current = _OpenStatement(at, column, word=word)
             current.brackets += {"(": 1, "[": 1, ")": -1, "]": -1}.get(word, 0)
         last, last_end = word, token.end()
     if current is not None:
@@ -160,9 +160,9 @@ def _begins(
     last: str,
     first: bool,
     column: int,
-    current: _Open,
+    current: _OpenStatement,
 ) -> bool:
-    """Whether a token begins a statement although one is open."""
+    """Return True if a token begins a statement although another one is open."""
     if word in STATEMENTS and last not in _NOT_AFTER.get(word, ()):
         found = _NEXT.match(text, token.end())
         follows = found[1] if found else ""
