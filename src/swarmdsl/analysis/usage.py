@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.interfaces import is_secondary_description, own_interfaces
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.records import dataclass
 from swarmdsl.project.loader import File, Project
@@ -62,7 +62,7 @@ def used_declarations(
         if not file.library:
             continue
         name = interface_name(file, declaration.name)
-        if not (only_retells(file) and name in own):
+        if not (is_secondary_description(file) and name in own):
             by_type[name] = declaration
         owners[declaration] = declaration
         if isinstance(declaration, Component):

@@ -1,4 +1,4 @@
-"""Where packages of models lie: `import cpswarm.uav.*`.
+"""Packages in libraries: `import cpswarm.uav.*`.
 
 A package `a.b` is the file `a/b.swarm` of a library, or all .swarm files below its folder `a/b`.
 """
@@ -21,10 +21,10 @@ GROUP = "swarmdsl.libraries"
 
 
 class Libraries:
-    """The folders where packages are looked for; the first that has one is taken.
+    """Search path of packages; the first folder with a package wins.
 
-    That is the folder of the importing file, those given, the one that comes with swarmdsl,
-    and the libraries of installed Python packages. `look` hears of each place that is looked at.
+    The order: the folder of the importing file, the given folders, the bundled library, the
+    libraries of installed Python packages. `look` is called with each path that is tried.
     """
 
     def __init__(
@@ -36,7 +36,7 @@ class Libraries:
         self._packages: dict[Path, set[str]] = {}
 
     def find_package(self, statement: ImportLibrary, nearby: Path) -> list[Path]:
-        """The files of a package; reported when no library has it."""
+        """Return the files of a package; report a missing package."""
         package = statement.name.rpartition(".")[0]
         files = self._files(package, nearby) if package else []
         if files:
@@ -50,11 +50,11 @@ class Libraries:
         return []
 
     def is_package(self, name: str, nearby: Path) -> bool:
-        """Whether a library has a package of this name."""
+        """Return True if a library has a package of this name."""
         return bool(self._files(name, nearby))
 
     def _files(self, package: str, nearby: Path) -> list[Path]:
-        """The files of a package, none when no library has it."""
+        """Files of a package, empty if no library has it."""
         parts = package.split(".")
         for library in self._search_path(nearby):
             place = library.joinpath(*parts)
@@ -93,7 +93,7 @@ class Libraries:
         return f"did you mean `{inside[close]}`?"
 
     def _names(self, nearby: Path) -> set[str]:
-        """All packages there are, which are looked for once, however many are missing."""
+        """Names of all packages, searched once however many are missing."""
         if nearby not in self._packages:
             self._packages[nearby] = {
                 ".".join(path.relative_to(library).with_suffix("").parts[:2])
@@ -105,8 +105,8 @@ class Libraries:
 
 
 def installed_folders(report: Diagnostics) -> list[Path]:
-    """The folders of libraries in installed Python packages."""
-    # Imported here because it is slow and most models do without.
+    """Return the folders of libraries in installed Python packages."""
+    # Slow to import, and most models do not need it.
     from importlib.metadata import entry_points
 
     from swarmdsl.base.errors import describe_exception
@@ -115,7 +115,7 @@ def installed_folders(report: Diagnostics) -> list[Path]:
     for point in sorted(entry_points(group=GROUP), key=lambda point: point.name):
         try:
             folder = _folder_of(point.module)
-        # Whatever goes wrong in the code of others is theirs alone.
+        # An error in a third-party package must not stop the compiler.
         except (Exception, SystemExit) as error:
             reason = describe_exception(f"looking for the library {point.name}", error)
             report.report("broken-library", name=point.name, reason=reason)
@@ -125,7 +125,7 @@ def installed_folders(report: Diagnostics) -> list[Path]:
 
 
 def _folder_of(module: str) -> Path:
-    """Where the files of a module lie; the module itself is not run."""
+    """Folder of a module, found without running the module."""
     from importlib.util import find_spec
 
     spec = find_spec(module)
@@ -141,14 +141,14 @@ def _folder_of(module: str) -> Path:
 
 
 def imported_name(statement: Import) -> str | None:
-    """The one name that an import brings in, None where it brings in all."""
+    """Return the only name that an import brings in, None if it brings in all."""
     if isinstance(statement, ImportLibrary) and not statement.name.endswith(".*"):
         return statement.name.rpartition(".")[2]
     return None
 
 
 def place_of(statement: Import) -> Span:
-    """Where an import says what it imports."""
+    """Return the span of the path or package in an import."""
     if isinstance(statement, ImportLibrary):
         end = statement.span.end
         return Span(statement.span.source, end - len(statement.name), end)

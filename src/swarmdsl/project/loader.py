@@ -1,4 +1,4 @@
-"""Files into memory: read, parse, follow imports."""
+"""Load a project: read and parse files, follow imports."""
 
 from __future__ import annotations
 
@@ -45,10 +45,10 @@ _WAYS = {
 
 @dataclass(eq=False)
 class File:
-    """A file of the project; `imports` are the files it imports, where they could be read.
+    """A file of the project; `imports` are the imported files that could be read.
 
-    One that only a library or a ROS package brings in is a `library` file: of what it
-    declares, only what is used belongs to the system.
+    A file that only a library or a ROS package brings in is a `library` file: only its used
+    declarations belong to the system.
     """
 
     source: Source
@@ -58,12 +58,12 @@ class File:
 
     @property
     def model(self) -> Model:
-        """The syntax tree."""
+        """Syntax tree of the file."""
         return self.parsed.model
 
     @property
     def package(self) -> str:
-        """The name of the package, or of the file where it declares none."""
+        """Name of the package, by default that of the file."""
         if self.model.package is not None:
             return str(self.model.package.name)
         return Path(self.source.name).stem
@@ -71,34 +71,34 @@ class File:
 
 @dataclass
 class Project:
-    """All files of a run: first those that no other imports, then what they import.
+    """All files of a run: first the files that no other imports, then the imported ones.
 
-    So a folder and the one file in it that imports all others are the same project.
+    A folder and the one file in it that imports all others give the same project.
     """
 
     files: list[File] = field(default_factory=list)
 
     def declarations(self) -> Iterator[tuple[File, Declaration]]:
-        """Every top-level declaration with its file."""
+        """Yield all top-level declarations with their files."""
         for file in self.files:
             for declaration in file.model.declarations:
                 yield file, declaration
 
     def optimizations(self) -> Iterator[tuple[File, Optimization]]:
-        """Every optimization with its file."""
+        """Yield all optimizations with their files."""
         for file in self.files:
             for optimization in file.model.optimizations:
                 yield file, optimization
 
 
 class Reader:
-    """Brings files into memory; None for one that cannot be read, which is reported at `at`."""
+    """Reads and parses files. A file that cannot be read is reported at `at` and gives None."""
 
     def look(self, path: Path) -> None:
-        """Hear of a file or folder that was looked for: what it holds decides what is imported."""
+        """Note a path that was tried: its contents decide about imports."""
 
     def allows(self, path: Path, at: Span | None, report: Diagnostics) -> bool:
-        """Whether a file or folder may be read; one that may not is reported at `at`."""
+        """Return True if a file or folder may be read; report any other at `at`."""
         return True
 
     def model(self, path: Path, at: Span | None, report: Diagnostics) -> File | None:
@@ -123,16 +123,16 @@ def load(
     libraries: Sequence[Path] = (),
     reader: Reader = _READER,
 ) -> Project:
-    """Read the files, those in the folders, and everything they import.
+    """Load files, the files in folders, and all that they import.
 
-    `libraries` are folders where packages are looked for, before the installed ones.
+    `libraries` are folders with packages, searched before the installed ones.
     """
     return _Loader(report, Libraries(libraries, report, reader.look), reader).load(paths)
 
 
 @dataclass
 class _Step:
-    """Something to read, and the import that asks for it (none for what the user named)."""
+    """A file to read, with the import that needs it (None for a file that the user named)."""
 
     path: Path
     importer: File | None = None
@@ -141,12 +141,12 @@ class _Step:
 
     @property
     def place(self) -> Span | None:
-        """Where to report what is wrong with it."""
+        """Span at which to report errors of the file."""
         return place_of(self.statement) if self.statement is not None else None
 
     @property
     def library(self) -> bool:
-        """Whether it comes from a library."""
+        """True for a file of a library."""
         if self.importer is None:
             return False
         return self.importer.library or not isinstance(self.statement, ImportFile)
@@ -210,7 +210,7 @@ class _Loader:
                 place = _relative(folder, wanted)
                 if not self._reader.allows(place, wanted.span, self._report):
                     return
-                # Imported here because most files import no interfaces.
+                # Most files import no interfaces.
                 from swarmdsl.project.rosidl.package_folder import find_interfaces
 
                 found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
@@ -221,9 +221,9 @@ class _Loader:
                     yield _Step(path, file, statement)
 
     def _check_name(self, file: File, statement: Import) -> None:
-        """Report the one name that an import brings in where its package does not declare it.
+        """Report an import of a name that its package does not declare.
 
-        The import is left out then, so that what it was meant to bring in is not missed.
+        The import is removed then, so that uses of the name are not reported too.
         """
         name = imported_name(statement)
         targets = [target for found, target in file.imports if found is statement]
@@ -248,7 +248,7 @@ class _Loader:
 
 
 def _in_import_order(files: list[File]) -> list[File]:
-    """Start with the files that no other imports, then level by level what they import."""
+    """Sort files: first those that no other imports, then their imports level by level."""
     imported = {target for file in files for _, target in file.imports}
     ordered = dict.fromkeys(file for file in files if file not in imported)
     work = deque(ordered)
@@ -257,14 +257,14 @@ def _in_import_order(files: list[File]) -> list[File]:
             if target not in ordered:
                 ordered[target] = None
                 work.append(target)
-    ordered.update(dict.fromkeys(files))  # those of a cycle that nothing else leads to
+    ordered.update(dict.fromkeys(files))  # the files of a cycle that no other file imports
     return list(ordered)
 
 
 def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
     """Replace each folder by the .swarm files below it, in a stable order.
 
-    A file that by its name is of another kind is reported and left out.
+    Files with another suffix are reported and left out.
     """
     for path in paths:
         if not os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
@@ -285,7 +285,7 @@ def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
 
 
 def _relative(folder: Path, wanted: str) -> Path:
-    """Where an import leads, as a person would write it from here."""
+    """Return the normalized path of an import in a folder."""
     return Path(os.path.normpath(folder / wanted))
 
 
@@ -310,7 +310,7 @@ def parsed_model(source: Source, report: Diagnostics) -> File:
 
 
 def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
-    """Report a file without a mistake that has nothing in it."""
+    """Report a correct file without any declaration."""
     if not (model.declarations or model.imports or model.optimizations):
         report.report(
             "empty-file",

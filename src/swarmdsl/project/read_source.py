@@ -1,4 +1,4 @@
-"""The text of a file: what stands in the way of reading it is reported."""
+"""Read and decode source files, and report what is wrong with them."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.base.suggest import closest, did_you_mean, suggest
 from swarmdsl.project.libraries import SUFFIX
 
-# No format can carry them: all but tab and line end (XML 1.0, 2.2).
+# Control characters except tab and line ends, which no XML can contain (XML 1.0, 2.2).
 _CONTROL = bytes([*range(0x01, 0x09), 0x0B, 0x0C, *range(0x0E, 0x20), 0x7F])
 
 _MODEL = "a .swarm file"
-# As many files may be named where one is not there.
+# A hint for a missing file names at most this many.
 _FEW = 5
-# An ending as like that of models as this is one that is misspelt.
+# Similarity from which a suffix counts as a misspelled `.swarm`.
 _SAME_SUFFIX = 0.75
 
 
@@ -30,10 +30,7 @@ def read_source(
     expected: str = _MODEL,
     most: int | None = None,
 ) -> Source | None:
-    """Read the text of a file; None when it cannot be read, which is reported at `at`.
-
-    Of one with more than `most` bytes, no more are read.
-    """
+    """Read and decode a file, at most `most` bytes; report a failure at `at`, return None."""
     content = read_bytes(path, at, report, expected, most)
     return decoded(path, content, at, report) if content is not None else None
 
@@ -45,7 +42,7 @@ def read_bytes(
     expected: str = _MODEL,
     most: int | None = None,
 ) -> bytes | None:
-    """Read a file; None when it cannot be read, which is reported at `at`."""
+    """Read the bytes of a file; report a failure at `at` and return None."""
     if os.path.isdir(path):  # noqa: PTH112 - takes any path, a far too long one too
         report.report(
             "not-a-file",
@@ -78,7 +75,7 @@ def read_bytes(
 
 
 def decoded(path: Path, data: bytes, at: Span | None, report: Diagnostics) -> Source | None:
-    """The content of a file as text; None when it is none, which is reported at `at`."""
+    """Decode the content of a file as UTF-8; report a failure at `at` and return None."""
     try:
         text = data.removeprefix(BOM_UTF8).decode()
     except UnicodeDecodeError as error:
@@ -98,7 +95,7 @@ def _report_encoding(
     elif b"\0" in data:
         report.report("not-text", at, path=path, help="this looks like a binary file")
     else:
-        data = error.object  # without the byte order mark that may come first
+        data = error.object  # without a byte order mark
         readable = _unified(data[: error.start].decode())
         rest = _unified(data[error.start :].decode(errors="replace"))
         source = Source(str(path), readable + rest, path)
@@ -112,7 +109,7 @@ def _report_encoding(
 
 
 def _unified(text: str) -> str:
-    """The text with all ends of lines alike."""
+    """Text with uniform line ends."""
     return text.replace("\r\n", "\n").replace("\r", "\n")
 
 
@@ -132,8 +129,8 @@ def _similar_file(path: Path) -> str | None:
 
 
 def without_control_characters(source: Source, report: Diagnostics) -> Source:
-    """The source with spaces in place of characters that no format can carry, once reported."""
-    # To find so that there are none takes a tenth of the time that the pattern takes.
+    """Replace control characters by spaces and report them."""
+    # Ten times as fast as the pattern for a text without control characters.
     data = source.text.encode("utf-8", "surrogatepass")
     if len(data.translate(None, _CONTROL)) == len(data):
         return source

@@ -1,4 +1,4 @@
-"""Activities: goals and requests filled, results and responses stored."""
+"""Checks of activities: arguments for goals and requests, stored results."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from swarmdsl.syntax.types import Named
 
 
 def check_activities(machine: StateMachine, context: Context) -> None:
-    """Check each call of a function against the interface of its action or service."""
+    """Check each activity against the interface of its action, service or operation."""
     users: dict[str, Activity] = {}
     for activity in nodes_of(machine, Activity):
         _check_activity(activity, context)
@@ -73,7 +73,7 @@ def _check_activity(activity: Activity, context: Context) -> None:
 
 
 def _check_operation(activity: Activity, operation: Operation, context: Context) -> None:
-    """An operation takes its `in` parameters and gives its `out` parameters."""
+    """Check arguments against the `in` and results against the `out` parameters."""
     owner = f"operation `{operation.name}`"
     taken = [p for p in operation.parameters if p.direction != "out"]
     given = [p for p in operation.parameters if p.direction == "out"]
@@ -91,9 +91,9 @@ def check_arguments(
     owner: str,
     typing: Typing,
 ) -> bool:
-    """Check values given to fields by name; return whether all the fields exist.
+    """Check arguments against fields; return True if all the fields exist.
 
-    `fields` None means that they are not known.
+    `fields` is None if they are unknown.
     """
     exist = True
     for argument in arguments:
@@ -156,7 +156,7 @@ def _check_result(
 def _check_callback(
     callback: Word, activity: Activity, users: dict[str, Activity], context: Context
 ) -> None:
-    """One callback serves one function: its goal has one type."""
+    """Check that all functions of one callback have the same type of goal."""
     first = users.setdefault(str(callback), activity)
     if first.function.target is not activity.function.target:
         context.report.report(

@@ -1,4 +1,4 @@
-"""Components, and members built from them."""
+"""Checks of components and members."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import INT, STRING
 
-# What can be said of the technology that members reach each other with.
+# Settings of the communication between members.
 _SETTINGS = ("ifname", "port", "name", "device_class")
 
 
 def check_component(component: Component, context: Context) -> None:
-    """Check what a component extends, its params and its behaviour."""
+    """Check the base, the params and the behaviour of a component."""
     base = component.base.target if component.base is not None else None
     if base is not None and base.kind != component.kind and component.base is not None:
         context.report.report(
@@ -54,14 +54,14 @@ def check_component(component: Component, context: Context) -> None:
 
 
 def check_ports(owner: Component | Member, context: Context) -> None:
-    """The topic behind a port has a name that ROS takes."""
+    """Check that the topics of ports have valid ROS names."""
     for item in owner.items:
         if isinstance(item, Port) and item.topic is not None:
             check_graph_name(item.topic, "a topic", context)
 
 
 def check_inheritance(project: Project, context: Context) -> None:
-    """No component and no member extends itself, through however many others, or very many."""
+    """Check for cycles of inheritance and for its depth."""
     owners = [o for _, o in project.declarations() if isinstance(o, (Component, Member))]
 
     def bases(owner: Component | Member) -> Iterator[tuple[Span, Component | Member]]:
@@ -83,7 +83,7 @@ def check_inheritance(project: Project, context: Context) -> None:
 
 
 def _check_depth(owners: list[Component | Member], report: Diagnostics) -> None:
-    """Check how many others are extended in turn; the first one that is too far is reported."""
+    """Check the depth of inheritance; report the first owner that is too deep."""
     depth: dict[Component | Member | None, int] = {None: -1}
     for owner in leaves_first(owners, lambda o: [b for b in [_base(o)] if b is not None]):
         depth[owner] = depth[_base(owner)] + 1
@@ -131,7 +131,7 @@ def _check_settings(settings: CommunicationSettings, context: Context) -> None:
 
 
 def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Context) -> None:
-    """A param of the machine needs a default, or a param of the same name in its owner."""
+    """Check that each param of a machine has a default or a param of its name in the owner."""
     machine = use.machine.target
     own = {str(param.name): param for param in all_items(owner, Param)}
     for param in machine.items if machine else ():

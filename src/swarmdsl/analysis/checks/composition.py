@@ -1,4 +1,4 @@
-"""Swarms and their environments."""
+"""Checks of swarms and environments."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from swarmdsl.syntax.ast import (
     in_metres,
 )
 
-# No swarm has more members than such a number counts.
-_MOST_DIGITS = 9
+# The number of members has at most this many digits.
+_MAX_DIGITS = 9
 
 
 def check_swarm(swarm: Swarm, context: Context) -> None:
-    """A swarm has members, as many as its multiplicities allow."""
+    """Check the roles of a swarm and their multiplicities."""
     roles = [item for item in swarm.items if isinstance(item, Role)]
     if not roles:
         context.report.report(
@@ -41,7 +41,7 @@ def check_swarm(swarm: Swarm, context: Context) -> None:
 
 
 def check_environment(environment: Environment, context: Context) -> None:
-    """An environment has one world and one size."""
+    """Check that an environment has one world and one size."""
     for kind, what in ((World, "the world"), (Size, "the size")):
         places = [item.span for item in environment.items if isinstance(item, kind)]
         context.check_single(places, what)
@@ -65,7 +65,7 @@ def _check_size(size: Size, context: Context) -> None:
 def _check_multiplicity(multiplicity: Multiplicity, context: Context) -> None:
     lower, upper = multiplicity.lower, multiplicity.upper or multiplicity.lower
     fault = ""
-    if max(len(lower), len(upper)) > _MOST_DIGITS:
+    if max(len(lower), len(upper)) > _MAX_DIGITS:
         fault = "is too large"
     elif lower == "*" and multiplicity.upper:
         fault = "starts with `*`: a lower bound is a number"

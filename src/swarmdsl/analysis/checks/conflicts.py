@@ -1,4 +1,4 @@
-"""Regions that disagree about an event: it leads out in two ways, or stores two values."""
+"""Checks of conflicts between regions: transitions and assignments on the same event."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ from swarmdsl.syntax.ast import (
     nodes_of,
 )
 
-# More than people write for one event; what comes after them is not compared with more.
-_MOST_COMPARED = 50
+# Real models have fewer for one event. Later ones are compared with these only.
+_MAX_COMPARED = 50
 _Source = Event | MonitorTrigger
-# The transitions in each region.
+# Transitions inside each region.
 _Inside = Mapping[Region, Sequence[Transition]]
 
 
 def check_conflicts(machine: StateMachine, context: Context) -> None:
-    """Check what the regions of each parallel state do on one event."""
+    """Check the transitions on the same event in the regions of each parallel state."""
     parallels = nodes_of(machine, Parallel)
     if not parallels:
         return
@@ -45,17 +45,17 @@ def check_conflicts(machine: StateMachine, context: Context) -> None:
     for found in inside.values():
         found.sort(key=lambda transition: transition.span.start)
     for parallel in parallels:
-        _check_ways_out(parallel, inside, hierarchy, context)
-        _check_stored(parallel, inside, hierarchy, context)
+        _check_exits(parallel, inside, hierarchy, context)
+        _check_assignments(parallel, inside, hierarchy, context)
 
 
-def _check_stored(
+def _check_assignments(
     parallel: Parallel, inside: _Inside, hierarchy: StateHierarchy, context: Context
 ) -> None:
-    """Report the second of two different values that two regions store on one event.
+    """Report the second of two different assignments in two regions on one event.
 
-    SCXML runs the effects in the order of the text (3.13): the last one counts. What says
-    the same in both regions (`n = n + 1`) does not depend on the order.
+    SCXML runs effects in document order (3.13), so the last one counts. Equal assignments
+    (`n = n + 1`) do not depend on the order.
     """
     earlier: dict[Hashable, list[tuple[Transition, Assignment]]] = {}
     for region in regions(parallel):
@@ -74,14 +74,14 @@ def _check_stored(
                         "conflicting-effects",
                         effect.span,
                         variable=effect.target.span.text,
-                        event=_called(event),
+                        event=_describe(event),
                         related=(Label(first.span, "this is done first, in another region"),),
                         help="assign in one of the regions, or give each a variable of its own",
                     )
                     break
         for event, transition, effect in found:
             others = earlier.setdefault((_heard(event), _path(effect)[0]), [])
-            if len(others) < _MOST_COMPARED:
+            if len(others) < _MAX_COMPARED:
                 others.append((transition, effect))
 
 
@@ -93,7 +93,7 @@ def _stays(transition: Transition, region: Region, hierarchy: StateHierarchy) ->
 
 
 def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Assignment]]:
-    """What a transition stores, for each event that it waits for."""
+    """Yield the assignments of a transition for each of its events."""
     events = {_heard(event): event for event in map(awaited, transition.triggers) if event}
     for event in events.values():
         for effect in transition.effects:
@@ -106,14 +106,14 @@ def _heard(event: _Source) -> Hashable:
 
 
 def _differ(first: Assignment, second: Assignment) -> bool:
-    """Whether two assignments to one variable store other values in the same place of it."""
+    """Return True if two assignments store different values in the same field."""
     one, other = _path(first), _path(second)
     length = min(len(one), len(other))
     return one[:length] == other[:length] and _words(first.span) != _words(second.span)
 
 
 def _path(effect: Assignment) -> tuple[Hashable, ...]:
-    """The variable that is assigned to, and the fields in it; nothing if it is not known."""
+    """Variable and fields of the target of an assignment; empty if unresolved."""
     fields: list[str] = []
     tree = effect.target.tree
     while isinstance(tree, FieldUse):
@@ -128,16 +128,16 @@ def _words(span: Span) -> str:
     return "".join(span.text.split())
 
 
-def _called(event: _Source) -> str:
+def _describe(event: _Source) -> str:
     return f"event `{event.name}`" if isinstance(event, Event) else f"topic `{event.topic}`"
 
 
-def _check_ways_out(
+def _check_exits(
     parallel: Parallel, inside: _Inside, hierarchy: StateHierarchy, context: Context
 ) -> None:
     """Report the second of two transitions that leave a parallel state on one event.
 
-    SCXML takes the first in the text (3.13); whoever reads the model should not have to know.
+    SCXML takes the first in document order (3.13), which is not obvious in a model.
     """
     leaving: dict[Hashable, tuple[Region, Transition]] = {}
     for region in regions(parallel):
@@ -154,7 +154,7 @@ def _check_ways_out(
                 context.report.report(
                     "conflicting-regions",
                     transition.span,
-                    event=_called(event),
+                    event=_describe(event),
                     state=parallel.name,
                     related=(Label(first.span, "this one is taken"),),
                     help=f"move the transition to state `{parallel.name}`",

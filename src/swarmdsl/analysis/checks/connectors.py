@@ -1,4 +1,4 @@
-"""Connectors: from a sender to a receiver, of one type, and to each port that needs one."""
+"""Checks of connectors: direction, types, topics and unconnected ports."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.syntax.ast import Connector, Member, Part, Port, PortRef
 
 
 def check_connectors(member: Member, context: Context) -> None:
-    """Check the connectors of a member, and what they leave unconnected."""
+    """Check the connectors of a member and its unconnected ports."""
     connectors = all_items(member, Connector)
     _check_connected(member, connectors, context)
     _check_driven_once(connectors, context)
@@ -23,11 +23,11 @@ def check_connectors(member: Member, context: Context) -> None:
 
 
 def _check_connected(member: Member, connectors: list[Connector], context: Context) -> None:
-    """Check that something is connected to each `in` port of a part without a topic of its own."""
-    # Either end: a connector that is the wrong way round is reported as such.
+    """Check that each `in` port of a part without a topic of its own is connected."""
+    # Both ends count: a reversed connector is reported elsewhere.
     ends = [end for connector in connectors for end in (connector.source, connector.target)]
     connected = {(end.part.target, end.port.target) for end in ends if end.part is not None}
-    # Of two with one name, which are reported, connectors lead to the first.
+    # Connectors lead to the first part of a repeated name.
     parts = {str(part.name): part for part in reversed(all_items(member, Part))}
     own = {item for item in member.items if isinstance(item, Part)}
     for part in parts.values():
@@ -46,7 +46,7 @@ def _check_connected(member: Member, connectors: list[Connector], context: Conte
 
 
 def _check_driven_once(connectors: list[Connector], context: Context) -> None:
-    """Check that no port gets its data from two connectors, and no connector is there twice."""
+    """Check that no port has two incoming connectors and no connector is repeated."""
     first: dict[tuple[Part | None, Port], dict[tuple[Part | None, Port], Connector]] = {}
     for connector in connectors:
         end, source = connector.target, connector.source.port.target
@@ -55,7 +55,7 @@ def _check_driven_once(connectors: list[Connector], context: Context) -> None:
         if "start" not in _places(connector.source, source) or "end" not in _places(
             end, end.port.target
         ):
-            continue  # leads the wrong way, which is reported
+            continue  # a reversed connector, reported elsewhere
         ends = [
             (each.part.target if each.part is not None else None, port)
             for each, port in ((connector.source, source), (end, end.port.target))
@@ -82,9 +82,9 @@ def _check_driven_once(connectors: list[Connector], context: Context) -> None:
 
 
 def _check_topics(member: Member, connectors: list[Connector], context: Context) -> None:
-    """Check that ports can be on the topics that are given for them, and only connected ones meet.
+    """Check that connected ports agree on their topic and unconnected ones do not share it.
 
-    What is given for a port of the member itself goes before what its parts say.
+    The topic of a port of the member itself has precedence over those of its parts.
     """
     declared: dict[PortKey, Port] = {(None, str(p.name)): p for p in all_items(member, Port)}
     for part in all_items(member, Part):
@@ -161,7 +161,7 @@ def _check_connector(connector: Connector, context: Context) -> None:
 
 
 def _check_direction(connector: Connector, source: Port, target: Port, context: Context) -> bool:
-    """Check that a connector leads from a sender to a receiver; return whether it does."""
+    """Check that a connector leads from a sender to a receiver; return True if it does."""
     ends = ((connector.source, source, "start"), (connector.target, target, "end"))
     wrong = [(end, port) for end, port, place in ends if place not in _places(end, port)]
     if len(wrong) == 2:
@@ -185,7 +185,7 @@ def _check_direction(connector: Connector, source: Port, target: Port, context: 
 
 
 def _places(end: PortRef, port: Port) -> tuple[str, ...]:
-    """Where in a connector a port may stand; the member's own ports are seen from inside."""
+    """Allowed ends of a connector for a port. Own ports of the member have the inner direction."""
     if port.direction == "inout":
         return ("start", "end")
     return ("start",) if (port.direction == "out") == (end.part is not None) else ("end",)

@@ -1,4 +1,4 @@
-"""Delays that are too long: their state, or one around it, is always left before."""
+"""Checks of delays that never elapse, because their state is always left before."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Leaving = tuple[float, Transition]
 
 
 def leaves(transition: Transition) -> bool:
-    """Whether it ends all delays of its state."""
+    """Return True if a transition ends all delays of its state."""
     return transition.target is not None and not transition.internal
 
 
 def soonest_of(transitions: Sequence[Transition], context: Context) -> list[Leaving]:
-    """The two transitions that leave the state always and first, as their time comes."""
+    """Return the two transitions that always leave the state after the shortest delays."""
     found: list[Leaving] = []
     for transition in transitions:
         if transition.guard is None and leaves(transition):
@@ -32,7 +32,7 @@ def soonest_of(transitions: Sequence[Transition], context: Context) -> list[Leav
 def sooner_one(
     trigger: Trigger, transition: Transition, soonest: Sequence[Leaving], context: Context
 ) -> Transition | None:
-    """The transition that leaves the state always, and after a shorter time or the same."""
+    """Return a transition that always leaves the state no later than a trigger fires."""
     delay = _delay(trigger, context)
     others = ((sooner, other) for sooner, other in soonest if other is not transition)
     sooner, other = next(others, (inf, None))
@@ -43,9 +43,9 @@ def sooner_one(
 
 
 def check_late(transition: Transition, outer: Leaving, context: Context) -> bool:
-    """Report that the state around, which was entered no later, is left by then.
+    """Report a transition whose outer state is always left before; return True if reported.
 
-    Return whether it is.
+    The outer state was entered no later than the inner one.
     """
     soonest, before = outer
     delays = _delays(transition, context)
@@ -61,13 +61,13 @@ def check_late(transition: Transition, outer: Leaving, context: Context) -> bool
 
 
 def _delays(transition: Transition, context: Context) -> list[float]:
-    """How long those of its triggers wait of which that is known."""
+    """Known delays of the triggers of a transition."""
     known = [_delay(trigger, context) for trigger in transition.triggers]
     return [delay for delay in known if delay is not None]
 
 
 def _delay(trigger: Trigger, context: Context) -> float | None:
-    """How long a trigger waits, where that is known and makes sense."""
+    """Delay of a trigger; None if it is unknown or invalid."""
     if isinstance(trigger, TimeTrigger) and trigger.delay.tree is not None:
         value = context.typing.folding.value(trigger.delay.tree)
         return value if isinstance(value, (int, float)) and value > 0 else None

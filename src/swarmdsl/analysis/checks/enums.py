@@ -1,4 +1,4 @@
-"""Enums: their values, and variables that begin with none of them."""
+"""Checks of enums and of the initial values of their variables."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.syntax.types import INTEGERS, Array, Named, Primitive
 
 
 def check_enum(enum: EnumType, context: Context) -> None:
-    """An enum has values: whole numbers of its type, each once."""
+    """Check that an enum has values, with different numbers in the range of its type."""
     written = enum.underlying.type if enum.underlying is not None else None
     if written is not None and not (isinstance(written, Primitive) and written.name in INTEGERS):
         assert enum.underlying is not None
@@ -35,7 +35,7 @@ def check_enum(enum: EnumType, context: Context) -> None:
     assert possible is not None
     known = numbers(enum)
     seen: dict[int, str] = {}
-    # The second of two with one name is reported as such.
+    # A repeated name is reported elsewhere.
     first = {str(value.name): value for value in reversed(enum.values)}
     for value in reversed(first.values()):
         number = known[str(value.name)]
@@ -59,7 +59,7 @@ def check_enum(enum: EnumType, context: Context) -> None:
 
 
 def check_first_value(variable: Variable, context: Context) -> None:
-    """What a variable begins as is a value of its enum: without a value of its own it is 0."""
+    """Check that the initial value of a variable, by default 0, is a value of its enum."""
     if variable.initial is not None:
         return
     type_ = variable.type.type

@@ -1,4 +1,4 @@
-"""Types of guards, effects, delays and values in a state machine."""
+"""Type checks of guards, effects, delays and values in a state machine."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ from swarmdsl.syntax.types import BOOL, DURATION, Named
 
 
 def check_expressions(machine: StateMachine, context: Context) -> None:
-    """Check every expression of a machine but those of activities.
+    """Check all expressions of a machine except those of activities.
 
-    The conditions that its guards are become known with their types.
+    Sets the conditions of the guards in the context.
     """
     for param in nodes_of(machine, Param):
         context.check_default(param, param.default)
@@ -65,7 +65,7 @@ def check_expressions(machine: StateMachine, context: Context) -> None:
 
 
 def _check_guard(item: Transition | Branch, typing: Typing, context: Context) -> None:
-    """Check the type of a guard; without a mistake it is a condition."""
+    """Check the type of a guard and set the condition of a correct one."""
     tree = item.guard.tree if item.guard is not None else None
     if tree is not None and typing.expect(tree, BOOL):
         context.conditions[item] = guard_condition(tree, typing)
@@ -84,7 +84,7 @@ def _check_delay(delay: Expression, context: Context) -> None:
 
 
 def _negative(delay: ExpressionTree, typing: Typing) -> bool:
-    """Whether a delay is below zero, also that of a param: params of delays are not."""
+    """Return True for a negative delay, also as the default of a param."""
     value = typing.folding.value(delay)
     if isinstance(value, (int, float)):
         return value < 0
@@ -92,7 +92,7 @@ def _negative(delay: ExpressionTree, typing: Typing) -> bool:
 
 
 def _zero(delay: ExpressionTree, typing: Typing) -> bool:
-    """Whether a delay is nothing; a number is none, which is reported as such."""
+    """Return True for a delay of zero. A plain number is reported elsewhere."""
     return typing.folding.value(delay) == 0 and typing.infer(delay) == DURATION
 
 

@@ -15,7 +15,7 @@ from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.facts import ALWAYS, Atom, Combined, Condition
 from swarmdsl.analysis.checks.value_sets import (
     Numbers,
-    Texts,
+    Strings,
     Values,
     all_numbers,
     between,
@@ -43,7 +43,7 @@ _MIRRORED = {"==": "==", "!=": "!=", "<": ">", "<=": ">=", ">": "<", ">=": "<="}
 _WHOLE = {*INTEGERS, "byte", "char"}
 _TRUE, _TRUE_OR_FALSE = these([1]), these([0, 1])
 # Limit of the search; guards in real models need far fewer steps.
-_MOST_STEPS = 2_000
+_MAX_STEPS = 2_000
 
 
 def guard_condition(tree: ExpressionTree, typing: Typing) -> Condition:
@@ -118,7 +118,7 @@ def satisfiable(conditions: Iterable[Condition]) -> bool:
         return together[0].range.meets(together[0].values)  # type: ignore[arg-type]
     found: dict[Hashable, Values] = {}
     ahead = [(together, found)]
-    for _ in range(_MOST_STEPS):
+    for _ in range(_MAX_STEPS):
         if not ahead:
             return False
         pending, found = ahead.pop()
@@ -171,9 +171,9 @@ def _comparison(
 def _compared(operator: str, tree: ExpressionTree, value: Folded, typing: Typing) -> Condition:
     """Condition of a comparison of a term with a constant."""
     if isinstance(value, str):
-        texts = Texts(frozenset({value}))
-        held = texts if operator == "==" else texts.complement()
-        return Atom(_term(tree, typing.folding), held, Texts(frozenset(), others=True))
+        strings = Strings(frozenset({value}))
+        held = strings if operator == "==" else strings.complement()
+        return Atom(_term(tree, typing.folding), held, Strings(frozenset(), others=True))
     known = _range(tree, typing.infer(tree), typing)
     return Atom(_term(tree, typing.folding), compared(operator, value, whole=known.whole), known)
 

@@ -1,4 +1,4 @@
-"""Events and functions."""
+"""Checks of interfaces, events and functions."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Array, Named
 
-# Relative, absolute or private; parts with a letter (ROS 2: or `_`) first.
+# Relative, absolute or private; each part starts with a letter (ROS 2: or `_`).
 _GRAPH_NAME = re.compile(r"[~/]?/?[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*", re.ASCII)
-# What holds a value.
+# Nodes that hold a value.
 _VALUES: tuple[type[Field | Param | Port | Variable], ...] = (Field, Param, Port, Variable)
 
 
 def check_message_cycles(project: Project, context: Context) -> None:
-    """No message contains itself, in an array or through others: ROS cannot send it."""
+    """Check that no message contains itself, directly, in an array or through others."""
     messages = {
         type_: node.fields
         for type_, node in context.interfaces.declared.items()
@@ -69,7 +69,7 @@ def check_message_cycles(project: Project, context: Context) -> None:
 
 
 def check_values(declaration: Declaration, context: Context) -> None:
-    """A value is no service and no action."""
+    """Check that no value has the type of a service or an action."""
     found = by_class(declaration)
     for node in (node for kind in _VALUES for node in found.get(kind, ())):
         type_ = node.type.type
@@ -80,9 +80,9 @@ def check_values(declaration: Declaration, context: Context) -> None:
 
 
 def check_known(declaration: Declaration, context: Context) -> None:
-    """An interface of a package that is known exists; nearly the name of one is a slip.
+    """Check that interfaces of known packages exist and similar names are not misspelled.
 
-    Of what nothing describes only who asks is told: it may be on the robot.
+    An interface without any description is a silent warning: it may be on the robot.
     """
     for node in nodes_of(declaration, TypeRef):
         element = node.type.element if isinstance(node.type, Array) else node.type
@@ -103,10 +103,7 @@ def check_known(declaration: Declaration, context: Context) -> None:
 
 
 def check_standard(declared: Interface, context: Context) -> None:
-    """What has the name of an interface that ROS comes with is described as there.
-
-    Where ROS 1 and ROS 2 differ, either will do.
-    """
+    """Check that a standard interface of ROS is declared as in ROS 1 or in ROS 2."""
     package, _, name = declared.name.rpartition("/")
     standard_one = context.interfaces.standard(Named(package, name), type(declared))
     if standard_one is None:
@@ -139,20 +136,20 @@ def _fields(interface: Interface) -> list[Field]:
 
 
 def _shape(field: Field) -> tuple[str, str]:
-    """Its name and type; a time and a duration are messages in ROS 2."""
+    """Name and type of a field; a time and a duration are messages in ROS 2."""
     written = str(field.type.type).replace("builtin_interfaces/", "").lower()
     return str(field.name), written
 
 
 def check_event(event: Event, context: Context) -> None:
-    """An event comes with a message, on a topic."""
+    """Check that an event has a message and a valid topic."""
     context.check_kind(event.type, MessageType)
     if event.topic is not None:
         check_graph_name(event.topic, "a topic", context)
 
 
 def check_graph_name(name: Word, what: str, context: Context) -> None:
-    """A topic, an action or a service has a name that ROS takes (REP 144 and its successors)."""
+    """Check that a topic, an action or a service has a valid ROS name (REP 144)."""
     if not _GRAPH_NAME.fullmatch(name):
         context.report.report(
             "bad-topic",
@@ -198,7 +195,7 @@ def check_topics(project: Project, context: Context) -> None:
 
 
 def check_function(function: Function, context: Context) -> None:
-    """A function is called in one way, and its ports carry messages."""
+    """Check that a function has one kind of call, and messages at its ports."""
     calls = [item for item in function.items if isinstance(item, Communication)]
     if not calls:
         context.report.report(

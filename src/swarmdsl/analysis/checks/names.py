@@ -1,4 +1,4 @@
-"""No name is declared twice where one of the two would be hidden."""
+"""Checks of repeated and reserved names."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.node_kinds import kind_name, kind_of
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
-from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.interfaces import is_secondary_description, own_interfaces
 from swarmdsl.analysis.resolve.states import regions, vertices
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.diagnostics.collector import Diagnostics, Label
@@ -67,14 +67,14 @@ Named = (
 
 N = TypeVar("N", bound=Named)
 
-# SCXML's own events start like this (SCXML 1.0, 5.10.1); `done` is a keyword anyway.
+# Prefix of the events of SCXML itself (SCXML 1.0, 5.10.1); `done` is a keyword anyway.
 RESERVED_EVENTS = ("error",)
 
 
 def check_names(project: Project, context: Context) -> None:
     """Check top-level names across files.
 
-    An interface of ROS that a library describes is the project's own where that does so too.
+    A project may declare an interface of ROS that a library describes too.
     """
     top_level: dict[Hashable, Declaration] = {}
     own = own_interfaces(project)
@@ -86,18 +86,18 @@ def check_names(project: Project, context: Context) -> None:
             if isinstance(declaration, Interface):
                 # `Pose` of package `geo` and `geo/Pose` are one interface.
                 described = interface_name(file, name)
-                if not (only_retells(file) and described in own):
+                if not (is_secondary_description(file) and described in own):
                     _check_first(described, declaration, top_level, context.report)
 
 
 def check_names_inside(
-    declaration: Declaration, report: Diagnostics, lost: Collection[str] = ()
+    declaration: Declaration, report: Diagnostics, skipped: Collection[str] = ()
 ) -> None:
-    """Check all names inside a declaration, and that its own may be used.
+    """Check all names inside a declaration, and that its own name is not reserved.
 
-    Of the `lost` words, which stand where the text is wrong, those of types are no names.
+    Primitive types among the `skipped` words of invalid text are no names.
     """
-    no_names = set(PRIMITIVES).intersection(lost)
+    no_names = set(PRIMITIVES).intersection(skipped)
     if isinstance(declaration, Event) and declaration.name in RESERVED_EVENTS:
         report.report(
             "reserved-event-name",
@@ -118,7 +118,7 @@ def check_names_inside(
 
 
 def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
-    """The named items, inherited ones first, without params that others take the place of."""
+    """Named items, the inherited ones first, without replaced params."""
     kinds = (Port, Param, Operation, Part)
     own = [item for item in owner.items if isinstance(item, kinds)]
     params = set(all_items(owner, Param))
@@ -132,11 +132,11 @@ def _items(owner: Component | Member) -> list[Port | Param | Operation | Part]:
 
 
 def _of(*kinds: type[Named]) -> Callable[[Any], Iterable[Sequence[Named]]]:
-    """The items of these kinds in a node."""
+    """Return a function for the items of these kinds in a node."""
     return lambda node: ([item for item in node.items if isinstance(item, kinds)],)
 
 
-# The groups of named things in a node whose names must differ.
+# Groups of items in a node whose names must differ.
 _NAMESPACES: Mapping[type[Node], Callable[[Any], Iterable[Sequence[Named]]]] = {
     StructType: lambda node: (node.fields,),
     MessageType: lambda node: ([*node.constants, *node.fields],),

@@ -1,4 +1,4 @@
-"""Fitness and what may be changed to better it; constants."""
+"""Checks of fitness, optimizations and constants."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from swarmdsl.syntax.types import INT, Type
 
 
 def check_fitness(fitness: Fitness, context: Context) -> None:
-    """A fitness is one number to make as great or as small as possible."""
+    """Check that a fitness has one objective, which is a number."""
     objectives = [item for item in fitness.items if isinstance(item, Objective)]
     if not objectives:
         context.report.report(
@@ -44,7 +44,7 @@ def check_fitness(fitness: Fitness, context: Context) -> None:
 
 
 def check_optimizations(project: Project, context: Context) -> None:
-    """A swarm is optimized in one way."""
+    """Check that each swarm has at most one optimization."""
     places: dict[Swarm, list[Span]] = {}
     for _, optimization in project.optimizations():
         if optimization.swarm.target is not None:
@@ -54,7 +54,7 @@ def check_optimizations(project: Project, context: Context) -> None:
 
 
 def check_optimization(optimization: Optimization, context: Context) -> None:
-    """Something is varied, there is a fitness to compare by, and each is given once and right."""
+    """Check the fitness, the settings and the ranges of an optimization."""
     _check_worth(optimization, context)
     _check_settings(optimization, context)
     _check_ranges(optimization, context)
@@ -127,7 +127,7 @@ def check_message_constants(message: MessageType, context: Context) -> None:
 
 
 def _check_default_inside(item: ParamRange, context: Context) -> None:
-    """Check that what the param is without a search is one of the values that it tries."""
+    """Check that the default of a param is in its range."""
     param = item.param.target
     if param is None or param.default is None:
         return

@@ -1,4 +1,4 @@
-"""Which states a machine can ever be in."""
+"""Checks of unreachable states."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ from swarmdsl.syntax.ast import (
 
 
 def check_reachability(machine: StateMachine, context: Context) -> None:
-    """Report states that no way from the initial state leads to.
+    """Report states without a path from the initial state.
 
-    Guards and triggers are taken to be possible. Of states inside each other that are not
-    reached only the outermost is reported. What is wrong already is not reported again: in a
-    container without initial state any may be the first, of two states with one name only one
-    can be meant, and where a name was not resolved it may have meant any state.
+    All guards and triggers are assumed to be possible. Of nested unreachable states only the
+    outermost is reported. Errors are not reported twice: in a container without an initial state
+    any state may be the first one, of states with the same name only the first is reported, and
+    a machine with unresolved targets is skipped.
     """
     if not all_resolved(machine):
         return
@@ -46,7 +46,7 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
         work += _successors(state, hierarchy)
         outer = hierarchy.parent[state]
         if not isinstance(outer, StateMachine):
-            work.append(outer)  # to be in a state is to be in those around it
+            work.append(outer)  # the states around an active state are active too
     if reached.issuperset(hierarchy.vertices):
         return
     waiting = _waiting(reached, hierarchy)
@@ -59,13 +59,13 @@ def check_reachability(machine: StateMachine, context: Context) -> None:
             name=state.name,
             related=tuple(
                 Label(trigger.span, "so this never happens")
-                for trigger in _in_vain(state, waiting, ended, hierarchy)
+                for trigger in _waiting_in_vain(state, waiting, ended, hierarchy)
             ),
         )
 
 
 def _initials(container: Container, hierarchy: StateHierarchy) -> list[Vertex | Region]:
-    """What is entered with a container: its regions, or its initial state."""
+    """States entered with a container: its regions or its initial state."""
     initials = hierarchy.initials[container]
     if not initials:
         return [*hierarchy.children[container]]
@@ -73,7 +73,7 @@ def _initials(container: Container, hierarchy: StateHierarchy) -> list[Vertex | 
 
 
 def _successors(state: Vertex | Region, hierarchy: StateHierarchy) -> list[Vertex | Region]:
-    """What a state leads to: what is entered with it, its transitions' targets."""
+    """States entered with a state, and the targets of its transitions."""
     found: list[Vertex | Region] = []
     arrows: Sequence[Transition | Branch | History] = ()
     match state:
@@ -89,12 +89,12 @@ def _successors(state: Vertex | Region, hierarchy: StateHierarchy) -> list[Verte
     return found + [target for target in targets if target is not None]
 
 
-# By a final state those that wait for it, by a container those that wait for any of its.
+# `done` triggers by the final state they wait for; by the container for any final state of it.
 _Waiting = Mapping[Vertex | Container | None, Sequence[DoneTrigger]]
 
 
 def _waiting(reached: set[Vertex | Region], hierarchy: StateHierarchy) -> _Waiting:
-    """The triggers that wait for the end of something, in states that are reached."""
+    """`done` triggers in reached states."""
     found: dict[Vertex | Container | None, list[DoneTrigger]] = {}
     for owner, transitions in hierarchy.transitions.items():
         if owner not in reached:
@@ -108,13 +108,13 @@ def _waiting(reached: set[Vertex | Region], hierarchy: StateHierarchy) -> _Waiti
     return found
 
 
-def _in_vain(
+def _waiting_in_vain(
     final: Vertex, waiting: _Waiting, ended: set[Container], hierarchy: StateHierarchy
 ) -> list[DoneTrigger]:
-    """The triggers that wait for a final state, which is not reached.
+    """Return the triggers that wait for an unreached final state.
 
-    `ended` is what has another one that is.
-    A parallel state waits for each of its regions, each for any of its final states.
+    `ended` are the containers with a reached final state. A parallel state waits for all of its
+    regions, a region for any of its final states.
     """
     if not isinstance(final, FinalState):
         return []
@@ -128,7 +128,7 @@ def _in_vain(
 
 
 def _unreached(container: Container, reached: set[Vertex | Region]) -> Iterator[Vertex]:
-    """The outermost states inside that are not reached, of those with one name the first."""
+    """Yield the outermost unreached states, of several with one name the first."""
     for region in regions(container):
         yield from _unreached(region, reached)
     names = set()

@@ -41,7 +41,7 @@ from swarmdsl.syntax.ast import (
 
 _AT_ONCE = ("at once",)
 # Real models have fewer guards for one event. Later ones are compared with these only.
-_MOST_COMPARED = 50
+_MAX_COMPARED = 50
 
 
 def check_shadowed_transitions(machine: StateMachine, context: Context) -> None:
@@ -131,7 +131,7 @@ def _check_transitions(
             for each in filter(None, keys):
                 key = each[0]
                 found = earlier.setdefault(key, [])
-                few = len(found) < _MOST_COMPARED or transition.guard is None
+                few = len(found) < _MAX_COMPARED or transition.guard is None
                 if few and (key[0] != "after" or leaves(transition)):
                     found.append(transition)
 
@@ -172,7 +172,7 @@ def _check_branches(choice: Choice, context: Context) -> None:
             _report(branch, blockers, context)
         elif branch.otherwise:
             last = branch
-        elif len(earlier) < _MOST_COMPARED and not _decided(branch, context):
+        elif len(earlier) < _MAX_COMPARED and not _decided(branch, context):
             earlier.append(branch)
 
 

@@ -1,4 +1,4 @@
-"""What stands in a state machine: initial and final states, regions, contents of states."""
+"""Checks of the structure of state machines: initial states, regions, histories, choices."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def _check_state(state: State, hierarchy: StateHierarchy, context: Context) -> N
 
 
 def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
-    """Check that an internal transition leads inward and a history has something to resume."""
+    """Check that internal transitions lead inwards and histories have states to restore."""
     for history in nodes_of(hierarchy.machine, History):
         if hierarchy.parent[history] is hierarchy.machine:
             context.report.report(
@@ -112,7 +112,7 @@ def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
 
 
 def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
-    """Check that the params of a reused machine are given, or have a default."""
+    """Check that the params of a submachine are given or have a default."""
     assert state.machine is not None
     params = {str(item.name): item for item in machine.items if isinstance(item, Param)}
     context.check_repeated((binding.name for binding in state.bindings), "param")
@@ -138,7 +138,7 @@ def _check_reuse(state: State, machine: StateMachine, context: Context) -> None:
 
 
 def _check_foreign_params(ref: Ref[StateMachine], machine: StateMachine, context: Context) -> None:
-    """Check that a reused machine reads no param of a member: the one around has no such."""
+    """Check that a submachine reads no param of a member, which it cannot see."""
     own = {item for item in machine.items if isinstance(item, Param)}
     for use in nodes_of(machine, NameUse):
         if isinstance(use.target, Param) and use.target not in own:
@@ -158,7 +158,7 @@ def _check_initial(
 ) -> None:
     found = hierarchy.initials[container]
     if not found:
-        # Best one that is active for a while: a history has nothing to resume at the start.
+        # Prefer a state over a pseudostate; a history has nothing to restore at first.
         states = [
             state for state in hierarchy.children[container] if not isinstance(state, History)
         ]
@@ -175,7 +175,7 @@ def _check_initial(
 
 
 def _check_choice(choice: Choice, context: Context) -> None:
-    """A choice can always be left: by `else`, or since one of its guards always holds."""
+    """Check that a choice has `else` or guards of which one always holds."""
     conditions = [condition_of(branch, context) for branch in choice.branches]
     otherwise = any(branch.otherwise for branch in choice.branches)
     if not otherwise and satisfiable(negate(each) for each in conditions):
@@ -188,10 +188,9 @@ def _check_choice(choice: Choice, context: Context) -> None:
 
 
 def completes(state: Container, context: Context) -> bool:
-    """Whether a state can become done: each region, or itself, has a final state.
+    """Return True if a state can complete: it, or each of its regions, has a final state.
 
-    Where something is missing it may be one: a name that was not resolved can mean it, and
-    text that could not be parsed declare it.
+    Also return True for unresolved targets and unparsed text, which may be final states.
     """
     if isinstance(state, Parallel):
         return all(completes(region, context) for region in regions(state))

@@ -1,4 +1,4 @@
-"""Names in the style of the field: `LikeThis`, `like_this` and `LIKE_THIS`."""
+"""Checks of the style of names: `LikeThis`, `like_this` and `LIKE_THIS`."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _is_upper_case(name: str) -> bool:
     return name[:1].isupper() and name.isupper()
 
 
-# Whether a name looks so, how that is called, and how another name becomes such a one.
+# A predicate, the name of the style, and the conversion of other names.
 _Style = tuple[Callable[[str], bool], str, Callable[[str], str]]
 _CAMEL: _Style = _is_camel_case, "CamelCase", camel_case
 _SNAKE: _Style = _is_snake_case, "snake_case", snake_case
@@ -75,7 +75,7 @@ _STYLES = {
 
 
 def check_style(declaration: Declaration, context: Context) -> None:
-    """Check the style of all names in a declaration but those that ROS or others have given."""
+    """Check the style of all names in a declaration except those of ROS and other tools."""
     for kind, nodes in by_class(declaration).items():
         if kind not in _STYLES:
             continue

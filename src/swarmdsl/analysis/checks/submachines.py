@@ -25,7 +25,7 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.parser.result import NESTING_LIMIT
 
 # More than real models have, and still generated in seconds.
-_MOST_STATES = 10_000
+_MAX_STATES = 10_000
 
 
 def check_submachines(project: Project, context: Context) -> None:
@@ -70,12 +70,12 @@ def _check_growth(reuse: Mapping[StateMachine, Reuse], context: Context) -> None
             deepest, _ = max(found.uses, key=lambda use: reuse[use[1]].levels or 0)
             context.report.report("nested-too-deeply", deepest.span, limit=NESTING_LIMIT)
             del sizes[machine]
-        elif sizes[machine] > _MOST_STATES:
+        elif sizes[machine] > _MAX_STATES:
             context.report.report(
                 "too-many-states",
                 machine.name.span,
                 name=machine.name,
-                limit=_MOST_STATES,
+                limit=_MAX_STATES,
                 notes=("the states of a machine that it reuses count each time",),
             )
             del sizes[machine]

@@ -1,4 +1,4 @@
-"""Transitions: what triggers them, and where they may lead."""
+"""Checks of transitions: triggers, outcomes of activities, targets."""
 
 from __future__ import annotations
 
@@ -59,10 +59,10 @@ def _check_trigger(trigger: Trigger, owner: State | Parallel, context: Context) 
 
 
 def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, context: Context) -> None:
-    """A state without content is never done, nor is content without a final state."""
+    """Check that the state of a `done` trigger can complete."""
     simple = isinstance(of, State) and of.machine is None and not _has_states(of)
     if simple and not _activities(of) and trigger.final is None:
-        return  # a state that does nothing is done at once
+        return  # an idle state completes at once
     if not simple and completes(of, context):
         return
     help_ = "add a final state to it"
@@ -85,7 +85,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
 
 
 def _check_outcomes(state: State, transitions: Sequence[Transition], context: Context) -> None:
-    """Each end of the activity needs a transition that is taken without condition."""
+    """Check that each outcome of an activity has a transition without a guard."""
     unhandled: list[str] = []
     guarded: list[Transition] = []
     for outcome in ("succeeded", "aborted"):
@@ -98,7 +98,7 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
         if all(transition.guard is not None for transition in handled):
             unhandled.append(outcome)
             guarded += handled
-    # Which of its contents a state keeps is to be decided first.
+    # A state with two kinds of content is reported first.
     if not unhandled or state.machine is not None or _has_states(state):
         return
     for activity in _activities(state)[:1]:
@@ -116,7 +116,7 @@ def _check_outcomes(state: State, transitions: Sequence[Transition], context: Co
 
 
 def _check_preempted(state: State, transitions: Sequence[Transition], context: Context) -> None:
-    """What calls a service is never preempted: a request cannot be taken back, by no side."""
+    """Report `preempted` of a service call: neither side can cancel a request."""
     calls = [call for each in _activities(state) if (call := _call_of(each)) is not None]
     if not calls or calls[0].paradigm != "service":
         return
@@ -134,14 +134,14 @@ def _check_preempted(state: State, transitions: Sequence[Transition], context: C
 
 
 def _call_of(activity: Activity) -> Communication | None:
-    """How the function that is called is reached; None for what is not known or an operation."""
+    """Communication of the called function; None for an unknown one or an operation."""
     function = activity.function.target
     items = function.items if isinstance(function, Function) else ()
     return next((item for item in items if isinstance(item, Communication)), None)
 
 
 def _check_targets(machine: StateMachine, context: Context) -> None:
-    """A transition cannot lead from one region into another of the same parallel state."""
+    """Check that no transition leads into another region of the same parallel state."""
     if not nodes_of(machine, Parallel):
         return
     hierarchy = context.hierarchy(machine)
@@ -169,7 +169,7 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
 
 
 def _regions_around(vertex: Vertex, hierarchy: StateHierarchy) -> list[Region]:
-    """The regions that a state is in, the outermost first."""
+    """Regions around a state, the outermost first."""
     return [each for each in hierarchy.ancestors(vertex) if isinstance(each, Region)][::-1]
 
 

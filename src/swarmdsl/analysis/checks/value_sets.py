@@ -1,4 +1,4 @@
-"""Sets of values that a comparison with a constant leaves: numbers and texts."""
+"""Sets of numbers and strings for which a comparison with a constant holds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from math import ceil, floor, inf
 
 from swarmdsl.base.records import dataclass
 
-# A bound beside a number: below it (-1), at it (0), or above it (1).
+# A number and an offset: just below it (-1), at it (0), or just above it (1).
 Bound = tuple[float, int]
 Interval = tuple[Bound, Bound]
 
@@ -18,10 +18,10 @@ _GREATEST: Bound = (inf, 0)
 
 @dataclass(frozen=True)
 class Numbers:
-    """Intervals in ascending order that do not touch, and perhaps what is not a number.
+    """Disjoint intervals in ascending order, with or without NaN.
 
-    A NaN is neither above nor below anything, nor is it equal to anything: `not (x > 3)` holds
-    for it, `x <= 3` does not. Of `whole` numbers only those in the intervals count.
+    NaN is not ordered and not equal to anything: `not (x > 3)` holds for it, `x <= 3` does not.
+    A `whole` set contains only the integers in its intervals.
     """
 
     intervals: tuple[Interval, ...]
@@ -29,20 +29,20 @@ class Numbers:
     whole: bool = False
 
     def complement(self) -> Numbers:
-        """All other numbers."""
+        """Return all other numbers."""
         return Numbers(tuple(_gaps(self.intervals)), not self.nan, self.whole)
 
     def __and__(self, other: Numbers) -> Numbers:
-        """The numbers in both sets."""
+        """Return the intersection."""
         kept = tuple(_overlaps(self.intervals, other.intervals))
         return Numbers(kept, self.nan and other.nan, self.whole)
 
     def __bool__(self) -> bool:
-        """Whether there is a number in the set."""
+        """Return True if the set is not empty."""
         return self.nan or self._holds_any(self.intervals)
 
     def meets(self, other: Numbers) -> bool:
-        """Whether there is a number in both sets; not all are looked for."""
+        """Return True if the sets intersect; faster than the intersection."""
         overlaps = _overlaps(self.intervals, other.intervals)
         return (self.nan and other.nan) or self._holds_any(overlaps)
 
@@ -51,53 +51,53 @@ class Numbers:
 
 
 @dataclass(frozen=True)
-class Texts:
-    """These texts, or all but these."""
+class Strings:
+    """A finite set of strings or (`others`) its complement."""
 
     named: frozenset[str]
     others: bool = False
 
-    def complement(self) -> Texts:
-        """All other texts."""
-        return Texts(self.named, not self.others)
+    def complement(self) -> Strings:
+        """Return all other strings."""
+        return Strings(self.named, not self.others)
 
-    def __and__(self, other: Texts) -> Texts:
-        """The texts in both sets."""
+    def __and__(self, other: Strings) -> Strings:
+        """Return the intersection."""
         if self.others and other.others:
-            return Texts(self.named | other.named, True)
+            return Strings(self.named | other.named, True)
         if self.others:
-            return Texts(other.named - self.named)
-        return Texts(self.named - other.named if other.others else self.named & other.named)
+            return Strings(other.named - self.named)
+        return Strings(self.named - other.named if other.others else self.named & other.named)
 
     def __bool__(self) -> bool:
-        """Whether there is a text in the set."""
+        """Return True if the set is not empty."""
         return self.others or bool(self.named)
 
-    def meets(self, other: Texts) -> bool:
-        """Whether there is a text in both sets."""
+    def meets(self, other: Strings) -> bool:
+        """Return True if the sets intersect."""
         return bool(self & other)
 
 
-Values = Numbers | Texts
+Values = Numbers | Strings
 
 
 def all_numbers(*, whole: bool) -> Numbers:
-    """Every number; only those that are not `whole` may be no number at all."""
+    """Return the set of all numbers, with NaN unless `whole`."""
     return Numbers(((_LEAST, _GREATEST),), nan=not whole, whole=whole)
 
 
 def between(least: int, most: int) -> Numbers:
-    """The whole numbers from one to another."""
+    """Return the integers from `least` to `most`, both included."""
     return Numbers((((least, 0), (most, 0)),), whole=True)
 
 
 def these(numbers: Iterable[int]) -> Numbers:
-    """Some whole numbers."""
+    """Return a set of integers."""
     return Numbers(tuple(((number, 0), (number, 0)) for number in sorted(set(numbers))), whole=True)
 
 
 def compared(operator: str, number: float, *, whole: bool) -> Numbers:
-    """The numbers for which a comparison with `number` holds."""
+    """Return the numbers for which a comparison with `number` holds."""
     below, at, above = (number, -1), (number, 0), (number, 1)
     intervals: tuple[Interval, ...] = ()
     match operator:
@@ -117,7 +117,7 @@ def compared(operator: str, number: float, *, whole: bool) -> Numbers:
 
 
 def _overlaps(one: Sequence[Interval], other: Sequence[Interval]) -> Iterator[Interval]:
-    """What intervals have in common."""
+    """Yield the overlaps of two lists of intervals."""
     few, many = (one, other) if len(one) <= len(other) else (other, one)
     for low, high in few:
         for index in range(bisect_left(many, low, key=lambda each: each[1]), len(many)):
@@ -138,7 +138,7 @@ def _gaps(intervals: Iterable[Interval]) -> Iterator[Interval]:
 
 
 def _has_whole(low: Bound, high: Bound) -> bool:
-    """Whether there is a whole number between two bounds."""
+    """Return True if an integer is between two bounds."""
     if -inf in (low[0], high[0]) or inf in (low[0], high[0]):
         return True
     first = floor(low[0]) + 1 if low[1] > 0 else ceil(low[0])

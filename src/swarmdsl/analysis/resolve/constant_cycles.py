@@ -1,4 +1,4 @@
-"""Constants that are defined by themselves: the circle is reported and opened."""
+"""Cycles of constants that are defined by each other."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.syntax.ast import Constant, NameUse, nodes_of
 
 
 def open_cycles(project: Project, report: Diagnostics) -> None:
-    """Report each circle of constants; the use that closes it means nothing from then on."""
+    """Report each cycle of constants and unbind the use that closes it."""
     constants = [node for _, node in project.declarations() if isinstance(node, Constant)]
 
     def used(constant: Constant) -> Iterator[tuple[NameUse, Constant]]:

@@ -1,4 +1,4 @@
-"""What components and members have from those they extend."""
+"""Inherited items of components and members."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from swarmdsl.syntax.ast import (
 
 Item = Port | Param | Operation | Part | Connector | BehaviorUse | CommunicationSettings
 Kind = TypeVar("Kind", bound=Item)
-# Of these an own one takes the place of an inherited one.
+# Own items of these kinds replace inherited ones.
 _REPLACED = (Param, BehaviorUse, CommunicationSettings)
 
 
-# More than anyone writes: who extends something extends all that this extends, in turn.
+# More than real models have.
 MOST_BASES = 64
 
 
 def lineage(owner: Component | Member) -> list[Component | Member]:
-    """The owner and what it extends, the nearest first; each once, also in a cycle.
+    """Return the owner and its bases, the nearest first, each once even in a cycle.
 
-    What is further away than any model needs is left out, and reported.
+    Bases beyond MOST_BASES are left out; a check reports them.
     """
     if owner.base is None:
         return [owner]
@@ -42,10 +42,10 @@ def lineage(owner: Component | Member) -> list[Component | Member]:
 
 
 def all_items(owner: Component | Member, kind: type[Kind]) -> list[Kind]:
-    """The items of a kind, the inherited ones first.
+    """Return the items of a kind, the inherited ones first.
 
-    An own param takes the place of an inherited one of its name; an own behaviour and
-    own communication settings that of the inherited ones.
+    An own param replaces an inherited one of its name; an own behaviour and own communication
+    settings replace the inherited ones.
     """
     bases = reversed(lineage(owner))
     items: list[Kind] = [item for each in bases for item in each.items if isinstance(item, kind)]

@@ -1,4 +1,4 @@
-"""What is known of the interfaces that types name: declared, imported, or standard in ROS."""
+"""Interfaces that types name: declared, imported, or standard in ROS."""
 
 from __future__ import annotations
 
@@ -29,38 +29,38 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Named
 
-# What the messages end with that ROS makes of an action or service.
-_MADE = r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|Request|Response)$"
+# Suffixes of the messages that ROS generates from an action or service.
+_GENERATED = r"Action(?:Goal|Result|Feedback)?$|_?(?:Goal|Result|Feedback|Request|Response)$"
 _KINDS: dict[type[Interface], Kind] = {ServiceType: "srv", ActionType: "action"}
 
 
-def only_retells(file: File) -> bool:
-    """Whether it is a model in a library: what it says of others' interfaces counts least."""
+def is_secondary_description(file: File) -> bool:
+    """Return True for a model in a library, whose descriptions of ROS interfaces count least."""
     return file.library and file.source.name.endswith(SUFFIX)
 
 
 def own_interfaces(project: Project) -> set[Named]:
-    """The interfaces that a project describes itself, or by the files of ROS packages."""
+    """Return the interfaces that a project declares or imports from ROS packages."""
     return {
         interface_name(file, node.name)
         for file, node in project.declarations()
-        if isinstance(node, Interface) and not only_retells(file)
+        if isinstance(node, Interface) and not is_secondary_description(file)
     }
 
 
 class Interfaces:
-    """The interfaces of a project, and behind them those that ROS comes with."""
+    """Interfaces of a project, then the standard ones of ROS."""
 
     def __init__(
         self,
         declarations: Iterable[tuple[File, Declaration]],
         read: Mapping[str, Collection[str]] | None = None,
     ) -> None:
-        """`read` are the packages whose interface files were read, with all names in them."""
+        """Collect interfaces. `read` are completely imported packages with all names in them."""
         self._read = read or {}
         self.declared: dict[Named, Interface] = {}
         self._packages: dict[str, list[str]] = {}
-        for file, node in sorted(declarations, key=lambda pair: only_retells(pair[0])):
+        for file, node in sorted(declarations, key=lambda pair: is_secondary_description(pair[0])):
             if isinstance(
                 node, (StructType, EnumType, AliasType, MessageType, ServiceType, ActionType)
             ):
@@ -69,15 +69,15 @@ class Interfaces:
                 self._packages.setdefault(name.package, []).append(name.name)
 
     def get(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
-        """The interface of that name, None when nothing is known of it.
+        """Return the interface of a name, None if it is unknown.
 
-        Where ROS has several of one name (`nav_msgs/GetMap`) it is the `wanted` one.
+        `wanted` chooses between several of one name in ROS (`nav_msgs/GetMap`).
         """
         found = self.declared.get(type_)
         return found if found is not None else self.standard(type_, wanted)
 
     def standard(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
-        """The interface of that name that ROS comes with, whatever the project declares."""
+        """Return the standard interface of ROS with a name, whatever the project declares."""
         found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
         for ref in nodes_of(found, TypeRef) if found is not None else ():
             if ref.type is None:
@@ -85,21 +85,21 @@ class Interfaces:
         return found
 
     def fields(self, type_: Named) -> list[Field] | None:
-        """The fields of a message or struct, None when they are not known."""
+        """Return the fields of a message or struct, None if they are unknown."""
         found = self.get(type_)
         if found is None:
-            return self._fields_made(type_)
+            return self._generated_fields(type_)
         return found.fields if isinstance(found, (StructType, MessageType)) else None
 
     def actions_of(self, type_: Named) -> Iterator[tuple[GeneratedMessage, ActionType]]:
-        """The actions that ROS makes a message of that name of."""
+        """Yield the actions from which ROS generates a message of this name."""
         for made in generated_from(type_):
             action = self.get(made.action, ActionType)
             if isinstance(action, ActionType):
                 yield made, action
 
-    def _fields_made(self, type_: Named) -> list[Field] | None:
-        """The fields of what ROS makes of an action."""
+    def _generated_fields(self, type_: Named) -> list[Field] | None:
+        """Fields of a message that ROS generates from an action."""
         for made, action in self.actions_of(type_):
             if made.fields:
                 at = action.name.span
@@ -109,20 +109,20 @@ class Interfaces:
         return None
 
     def missing(self, type_: Named) -> bool:
-        """Whether there is certainly no such interface: the files of its package were read.
+        """Return True if an interface is missing in a completely imported package.
 
-        What ROS makes of an action or service (`TrackGoal`, `Track_Request`) has no file.
+        Messages that ROS generates from an action or service (`TrackGoal`, `Track_Request`)
+        have no file and are not missing.
         """
         known = self._read.get(type_.package)
-        made = re.search(_MADE, type_.name)
+        made = re.search(_GENERATED, type_.name)
         made_of = type_.name[: made.start()] if made else type_.name
         return known is not None and type_.name not in known and made_of not in known
 
     def similar(self, type_: Named) -> Named | None:
-        """What may be meant by a name of which nothing is known: one that ROS or the project has.
+        """Return the most similar interface of ROS or the project to an unknown name.
 
-        Of a package that is not known itself nothing can be said, unless another one of
-        nearly its name has the interface.
+        For an unknown package this is an interface of the same name in a similar package.
         """
         known = self._read.get(type_.package)
         if known is not None:

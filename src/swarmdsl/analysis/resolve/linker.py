@@ -1,7 +1,7 @@
-"""Names to what they mean, across files.
+"""Resolve names across files.
 
-Sets `Ref.target`, `TypeRef.type`, `NameUse.target` and `Activity.owner`. What a name does not
-mean is reported and stays None; later phases pass over it without a word.
+Sets `Ref.target`, `TypeRef.type`, `NameUse.target` and `Activity.owner`. An unresolved name is
+reported and stays None; later phases ignore it.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ K = TypeVar("K", Param, Variable, FitnessInput, Part, Port, Operation, Role)
 
 
 def link(project: Project, report: Diagnostics) -> None:
-    """Resolve every name of every file."""
+    """Resolve all names of a project."""
     linker = Linker(project, Scopes(project))
     owners = [*project.declarations(), *project.optimizations()]
     for file, owner in owners:
@@ -78,10 +78,9 @@ def link(project: Project, report: Diagnostics) -> None:
 
 
 class Linker:
-    """Links the declarations of a project, all of them or some.
+    """Links declarations of a project, in three phases.
 
-    First the names of other declarations are resolved, in all that are to be linked, then what
-    is known of the members is gathered, and then the names of what is inside of declarations.
+    Call `link_outside` for all declarations to link, then `gather` once, then `link_inside`.
     """
 
     def __init__(self, project: Project, scopes: Scopes) -> None:
@@ -102,18 +101,18 @@ class Linker:
         _link_top_level(owner, self._scopes[file], report)
 
     def gather(self, owners: Iterable[TopLevel]) -> None:
-        """Learn from members and components what the machines that they run can name."""
+        """Collect the params and parts of members and components for the machines they run."""
         runners = [owner for owner in owners if isinstance(owner, (Member, Component))]
         self._params = _params_of_members(runners)
         self._parts = _parts_of_members(runners)
 
     def replace(self, machine: StateMachine, other: StateMachine) -> None:
-        """Let another machine name what one can that members run."""
+        """Give `other` the params and parts of `machine`."""
         self._params = {**self._params, other: self._params.get(machine, {})}
         self._parts = {**self._parts, other: self._parts.get(machine, {})}
 
     def link_inside(self, file: File, owner: TopLevel, report: Diagnostics) -> None:
-        """Resolve the names of what is inside of a declaration, and of what it leads to."""
+        """Resolve the names of states, values, parts and ports in a declaration."""
         scope = self._scopes[file]
         values: Values = {}
         match owner:
@@ -137,7 +136,7 @@ class Linker:
 
 
 def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the references in a declaration to others; what is done needs a closer look."""
+    """Resolve references to other declarations, except those of activities."""
     for node, ref in references(owner):
         kind = _TOP_LEVEL.get(ref.kind)
         if kind is not None and not isinstance(node, Activity):
@@ -151,7 +150,7 @@ def _link_top_level(owner: TopLevel, scope: FileScope, report: Diagnostics) -> N
 def _params_of_members(
     runners: Iterable[Member | Component],
 ) -> Mapping[StateMachine, dict[str, Param]]:
-    """For each machine the params that all members which behave so have in common."""
+    """Return, for each machine, the params that all its members have in common."""
     found: dict[StateMachine, dict[str, Param]] = {}
     for owner in runners:
         params = _named(all_items(owner, Param), Param)
@@ -165,7 +164,7 @@ def _params_of_members(
 def _parts_of_members(
     runners: Iterable[Member | Component],
 ) -> Mapping[StateMachine, dict[str, list[Part]]]:
-    """For each machine the parts by name that all members which run it have in common."""
+    """Return, for each machine, the parts by name that all its members have in common."""
     found: dict[StateMachine, dict[str, list[Part]]] = {}
     for owner in runners:
         parts = _named(all_items(owner, Part), Part)
@@ -176,7 +175,7 @@ def _parts_of_members(
 
 
 def machines_of(runner: Member | Component) -> list[StateMachine]:
-    """The machines that a member runs: its behaviour, and what is reused in it."""
+    """Return the machines that a member runs: its behaviour and all submachines."""
     work = [use.machine.target for use in all_items(runner, BehaviorUse)]
     seen: dict[StateMachine, None] = {}
     while work:
@@ -190,7 +189,7 @@ def machines_of(runner: Member | Component) -> list[StateMachine]:
 
 
 def _named(items: Iterable[object], kind: type[K]) -> dict[str, K]:
-    """The items of a kind; of two with one name the first counts."""
+    """Return the items of a kind by name. The first of a repeated name counts."""
     named: dict[str, K] = {}
     for item in items:
         if isinstance(item, kind):
@@ -204,7 +203,7 @@ def _link_activities(
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
-    """Resolve what each state does: a function, `part.operation` or `Component.operation`."""
+    """Resolve activities: a function, `part.operation` or `Component.operation`."""
     for node in nodes_of(machine, Activity):
         ref = node.function
         before, _, name = ref.name.rpartition(".")
@@ -231,7 +230,7 @@ def _link_activities(
 
 
 def _common_operations(components: list[Component]) -> dict[str, Operation]:
-    """The operations that all of the components have, from one base where they are several."""
+    """Return the operations that all components have, several ones through a common base."""
     first, *others = (_named(all_items(each, Operation), Operation) for each in components)
     return {k: v for k, v in first.items() if all(other.get(k) is v for other in others)}
 
@@ -240,7 +239,7 @@ def _common_operations(components: list[Component]) -> dict[str, Operation]:
 
 
 def _link_optimization(owner: Optimization, scope: FileScope, report: Diagnostics) -> None:
-    """Resolve the roles of the swarm, and the params of their members."""
+    """Resolve the roles of the swarm and the params of their members."""
     swarm = owner.swarm.target
     if swarm is None:
         return

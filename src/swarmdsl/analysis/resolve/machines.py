@@ -1,9 +1,9 @@
-"""Names inside a state machine: targets of transitions, regions, final states.
+"""Resolve names inside a state machine: targets of transitions, regions, final states.
 
-A name is looked for where the transition starts: among the states beside its source,
-then outwards level by level, then inside the source. A path (`Search.Sweep`) goes down
-from the state its first name means. States in another region of the same parallel state
-come last: no transition can lead there, which is reported later.
+The lookup starts at the source of a transition: its siblings, then outwards level by level,
+then the states inside the source. A path (`Search.Sweep`) leads down from its first name.
+States in another region of the same parallel state come last: a transition to them is an
+error that a check reports.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ def _link_container(
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
-    """Link what stands in a container.
+    """Link the contents of a container.
 
-    `outer` are the states around it, the nearest first, `beside` those in all regions of
+    `outer` are the levels around it, the nearest first, `beside` the levels of all regions of
     the parallel states around it.
     """
     inside = states_by_name(container)
@@ -67,7 +67,7 @@ def _link_container(
                     if isinstance(trigger, DoneTrigger):
                         _link_done(trigger, container, scope, report)
             case Initial() if inside or not isinstance(container, State):
-                # An initial state in a state without states is reported as such.
+                # A check reports an initial state in a state without states.
                 _link_inside(item, container, inside, (*outer, *beside), scope, report)
             case Choice():
                 for branch in item.branches:
@@ -88,7 +88,7 @@ def _link_inside(
     scope: FileScope,
     report: Diagnostics,
 ) -> None:
-    """Resolve where an initial state or a history leads: to a state inside its own."""
+    """Resolve the target of an initial state or a history: a state inside its container."""
     name = arrow.target.name
     outside = next((level[name][0] for level in around if name in level), None)
     if outside is None or name in inside:
@@ -100,7 +100,7 @@ def _link_inside(
 def _link_vertex(
     ref: Ref[Vertex], levels: tuple[Level, ...], scope: FileScope, report: Diagnostics
 ) -> None:
-    """Resolve a path to a state: its first name in the levels in sight, the nearest first."""
+    """Resolve a path to a state, its first name in the nearest level that has it."""
     outer: Vertex | None = None
     start = ref.span.start
     for name in ref.name.split("."):

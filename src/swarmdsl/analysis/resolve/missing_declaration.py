@@ -1,7 +1,4 @@
-"""The line that is missing where a name means nothing: a declaration of it, or an import.
-
-`scopes` asks for an import first, and for a declaration when no name that is known comes close.
-"""
+"""Hints for a missing declaration: a line that imports or declares it."""
 
 from __future__ import annotations
 
@@ -27,7 +24,7 @@ from swarmdsl.syntax.ast import (
     StructType,
 )
 
-# By the word that a declaration begins with, what it declares.
+# Kinds of declarations by keyword.
 _WORDS: dict[str, type[Node]] = {
     **dict.fromkeys(("sensor", "actuator", "controller", "virtual"), Component),
     "const": Constant,
@@ -46,7 +43,7 @@ _DECLARATION = re.compile(
 )
 _PACKAGE = re.compile(r"^package +([\w.]+)", re.MULTILINE)
 
-# As short as they can be: the smallest that is right by itself.
+# The shortest correct declarations.
 _LINES: dict[type[Node], str] = {
     Component: "sensor {0} {{ }}",
     Environment: "environment {0} {{ size 50 m x 50 m }}",
@@ -59,10 +56,10 @@ _LINES: dict[type[Node], str] = {
 
 
 def suggest_import(name: str, kinds: tuple[type[Node], ...], project: Project) -> str | None:
-    """The line that imports what a library that comes with swarmdsl declares by this name.
+    """Return the import of a declaration in a library that comes with swarmdsl.
 
-    Libraries that declare the same cannot be used together: it is the one that the project
-    uses, or the only one that has the name. None where there is no such one.
+    Libraries with the same declarations cannot be combined, so the library must be one that the
+    project uses, or else the only one with the name. Return None if there is none.
     """
     packages = [package for kind, package in _in_library().get(name, ()) if kind in kinds]
     used = {
@@ -81,9 +78,9 @@ def _root(package: str) -> str:
 
 
 def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
-    """The declaration to add so that a name means something of one of these kinds, in words.
+    """Return a hint that declares a name as one of these kinds.
 
-    None where nobody can say: of a fitness or an enum the name alone tells too little.
+    Return None for a kind that cannot be declared by its name alone, like a fitness or an enum.
     """
     line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
     if line is None:
@@ -94,9 +91,9 @@ def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
 
 @cache
 def _in_library() -> Mapping[str, list[tuple[type[Node], str]]]:
-    """What the packages that come with swarmdsl declare, by name, each with its package.
+    """Kinds and packages of the declarations of the bundled library, by name.
 
-    Their lines are looked through, which costs a hundredth of what parsing them does.
+    A pattern finds them, which takes a hundredth of the time of the parser.
     """
     found: dict[str, list[tuple[type[Node], str]]] = {}
     for path in sorted(resources.library().rglob(f"*{SUFFIX}")):

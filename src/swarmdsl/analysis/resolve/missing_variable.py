@@ -1,7 +1,7 @@
-"""The line that declares a variable that is missing, of the type that its use asks for.
+"""Hint for a missing variable: its declaration, with the type that its use requires.
 
-The type is told only where it is certain: where the name stands for a whole value, or is
-compared with one. Of arithmetic there are many that would do.
+The type is certain only if the name is a whole expression or compared with a value; several
+types fit an operand of arithmetic.
 """
 
 from __future__ import annotations
@@ -54,13 +54,13 @@ _LOGIC = ("and", "or", "not")
 def suggest_variable(
     use: NameUse, within: Expression, owner: TopLevel, scope: FileScope
 ) -> str | None:
-    """What to write where, so that a name in an expression means something, in words."""
+    """Return a hint that declares a name in an expression."""
     if not isinstance(owner, (StateMachine, Fitness)):
         return None
     of = next((v.type.type for v in nodes_of(owner, Variable) if v.initial is within), None)
     of = of or next((p.type.type for p in nodes_of(owner, Param) if p.default is within), None)
     if of is not None:
-        # What a variable begins with is known before it runs.
+        # An initial value is a constant.
         type_ = _written(of, scope) if within.tree is use else None
         line = f"const {use.name} : {type_} = ..."
         return f"declare it above `{owner.name}`: `{line}`" if type_ else None
@@ -68,7 +68,7 @@ def suggest_variable(
         return f"declare it in `{owner.name}`: `in {use.name} : float64`"
     around = _around(within, use)
     if around is None:
-        wanted = _wanted(within, owner, scope.interfaces)
+        wanted = _expected_type(within, owner, scope.interfaces)
     elif isinstance(around, OperatorUse) and around.operator in _LOGIC:
         wanted = BOOL
     elif isinstance(around, OperatorUse) and around.operator in _COMPARISONS:
@@ -83,7 +83,7 @@ def suggest_variable(
 
 
 def _initial(type_: Type) -> str:
-    """What a variable begins with, where the type has a value that stands for nothing."""
+    """Return the initializer of a variable: the zero of its type, if there is one."""
     if isinstance(type_, Primitive) and type_.name in FLOATS:
         return " = 0.0"
     if isinstance(type_, Primitive) and type_.name in (*INTEGERS, "byte", "char"):
@@ -94,7 +94,7 @@ def _initial(type_: Type) -> str:
 
 
 def _written(type_: Type, scope: FileScope) -> str | None:
-    """A type as the file writes it; None if it does not see it."""
+    """Return the name of a type in a file; None if the type is not visible there."""
     if isinstance(type_, Array):
         element = _written(type_.element, scope)
         return element and f"{element}{str(type_).removeprefix(str(type_.element))}"
@@ -106,7 +106,7 @@ def _written(type_: Type, scope: FileScope) -> str | None:
 
 
 def _around(within: Expression, use: NameUse) -> OperatorUse | Call | None:
-    """The operator or function that a name is an operand of; None if it stands alone."""
+    """Return the operation with a name as operand; None for a name alone."""
     waiting = [within.tree]
     while waiting:
         match waiting.pop():
@@ -117,8 +117,10 @@ def _around(within: Expression, use: NameUse) -> OperatorUse | Call | None:
     return None
 
 
-def _wanted(within: Expression, machine: StateMachine, interfaces: Interfaces) -> Type | None:
-    """The type of the whole value of an expression."""
+def _expected_type(
+    within: Expression, machine: StateMachine, interfaces: Interfaces
+) -> Type | None:
+    """Return the type that the context of an expression requires."""
     guarded: tuple[Transition | Branch, ...] = (
         *nodes_of(machine, Transition),
         *nodes_of(machine, Branch),
@@ -143,7 +145,7 @@ def _wanted(within: Expression, machine: StateMachine, interfaces: Interfaces) -
 
 
 def _type_of(tree: ExpressionTree | None) -> Type | None:
-    """The type of a value or of a name that is declared; a number alone may be of many."""
+    """Return the type of a literal or a declared name; None for a number, which fits several."""
     match tree:
         case Value(unit=unit) if unit:
             return DURATION
@@ -157,7 +159,7 @@ def _type_of(tree: ExpressionTree | None) -> Type | None:
 
 
 def _fields(activity: Activity, interfaces: Interfaces) -> tuple[dict[str, Type | None], ...]:
-    """The types of what an activity takes and of what it gives, by name."""
+    """Return the types of the inputs and the results of an activity, by name."""
     taken: list[Field] | list[Parameter] = []
     given: list[Field] | list[Parameter] = []
     match activity.function.target:

@@ -44,7 +44,7 @@ class TypeLinker:
     def __init__(self, scopes: Mapping[File, FileScope], project: Project) -> None:
         self._scopes = scopes
         self._report = Diagnostics()
-        # Aliases of which a cycle was reported.
+        # Aliases on reported cycles.
         self._endless: set[AliasType] = set()
         self._homes = {declaration: file for file, declaration in project.declarations()}
         for declaration, file in self._homes.items():
@@ -52,7 +52,7 @@ class TypeLinker:
                 declaration.type = interface_name(file, declaration.name)
 
     def link(self, ref: TypeRef, file: File, report: Diagnostics) -> None:
-        """Resolve a type named in a file, and with it those that its aliases name."""
+        """Resolve a type in a file, and the types of the aliases that it names."""
         if ref.type is not None:
             return
         self._report = report
@@ -78,7 +78,7 @@ class TypeLinker:
             element = ref.type = self._in_array(element, ref)
 
     def _named(self, ref: TypeRef, scope: FileScope) -> Type | AliasType | None:
-        """What the name of a type means; None when it means nothing, which is reported."""
+        """Resolve the name of a type; report a failure and return None."""
         if ref.bound and not self._check_bound(ref):
             return None
         written = written_element(ref)
@@ -93,7 +93,7 @@ class TypeLinker:
         return interface_name(self._homes[found], found.name)
 
     def _in_array(self, element: Type | None, ref: TypeRef) -> Type | None:
-        """The type of a reference whose name, without the brackets behind it, means `element`."""
+        """Apply the brackets of a reference to the type of its name."""
         if element is None or not ref.array:
             return element
         brackets = brackets_of(ref)
@@ -107,7 +107,7 @@ class TypeLinker:
         elif size and not is_size(size):
             fault = f"{size} elements"
         if fault:
-            # Imported here because it is all advice, which most models do without.
+            # Most models do not need this module of hints.
             from swarmdsl.syntax.errors.hints import SIZES
 
             self._report.report(
@@ -117,7 +117,7 @@ class TypeLinker:
         return array_of(element, ref)
 
     def _check_bound(self, ref: TypeRef) -> bool:
-        """Report a bound that no text has; return whether there is none such."""
+        """Return True for the valid bound of a string; report any other bound."""
         if ref.name not in ("string", "wstring"):
             what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
         elif not ref.bound.startswith("<="):

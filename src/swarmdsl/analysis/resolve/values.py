@@ -1,7 +1,7 @@
-"""Names of values in expressions.
+"""Resolve names of values in expressions.
 
-A name is one of the declaration's own values, or a constant or an enum that the file sees;
-these have the names that types have: `Mode`, `sar.Mode`, or that of an alias.
+A name means a value of the declaration itself, or a constant or an enum that the file sees.
+Those are named like types: `Mode`, `sar.Mode`, or by an alias.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ from swarmdsl.syntax.ast import (
 from swarmdsl.syntax.types import Named
 
 Values = Mapping[str, Variable | Param | FitnessInput]
-# Names that mean nothing, each with the fields that are asked of it.
+# Unresolved names, each with the fields after it.
 Missing = list[tuple[NameUse, list[FieldUse]]]
 
 _DECLARED: tuple[type[Constant | EnumType | AliasType], ...] = (Constant, EnumType, AliasType)
@@ -53,21 +53,21 @@ class ValueLinker:
     report: Diagnostics
 
     def link(self, owner: TopLevel, values: Values) -> None:
-        """Bind the names in the expressions of a declaration, which has these values."""
+        """Bind the names in the expressions of a declaration with these values."""
         unknown: list[tuple[NameUse, list[FieldUse], Expression]] = []
         for node in nodes_of(owner, Expression):
             if node.tree is not None:
                 missing: Missing = []
                 node.tree = self._linked(node.tree, owner, values, missing)
                 unknown += [(base, fields, node) for base, fields in missing]
-        # What is said of a name depends on what those beside it mean.
+        # Hints for a name depend on the names beside it, which are bound now.
         for base, fields, node in unknown:
             report_value(base, fields, node, owner, values, _DECLARED, self.scope, self.report)
 
     def _linked(
         self, tree: ExpressionTree, owner: TopLevel, values: Values, missing: Missing
     ) -> ExpressionTree:
-        """The same, with one name for a path of words that together name a declaration."""
+        """Return the tree with qualified names (`sar.Mode`) merged into one node."""
         match tree:
             case NameUse() | FieldUse():
                 return self._path(tree, owner, values, missing)
@@ -113,7 +113,7 @@ class ValueLinker:
         return any(isinstance(node, _DECLARED) for _, node in self.scope.find(name))
 
     def _declared(self, name: str, at: Span) -> Constant | EnumType | None:
-        """The constant or enum that a name means; None if it is not one, which is reported."""
+        """Resolve a constant or an enum; report a failure and return None."""
         found = resolve_or_report(self.scope, name, at, _DECLARED, self.report)
         if not isinstance(found, AliasType):
             return found

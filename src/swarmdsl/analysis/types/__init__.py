@@ -1,4 +1,4 @@
-"""Types of expressions: what follows from their parts, and what can be used where."""
+"""Type inference, conversions and constants of expressions."""
 
 from swarmdsl.analysis.types.expressions import Typing, report_unknown_field
 from swarmdsl.analysis.types.fitting import fits, is_float, is_number, range_of

@@ -1,4 +1,4 @@
-"""The values of expressions that are known when a model is compiled."""
+"""Constant folding: values of expressions that are known at compile time."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from swarmdsl.syntax.parser.literals import nanoseconds
 Folded = bool | int | float | str
 
 _ALWAYS_DEFINED = frozenset(("and", "or", "not", "==", "!=", "<", "<=", ">", ">="))
-# What 64 bits hold: an `int64` or a `uint64`, and a duration in nanoseconds.
+# Values of 64 bits: an `int64` or a `uint64`, and a duration in nanoseconds.
 _WHOLE, _LENGTHS = range(-(2**63), 2**64), range(-(2**63), 2**63)
 
 
@@ -34,7 +34,7 @@ class _UndefinedError(Exception):
 
 
 class Folding:
-    """Values of expressions, each worked out once: the tree does not change any more."""
+    """Values of expressions, each computed once: the trees no longer change."""
 
     def __init__(self) -> None:
         self._known: dict[ExpressionTree, Folded | Exception | None] = {}
@@ -42,10 +42,10 @@ class Folding:
         self._numbers: dict[EnumType, Mapping[str, int]] = {}
 
     def value(self, tree: ExpressionTree) -> Folded | None:
-        """The value of an expression, durations in nanoseconds; None when it is not known.
+        """Return the value of an expression, durations in nanoseconds; None if it is unknown.
 
-        `and` and `or` are known where one side decides. An expression that has no value (a
-        division by zero) is None too: `undefined` says why.
+        One operand can decide `and` and `or`. An expression without a value (a division by zero)
+        is None too: `undefined` returns the reason.
         """
         try:
             return self._fold(tree)
@@ -53,14 +53,14 @@ class Folding:
             return None
 
     def numbers(self, enum: EnumType) -> Mapping[str, int]:
-        """The number of each value of an enum."""
+        """Return the number of each value of an enum."""
         found = self._numbers.get(enum)
         if found is None:
             found = self._numbers[enum] = numbers(enum)
         return found
 
     def constant(self, constant: Constant) -> Folded | None:
-        """The value of a constant, which may follow from those of any number of others."""
+        """Return the value of a constant, which may depend on other constants."""
         if constant not in self._constants:
             for each in leaves_first([constant], self._needed):
                 tree = each.value.tree
@@ -68,7 +68,7 @@ class Folding:
         return self._constants[constant]
 
     def _needed(self, constant: Constant) -> list[Constant]:
-        """The constants that one is made of, of which the values are not known yet."""
+        """Constants in the value of a constant that are not computed yet."""
         tree = constant.value.tree
         return [
             node.target
@@ -79,10 +79,10 @@ class Folding:
         ]
 
     def undefined(self, tree: Call | OperatorUse, *, duration: bool = False) -> str | None:
-        """Why an operation has no result, whatever its unknown operands are; None if it has one.
+        """Return the reason why an operation has no result for any values of its operands.
 
-        It is the operation itself that is looked at: of operands without a value nothing is
-        said. `duration` says that the result is one.
+        Return None if it has one, and for an operand without a value. `duration` is True if the
+        result is a duration.
         """
         word = str(tree.function if isinstance(tree, Call) else tree.operator)
         if word in _ALWAYS_DEFINED:
@@ -105,7 +105,7 @@ class Folding:
         return None
 
     def _fold(self, tree: ExpressionTree) -> Folded | None:
-        """Like `value`; raises what came of an operation that has no result."""
+        """Return the value like `value`; raise an error for an operation without a result."""
         match tree:
             case NameUse():
                 return self.constant(tree.target) if isinstance(tree.target, Constant) else None
@@ -116,7 +116,7 @@ class Folding:
                 return self.numbers(enum).get(tree.name) if isinstance(enum, EnumType) else None
         if tree not in self._known:
             try:
-                self._known[tree] = self._worked_out(tree)
+                self._known[tree] = self._computed(tree)
             except (_UndefinedError, TypeError) as error:
                 self._known[tree] = error
         found = self._known[tree]
@@ -124,7 +124,7 @@ class Folding:
             raise found
         return found
 
-    def _worked_out(self, tree: Value | OperatorUse | Call) -> Folded | None:
+    def _computed(self, tree: Value | OperatorUse | Call) -> Folded | None:
         match tree:
             case OperatorUse(operator=word, operands=(operand,)):
                 known = self._fold(operand)
@@ -160,15 +160,15 @@ def _apply(word: str, values: list[Any]) -> Folded:
         raise _UndefinedError("it would be too large for a `float64`") from None
     except ValueError:
         raise _UndefinedError(f"{values[0]} has no square root") from None
-    return _held(result)
+    return _checked(result)
 
 
 def _negative(value: Folded | None) -> Folded | None:
-    return _held(-value) if isinstance(value, (int, float)) else None
+    return _checked(-value) if isinstance(value, (int, float)) else None
 
 
-def _held(result: Folded) -> Folded:
-    """The result itself, if 64 bits hold it."""
+def _checked(result: Folded) -> Folded:
+    """Return a result that fits in 64 bits; raise an error for any other."""
     if isinstance(result, float) and not math.isfinite(result):
         raise _UndefinedError("it would be too large for a `float64`")
     if isinstance(result, int) and result not in _WHOLE:

@@ -1,4 +1,4 @@
-"""The numbers behind the values of enums."""
+"""Numbers of the values of enums."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ DEFAULT = Primitive("uint8")
 
 
 def underlying(enum: EnumType) -> Primitive:
-    """The type of the numbers: as written, or `uint8`."""
+    """Return the type of the numbers, by default `uint8`."""
     type_ = enum.underlying.type if enum.underlying is not None else None
     return type_ if isinstance(type_, Primitive) else DEFAULT
 
 
 def numbers(enum: EnumType) -> dict[str, int]:
-    """The number of each value: as written, or one more than that of the value before.
+    """Return the number of each value, by default one more than the number before.
 
-    Of two values with one name, which is reported, the first counts.
+    The first value of a repeated name counts.
     """
     found: dict[str, int] = {}
     number = -1

@@ -1,7 +1,7 @@
-"""Types of expressions.
+"""Type inference and type checks of expressions.
 
-A type that cannot be known (a field of a message the model does not describe, a name that
-was not resolved) is None and fits everywhere: one mistake is reported once.
+An unknown type (a field of an unknown message, an unresolved name) is None and fits everywhere,
+so that one mistake is reported once.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING, Named, Pri
 
 _FLOAT32 = Primitive("float32")
 _LONGEST = 2**31 * 10**9
-"""More nanoseconds than a duration has in ROS 1 and in ROS 2."""
+"""Limit of a duration in ROS 1 and ROS 2, in nanoseconds (exclusive)."""
 _LARGEST_FLOAT32 = (2 - 2**-23) * 2.0**127
 
 
 @dataclass(frozen=True)
 class Typing:
-    """Infers types; `interfaces` say which fields messages have.
+    """Infers and checks types. `interfaces` give the fields of messages.
 
-    `event` is the type of the triggering event's message: absent where no event is at
-    hand (`has_event` False), None where it is not known. `folding` knows the values of expressions.
+    `event` is the message type of the triggering event: None if it is unknown. `has_event` is
+    False outside of transitions on events. `folding` computes constant values.
     """
 
     interfaces: Interfaces
@@ -53,11 +53,11 @@ class Typing:
     folding: Folding = field(default_factory=Folding)
 
     def on_event(self, type_: Type | None, *, known: bool = True) -> Typing:
-        """The same where `event` is a message of that type, if it is known which event it is."""
+        """Return a typing with an event of this message type, if all events have the same one."""
         return Typing(self.interfaces, self.report, known, type_, self.folding)
 
     def infer(self, tree: ExpressionTree) -> Type | None:
-        """The type of an expression; what is wrong in it is reported."""
+        """Return the type of an expression and report its errors."""
         match tree:
             case NameUse():
                 return self._name(tree)
@@ -72,7 +72,7 @@ class Typing:
         raise AssertionError(tree)
 
     def _name(self, use: NameUse) -> Type | None:
-        """The type of what a name means."""
+        """Type of a name."""
         if use.name == "event":
             if not self.has_event:
                 self.report.report(
@@ -94,11 +94,11 @@ class Typing:
         return target.type.type if target is not None else None
 
     def result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
-        """The type of an operation on operands of these types."""
+        """Return the type of an operation on operands of these types."""
         return Application(tree, types, self._is_enum, self.report).result()
 
     def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> bool:
-        """Report an expression whose value cannot be used as a `wanted`; return if it is right."""
+        """Report an expression that does not fit type `wanted`; return True for a correct one."""
         if tree is None:
             return True
         before = len(self.report)
@@ -108,7 +108,7 @@ class Typing:
             if value is not None and len(self.report) == before:
                 self._check_size(tree, value, wanted)
         else:
-            help_ = _way_to_bool(tree, found) if wanted == BOOL else None
+            help_ = _bool_hint(tree, found) if wanted == BOOL else None
             if wanted == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
             enum = self.interfaces.get(wanted) if isinstance(wanted, Named) else None
@@ -120,7 +120,7 @@ class Typing:
         return len(self.report) == before
 
     def _checked_result(self, tree: Call | OperatorUse, types: list[Type | None]) -> Type | None:
-        """The type of an operation; one that has no result, whenever it is done, is reported."""
+        """Return the type of an operation; report one that never has a result."""
         before = len(self.report)
         type_ = self.result(tree, types)
         if len(self.report) > before:
@@ -132,7 +132,7 @@ class Typing:
         return type_
 
     def _check_size(self, tree: ExpressionTree, value: Folded, wanted: Type | None) -> None:
-        """Report a value that is known, and too large for its type."""
+        """Report a constant that is too large for its type."""
         found, help_ = f"`{value}`", None
         match value:
             case bool():
@@ -155,7 +155,7 @@ class Typing:
         )
 
     def field(self, owner: Type | None, name: str, at: Span) -> Type | None:
-        """The type of a field of a message."""
+        """Return the type of a field of a message; report a missing field."""
         if isinstance(owner, Named):
             fields = self.interfaces.fields(owner)
             if fields is None:
@@ -179,8 +179,8 @@ class Typing:
         return enum.type
 
 
-def _way_to_bool(tree: ExpressionTree, found: Type | None) -> str | None:
-    """A truth value is no number and no text: what to ask of one, or to write for it."""
+def _bool_hint(tree: ExpressionTree, found: Type | None) -> str | None:
+    """Hint for a number or a string in place of a Boolean."""
     text = tree.span.text
     if isinstance(tree, Value):
         word = "true" if tree.value else "false"
@@ -195,7 +195,7 @@ def _way_to_bool(tree: ExpressionTree, found: Type | None) -> str | None:
 def report_unknown_field(
     owner: str, name: str, at: Span, fields: Sequence[Field | Parameter], report: Diagnostics
 ) -> None:
-    """Report a field that a message does not have, with those it has."""
+    """Report a field that is missing in a message, with the existing fields."""
     if not report.wants_hint("unknown-field"):
         report.report("unknown-field", at, owner=owner, name=name)
         return

@@ -1,4 +1,4 @@
-"""Which types are alike: a value of which can be used where another one is wanted."""
+"""Compatibility of types."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _RANGES = {
 
 
 def fits(found: Type | None, wanted: Type | None) -> bool:
-    """Whether a value of one type can be used where the other is wanted."""
+    """Return True if a value of type `found` can be used as `wanted`."""
     if found is None or wanted is None or found is wanted or found == wanted:
         return True
     if isinstance(found, Array) and isinstance(wanted, Array):
@@ -23,27 +23,27 @@ def fits(found: Type | None, wanted: Type | None) -> bool:
             enough = wanted.size == found.size and not found.bounded
         return enough and fits(found.element, wanted.element)
     if isinstance(found, Primitive) and isinstance(wanted, Primitive) and found.name == wanted.name:
-        return True  # texts of different bounds
+        return True  # strings of different bounds
     if is_number(found) and is_number(wanted):
         return is_float(wanted) or not is_float(found)
     return False
 
 
 def is_text(type_: Type | None) -> bool:
-    """Whether it is a text, of whatever length."""
+    """Return True for a string type with or without a bound."""
     return isinstance(type_, Primitive) and type_.name in ("string", "wstring")
 
 
 def is_number(type_: Type | None) -> bool:
-    """Whether it is an integer or floating-point type."""
+    """Return True for an integer or floating-point type."""
     return isinstance(type_, Primitive) and type_.name in _NUMBERS
 
 
 def is_float(type_: Type | None) -> bool:
-    """Whether it is a floating-point type."""
+    """Return True for a floating-point type."""
     return isinstance(type_, Primitive) and type_.name in FLOATS
 
 
 def range_of(type_: Type | None) -> range | None:
-    """The numbers that an integer type can hold; None for other types."""
+    """Return the range of an integer type; None for other types."""
     return _RANGES.get(type_.name) if isinstance(type_, Primitive) else None

@@ -1,4 +1,4 @@
-"""What an expression is by its form: known in advance, or a place to store a value."""
+"""Syntactic forms of expressions: constant, assignable."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from swarmdsl.syntax.ast import (
 
 
 def constant(tree: ExpressionTree) -> bool:
-    """Whether the value is known without running anything, as far as its names mean something."""
+    """Return True for a constant expression. Unresolved names count as constant."""
     match tree:
         case NameUse(name="event"):
             return False
@@ -32,7 +32,7 @@ def constant(tree: ExpressionTree) -> bool:
 
 
 def assignable(tree: ExpressionTree) -> bool:
-    """Whether it names a variable or a field of one."""
+    """Return True for a variable or a field of one."""
     match tree:
         case NameUse(target=target):
             return isinstance(target, Variable) or (target is None and tree.name != "event")

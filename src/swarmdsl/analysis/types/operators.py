@@ -1,4 +1,4 @@
-"""Operators and built-in functions: which types they work on, and what they give."""
+"""Types of operands and results of operators and built-in functions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1, "len": 1}
 
 @dataclass(frozen=True)
 class Application:
-    """An operator or function on operands of these types, None for one that is not known."""
+    """Operator or function on operands of these types; None is an unknown type."""
 
     tree: Call | OperatorUse
     types: list[Type | None]
@@ -24,7 +24,7 @@ class Application:
     report: Diagnostics
 
     def result(self) -> Type | None:
-        """The type of what it gives; what it does not work on is reported."""
+        """Return the type of the result; report operands of wrong types."""
         if isinstance(self.tree, Call):
             return self._call(self.tree)
         operator = str(self.tree.operator)
@@ -53,9 +53,9 @@ class Application:
         if function == "sqrt":
             self._require(is_number)
             return FLOAT
-        if self._durations():
+        if self._are_durations():
             return DURATION
-        return self._widest() if self._require(is_number, self._unit) else None
+        return self._widest() if self._require(is_number, self._unit_hint) else None
 
     def _sign(self, operator: str, operand: Type | None) -> Type | None:
         if operator == "not":
@@ -69,19 +69,19 @@ class Application:
             return BOOL
         if operator in ("==", "!="):
             if not self._comparable(left, right):
-                advice = "compare their fields" if self._messages() else self._unit()
-                self._report_operands(advice)
+                hint = "compare their fields" if self._are_messages() else self._unit_hint()
+                self._report_operands(hint)
             return BOOL
         numbers = is_number(left) and is_number(right)
         if operator in ("<", "<=", ">", ">="):
-            if not numbers and not self._durations():
-                self._require(is_number, self._order)
+            if not numbers and not self._are_durations():
+                self._require(is_number, self._order_hint)
             return BOOL
         if left is None or right is None:
             return None
         if numbers:
             return FLOAT if operator == "/" else self._widest()
-        if operator in ("+", "-") and self._durations():
+        if operator in ("+", "-") and self._are_durations():
             return DURATION
         if operator == "+" and is_text(left) and is_text(right):
             return STRING
@@ -89,13 +89,13 @@ class Application:
             return DURATION
         if operator == "*" and is_number(left) and right == DURATION:
             return DURATION
-        if operator == "/" and self._durations():
+        if operator == "/" and self._are_durations():
             return FLOAT
-        self._require(is_number, self._unit if operator in ("+", "-") else None)
+        self._require(is_number, self._unit_hint if operator in ("+", "-") else None)
         return None
 
     def _comparable(self, left: Type | None, right: Type | None) -> bool:
-        """Whether two values are equal or not in all targets: messages and arrays are not."""
+        """Return True if all targets can compare two types: not messages and arrays."""
         if left is None or right is None:
             return True
         if isinstance(left, Named) or isinstance(right, Named):
@@ -104,12 +104,12 @@ class Application:
             return False
         return fits(left, right) or fits(right, left)
 
-    def _messages(self) -> bool:
-        """Whether all are messages or structs of one type."""
+    def _are_messages(self) -> bool:
+        """Return True if all operands are messages or structs of one type."""
         left = self.types[0]
         return isinstance(left, Named) and not self.is_enum(left) and self.types == [left, left]
 
-    def _durations(self) -> bool:
+    def _are_durations(self) -> bool:
         return DURATION in self.types and all(known in (DURATION, None) for known in self.types)
 
     def _widest(self) -> Type | None:
@@ -117,13 +117,13 @@ class Application:
             return None
         return FLOAT if any(map(is_float, self.types)) else INT
 
-    def _order(self) -> str | None:
-        """What to write for a comparison of what has no order."""
+    def _order_hint(self) -> str | None:
+        """Hint for a comparison of unordered values."""
         enums = any(isinstance(known, Named) and self.is_enum(known) for known in self.types)
-        return "values of enums have no order: use `==` or `!=`" if enums else self._unit()
+        return "values of enums have no order: use `==` or `!=`" if enums else self._unit_hint()
 
-    def _unit(self) -> str | None:
-        """What to write for a number that stands beside a duration."""
+    def _unit_hint(self) -> str | None:
+        """Hint for a number beside a duration."""
         if DURATION not in self.types:
             return None
         operands = self.tree.arguments if isinstance(self.tree, Call) else self.tree.operands
@@ -135,20 +135,20 @@ class Application:
         return f"give it a unit: `{numbers[0]} s`" if numbers else None
 
     def _require(
-        self, test: Callable[[Type], bool], advice: Callable[[], str | None] | None = None
+        self, test: Callable[[Type], bool], hint: Callable[[], str | None] | None = None
     ) -> bool:
-        """Report operands that are not of the right type; return whether all are."""
+        """Report operands of a wrong type; return True if there is none."""
         fine = all(known is None or test(known) for known in self.types)
         if not fine:
-            self._report_operands(advice() if advice is not None else None)
+            self._report_operands(hint() if hint is not None else None)
         return fine
 
-    def _report_operands(self, advice: str | None = None) -> None:
+    def _report_operands(self, hint: str | None = None) -> None:
         names = [str(known) for known in self.types if known is not None]
-        self._report(listed(names, "and"), advice)
+        self._report(listed(names, "and"), hint)
 
-    def _report(self, operands: str, advice: str | None = None) -> None:
+    def _report(self, operands: str, hint: str | None = None) -> None:
         word = self.tree.function if isinstance(self.tree, Call) else self.tree.operator
         self.report.report(
-            "bad-operand", self.tree.span, operator=word, operands=operands, help=advice
+            "bad-operand", self.tree.span, operator=word, operands=operands, help=hint
         )

@@ -1,1 +1,1 @@
-"""ROS interface types: those in interface files, and those that ROS itself comes with."""
+"""ROS interface types: interface files and the standard interfaces of ROS."""

@@ -1,4 +1,4 @@
-"""One line of an interface file: a field or a constant."""
+"""Parser of one line of an interface file: a field or a constant."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from swarmdsl.syntax.ast import Constant, Expression, Field, TypeRef, Value, Wor
 from swarmdsl.syntax.types import PRIMITIVES
 
 _BUILT_IN = frozenset({*PRIMITIVES, "wstring"})
-# Built-in types with values that a file can state.
+# Built-in types with literals.
 _WITH_VALUES = _BUILT_IN - {"time", "duration"}
 _SAME_TYPE = {
     "Header": "std_msgs/Header",
@@ -40,10 +40,10 @@ _ARRAY = r"\[(?:(?:<=)?(?!0+\])\d{1,9})?\]"
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """What a line declares.
+    """Declaration in a line.
 
-    `bound` is the greatest length of a text (`string<=10`); `default` the value of a field
-    that states one, and `bad_default` what is wrong with it.
+    `bound` is the greatest length of a string (`string<=10`), `default` the default value of a
+    field, and `bad_default` the error in it.
     """
 
     declared: Field | Constant
@@ -54,7 +54,7 @@ class Line:
 
 
 def read_line(line: Span, package: str) -> Line:
-    """Read a line of a file of `package` that is no comment; raises InterfaceError."""
+    """Parse a line of a file of `package` that is no comment; raise InterfaceError."""
     source = line.source
     found = _DECLARATION.match(source.text, line.start, line.end)
     assert found is not None  # the line is not blank
@@ -82,7 +82,7 @@ def read_line(line: Span, package: str) -> Line:
 
 
 def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
-    """A type and the greatest length of its texts."""
+    """Type and the greatest length of its strings."""
     found = _TYPE.fullmatch(span.text)
     if found is None:
         raise InterfaceError(span, *_no_type(span.text))
@@ -129,7 +129,7 @@ def _constant(name: Word, type_: TypeRef, bound: int | None, rest: Span) -> Line
         )
     span, comment = _split(rest)
     if type_.name in TEXTS and not is_quoted(span.text):
-        # ROS 1 takes all that follows for the text, quotes and `#` too.
+        # In ROS 1 the rest of the line is the string, with quotes and `#`.
         value, comment = Value(rest, rest.text), ""
     elif span.text:
         value = read_value(span, type_.name, bound)
@@ -152,9 +152,9 @@ def _default(value: Span, type_: TypeRef, bound: int | None) -> Values:
 
 
 def _split(rest: Span) -> tuple[Span, str]:
-    """The value and the comment in what follows a name."""
+    """Value and comment after a name."""
     found = BEFORE_COMMENT.match(rest.text)
-    assert found is not None  # it matches even nothing
+    assert found is not None  # matches the empty string too
     value = found[0].rstrip()
     return Span(rest.source, rest.start, rest.start + len(value)), rest.text[found.end() :]
 

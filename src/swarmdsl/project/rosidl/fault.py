@@ -1,4 +1,4 @@
-"""What is wrong at one place of an interface file."""
+"""Error at one place of an interface file."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from swarmdsl.base.source import Span
 
 
 class InterfaceError(Exception):
-    """A line that cannot be read; caught where lines are read, and reported."""
+    """A line that cannot be parsed; the reader of the file catches and reports it."""
 
     def __init__(self, span: Span, message: str, help: str | None = None) -> None:  # noqa: A002
         super().__init__(message)

@@ -1,12 +1,11 @@
-"""Interface files (.msg, .srv, .action), of ROS 1 and of ROS 2, to syntax nodes.
+"""Parser of interface files (.msg, .srv, .action) of ROS 1 and ROS 2.
 
-The two differ in little, so one reader takes both: ROS 2 adds bounds, defaults and quoted
-texts. What a file leaves to its package is written out in the nodes: `Pose` becomes
-`geometry_msgs/Pose`, `Header` becomes `std_msgs/Header`. A time is called `time` in either:
-ROS 2 writes `builtin_interfaces/Time`.
+One parser reads both: ROS 2 only adds bounds, defaults and quoted strings. Names are completed
+with their packages: `Pose` becomes `geometry_msgs/Pose`, `Header` becomes `std_msgs/Header`.
+`builtin_interfaces/Time` of ROS 2 becomes `time` as in ROS 1.
 
-Comments document as in ROS 2: those that start a file its interface, those above a field,
-behind it or indented below it the field.
+Comments document as in ROS 2: at the start of a file the interface; above, after or indented
+below a field the field.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ Kind = Literal["msg", "srv", "action"]
 INTERFACE_KINDS: tuple[Kind, ...] = get_args(Kind)
 Interface = MessageType | ServiceType | ActionType
 
-# The parts between the `---` of a file, as the attributes of its node are called.
+# Attributes of the node for the parts of a file between `---`.
 _PARTS: dict[Kind, tuple[str, ...]] = {
     "msg": ("fields",),
     "srv": ("request", "response"),
@@ -47,18 +46,18 @@ _SHAPES: dict[Kind, str] = {
     "srv": "a service is its request, `---` and its response",
     "action": "an action is its goal, `---`, its result, `---` and its feedback",
 }
-# A file with more faults is something else: Tcl and mail programs have .msg files too.
+# A file with more errors is something else: Tcl and mail programs have .msg files too.
 _FAULTS_PER_FILE = 10
 _SEPARATOR = r"-{3,}\s*(?:#.*)?"
 
 
 @dataclass
 class InterfaceFile:
-    """What a file says.
+    """Content of an interface file.
 
-    `constants` are those of each part, by the name it has as an attribute of the node;
-    `defaults` the values of the fields that state one; `bounds` the greatest lengths of
-    texts (`string<=10`). `damaged` means that a line could not be read: a field may be missing.
+    `constants` are by part (attribute of the node), `defaults` the default values of fields,
+    `bounds` the greatest lengths of strings (`string<=10`). `damaged` is True if a line could
+    not be parsed, so that a field may be missing.
     """
 
     declaration: Interface
@@ -71,7 +70,7 @@ class InterfaceFile:
 def parse_interface(
     source: Source, package: str, name: str, kind: Kind, report: Diagnostics
 ) -> InterfaceFile:
-    """Read the file of `package/name`; what is wrong with it is reported and left out."""
+    """Parse the file of `package/name`; report and skip invalid lines."""
     reader = _Reader(source, package, kind, report)
     reader.read()
     word = Word(f"{package}/{name}", Span(source, 0, 0))
@@ -90,7 +89,7 @@ def parse_interface(
 
 
 class _Reader:
-    """Reads one file, line by line; its public attributes are what it found."""
+    """Parses one file line by line; the public attributes are the result."""
 
     def __init__(self, source: Source, package: str, kind: Kind, report: Diagnostics) -> None:
         self._source = source
@@ -104,19 +103,19 @@ class _Reader:
         self.bounds: dict[TypeRef, int] = {}
         self._faults = 0
         self._part, *self._parts_left = _PARTS[kind]
-        # The names in the part so far.
+        # Names in the current part.
         self._names: dict[str, Word] = {}
-        # Comments for what is below them, and what an indented comment continues.
+        # Pending comments, and the node that an indented comment continues.
         self._above: list[str] = []
         self._last: Documented | None = None
 
     @property
     def damaged(self) -> bool:
-        """Whether something in the file could not be read."""
+        """True if a line could not be parsed."""
         return self._faults > 0
 
     def read(self) -> None:
-        """Read all lines, as far as they can be understood."""
+        """Parse all lines."""
         lines = list(self._lines())
         heading = next((i for i, line in enumerate(lines) if line.text[:1] != "#"), len(lines))
         self.doc = _joined([line.text for line in lines[:heading]])
@@ -136,7 +135,7 @@ class _Reader:
             self._fault(Span(self._source, at, at), f"a `---` is missing: {_SHAPES[self._kind]}")
 
     def _lines(self) -> Iterator[Span]:
-        """Each line without what ends it; the first without the mark of its encoding."""
+        """Lines without line ends and without a byte order mark."""
         text = self._source.text
         start = 1 if text.startswith("\ufeff") else 0
         while start <= len(text):
@@ -194,6 +193,6 @@ class _Reader:
 
 
 def _joined(comments: list[str]) -> str:
-    """The text of comments, one a line."""
+    """Text of comments, one per line."""
     lines = (re.sub(r"^\s*#+ ?", "", comment).rstrip() for comment in comments)
     return "\n".join(lines).strip("\n")

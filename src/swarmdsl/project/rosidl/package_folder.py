@@ -1,4 +1,4 @@
-"""Folders of ROS packages: which interfaces and parameter files there are, of which package."""
+"""Find interface and parameter files in folders of ROS packages."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from swarmdsl.project.libraries import SUFFIX
 from swarmdsl.project.rosidl.interface_file import INTERFACE_KINDS, Kind
 
 _MANIFEST = "package.xml"
-# Files by which ROS's build tools know that a folder is none of their business.
+# Files that make the build tools of ROS ignore a folder.
 _IGNORED = {"AMENT_IGNORE", "CATKIN_IGNORE", "COLCON_IGNORE"}
-# What lies beside the `src` of a workspace: the same interfaces, installed.
+# Folders beside the `src` of a workspace, with the same interfaces installed.
 _BUILT = frozenset(
     f"{name}{suffix}" for name in ("build", "devel", "install") for suffix in ("", "_isolated")
 )
 _NAME = re.compile(r"[A-Za-z]\w*", re.ASCII)
-# Where the packages of ROS keep the files with values for their parameters.
+# Folders of parameter files in ROS packages.
 _PARAMETERS = ("param", "params", "config", "cfg")
 _WANTED = (
     "name the folder of a ROS package with .msg, .srv or .action files, "
@@ -31,7 +31,7 @@ _WANTED = (
 
 @dataclass(frozen=True)
 class InterfacePath:
-    """The file of an interface."""
+    """File of an interface."""
 
     package: str
     kind: Kind
@@ -41,17 +41,17 @@ class InterfacePath:
 
 @dataclass(frozen=True)
 class ParameterPath:
-    """A file with values for the parameters of the nodes of a package."""
+    """File with parameter values for the nodes of a package."""
 
     package: str
     path: Path
 
 
 def find_parameters(folder: Path) -> list[ParameterPath]:
-    """The YAML files in a folder that have values for parameters, by package and path.
+    """Return the YAML files with parameter values in a folder, sorted by package and path.
 
-    In a package these lie in `param`, `config` and the like; a folder without `package.xml` is
-    taken for a copy of that. What cannot be read there is passed over.
+    In a package these are in `param`, `config` and the like; a folder without `package.xml`
+    counts as a copy of such a folder. Unreadable folders are skipped.
     """
     finder = _Finder(folder, None, Diagnostics())
     return sorted(finder.find_parameters(), key=lambda found: (found.package, str(found.path)))
@@ -65,11 +65,11 @@ def find_interfaces(
     required: bool = True,
     look: Callable[[Path], None] | None = None,
 ) -> list[InterfacePath]:
-    """The interfaces in a folder, by package, kind and name; mistakes are reported at `at`.
+    """Return the interfaces in a folder by package, kind and name; report errors at `at`.
 
-    The folder is that of a package, with the files in it or in `msg`, `srv` and `action`,
-    or one with several packages below it: a ROS workspace, for instance. That there are none is a
-    mistake where they are `required`. `look` hears of each folder and manifest that is looked at.
+    The folder is a package, with the files in it or in `msg`, `srv` and `action`, or has several
+    packages below it, like a ROS workspace. If interfaces are `required`, it is an error to find
+    none. `look` is called with each folder and manifest that is tried.
     """
     if look is not None:
         look(folder)
@@ -114,7 +114,7 @@ def _order(key: tuple[str, Kind, str]) -> tuple[str, int, str]:
 
 
 class _Finder:
-    """Looks through one folder."""
+    """Searches one folder."""
 
     def __init__(
         self,
@@ -127,12 +127,12 @@ class _Finder:
         self._look = look
         self._at = at
         self._report = report
-        # The package that each manifest names, None for a manifest that names none.
+        # Package of each manifest, None for a manifest without a name.
         self._manifests: dict[Path, str | None] = {}
         self.reported = False
 
     def find(self) -> Iterator[InterfacePath]:
-        """All interface files, folder by folder."""
+        """Yield all interface files, folder by folder."""
         for folder, names in self._folders():
             files = [
                 (name.removesuffix(f".{kind}"), kind, folder / name)
@@ -153,13 +153,13 @@ class _Finder:
                     self._bad_name(name, "interface", f"rename `{path}`")
 
     def find_parameters(self) -> Iterator[ParameterPath]:
-        """All files with values for parameters."""
+        """Yield all files with parameter values."""
         for folder, names in self._folders():
             within = self._within(folder, _PARAMETERS)
             home = next((parent for parent in within if parent.name in _PARAMETERS), None)
             package = self._manifest_name(within)
             if package is not None and home is None:
-                continue  # of a package, but not for its nodes
+                continue  # in a package, but not for its nodes
             if package is None:
                 package = (within[0].parent if home is within[0] else within[0]).name
             for name in names if _NAME.fullmatch(package) else ():
@@ -167,7 +167,7 @@ class _Finder:
                     yield ParameterPath(package, folder / name)
 
     def _folders(self) -> Iterator[tuple[Path, list[str]]]:
-        """The folders that may have interfaces, each with the names of its files."""
+        """Folders that may have interfaces, each with the names of its files."""
         seen: set[str] = set()
         for folder, inner, names in os.walk(self._top, onerror=self._unreadable, followlinks=True):
             real = os.path.realpath(folder)
@@ -182,7 +182,7 @@ class _Finder:
             yield Path(folder), sorted(names)
 
     def _package(self, folder: Path) -> str:
-        """The package that the interfaces in a folder belong to."""
+        """Package of the interfaces in a folder."""
         within = self._within(folder, INTERFACE_KINDS)
         name = self._manifest_name(within)
         if name is not None:
@@ -194,9 +194,9 @@ class _Finder:
         return (holder.parent if holder in within else home).name
 
     def _within(self, folder: Path, inside: Sequence[str]) -> list[Path]:
-        """A folder and those around it that may be the one of its package.
+        """A folder and its ancestors that may be the folder of its package.
 
-        Where the user has named one that lies `inside` a package, the package is around it.
+        If the user named a folder `inside` a package, the package is around it.
         """
         home, top = _absolute(folder), _absolute(self._top)
         parents = [home, *home.parents]
@@ -204,7 +204,7 @@ class _Finder:
         return [*within, top.parent] if top.name in inside else within
 
     def _manifest_name(self, folders: Iterable[Path]) -> str | None:
-        """The package that the first manifest in these folders names."""
+        """Name of the package in the first manifest in these folders."""
         names = map(self._named_by_manifest, folders)
         return next((name for name in names if name is not None), None)
 
@@ -243,5 +243,5 @@ class _Finder:
 
 
 def _absolute(path: Path) -> Path:
-    """A path from the root without `..`; a linked folder keeps the name of the link."""
+    """Absolute path without `..`; symbolic links are kept."""
     return Path(os.path.abspath(path))  # noqa: PTH100

@@ -1,12 +1,11 @@
-"""The interface types that ROS itself comes with, known where no ROS is installed.
+"""Standard interface types of ROS, available without an installed ROS.
 
-They are in two files beside this module, each interface as in a file of its own below a
-line with its name. The messages are made from those in `rosbags` by a test (`make bless`):
-as a dependency it would bring numpy and more, some 90 MB. The few services and actions were
-written by hand.
+They are in two files beside this module, each interface as in its own file, below a line with
+its name. A test generates the messages from `rosbags` (`make bless`), which as a dependency
+would bring numpy and more, some 90 MB. The few services and actions were written by hand.
 
-Where ROS 1 and ROS 2 differ, there is what either has; what the other lacks is documented
-as `only in ROS 1` or `only in ROS 2`.
+Interfaces are the union of ROS 1 and ROS 2. Parts that one of them lacks are documented as
+`only in ROS 1` or `only in ROS 2`.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ _ONLY: dict[str, Literal[1, 2]] = {"only in ROS 1": 1, "only in ROS 2": 2}
 
 
 def lookup(type_: Named, kind: Kind | None = None) -> Interface | None:
-    """The interface with a name, None when ROS has none.
+    """Return the interface with a name, None if ROS has none.
 
     A service and an action may share a name: `nav_msgs/GetMap`. Without `kind` a message
     comes first, then a service.
@@ -42,19 +41,19 @@ def lookup(type_: Named, kind: Kind | None = None) -> Interface | None:
 
 
 def only_in(node: Documented) -> Literal[1, 2] | None:
-    """Which ROS alone has a standard interface, or a field of one; None when both have it."""
+    """Return the only version of ROS with an interface or field; None if both have it."""
     return _ONLY.get(node.doc)
 
 
 def packages() -> list[str]:
-    """The packages that ROS comes with, sorted."""
+    """Return the standard packages of ROS, sorted."""
     return sorted(_texts())
 
 
 def names(package: str, kind: Kind | None = None) -> list[str]:
-    """The names of a package's interfaces, or those of a kind, sorted.
+    """Return the names of the interfaces of a package, of one kind or all, sorted.
 
-    There are none of a package that is not known.
+    An unknown package has none.
     """
     known = _texts().get(package, ())
     return sorted({name for of, name in known if kind is None or of == kind})
@@ -62,7 +61,7 @@ def names(package: str, kind: Kind | None = None) -> list[str]:
 
 @cache
 def _texts() -> dict[str, dict[tuple[str, str], str]]:
-    """The text of each interface, by package, and then by kind and name."""
+    """Source text of each interface, by package, then by kind and name."""
     texts: dict[str, dict[tuple[str, str], str]] = {}
     for file in FILES:
         _, *parts = _HEADING.split((FOLDER / file).read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""Values as interface files write them: those of constants and the defaults of fields."""
+"""Values in interface files: constants and defaults of fields."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.syntax.ast import Value
 TEXTS = ("string", "wstring")
 Values = Value | tuple[Value, ...]
 
-# What may stand before a comment: a `#` in quotes begins none.
+# Text before a comment. A `#` in quotes starts no comment.
 BEFORE_COMMENT = re.compile(
     r""" (?: "(?:[^"\\]|\\.)*" | '(?:[^'\\]|\\.)*' | [^#"'] )* [^#]* """, re.X
 )
@@ -21,7 +21,7 @@ _ELEMENT = (
 )
 _BOOLEANS = {"true": True, "1": True, "false": False, "0": False}
 _RANGES = {
-    # ROS 1 has a `byte` with a sign, ROS 2 one without.
+    # `byte` is signed in ROS 1 and unsigned in ROS 2.
     "byte": (-(2**7), 2**8 - 1),
     "char": (0, 2**8 - 1),
     **{f"int{bits}": (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
@@ -30,12 +30,12 @@ _RANGES = {
 
 
 def is_quoted(text: str) -> bool:
-    """Whether it is a text in quotes."""
+    """Return True for a quoted string."""
     return re.fullmatch(_QUOTED, text, re.X) is not None
 
 
 def read_values(span: Span, type_: str, bound: int | None, array: str) -> Values:
-    """The default of a field of this type; raises InterfaceError."""
+    """Parse the default of a field of this type; raise InterfaceError."""
     if not array:
         return read_value(span, type_, bound)
     if not re.fullmatch(r"\[.*\]", span.text, re.S):
@@ -53,12 +53,12 @@ def read_values(span: Span, type_: str, bound: int | None, array: str) -> Values
 
 
 def _elements(span: Span) -> list[Span]:
-    """The places of the values in `[1, 2, 3]`."""
+    """Spans of the values in `[1, 2, 3]`."""
     text, start, end = span.source.text, span.start + 1, span.end - 1
     spans: list[Span] = []
     while text[start:end].strip() or spans:
         found = re.compile(_ELEMENT, re.X).match(text, start, end)
-        assert found is not None  # it matches anything up to a comma or the end
+        assert found is not None  # matches anything up to a comma or the end
         spans.append(Span(span.source, *found.span("text")))
         if not found["comma"]:
             break
@@ -67,7 +67,7 @@ def _elements(span: Span) -> list[Span]:
 
 
 def read_value(span: Span, type_: str, bound: int | None = None) -> Value:
-    """A value of a built-in type that is no list; raises InterfaceError."""
+    """Parse a single value of a built-in type; raise InterfaceError."""
     text = span.text
     value: bool | int | float | str | None
     if type_ in TEXTS:
@@ -99,7 +99,7 @@ def _text(span: Span) -> str:
 def _integer(text: str, type_: str) -> tuple[int | None, str]:
     lowest, highest = _RANGES[type_]
     value = None
-    for base in (10, 0):  # `007` is a decimal number, `0x07` says what it is
+    for base in (10, 0):  # `007` is a decimal number, unlike `0x07`
         try:
             value = int(text, base)
             break

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from swarmdsl import ir
-from swarmdsl.analysis.resolve.interfaces import only_retells, own_interfaces
+from swarmdsl.analysis.resolve.interfaces import is_secondary_description, own_interfaces
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.analysis.usage import used_declarations
 from swarmdsl.lowering import lower
@@ -94,7 +94,7 @@ def _of_libraries_too(project: Project) -> list[tuple[File, Declaration]]:
         for file, node in project.declarations()
         if not (
             isinstance(node, Interface)
-            and only_retells(file)
+            and is_secondary_description(file)
             and interface_name(file, node.name) in own
         )
     ]
