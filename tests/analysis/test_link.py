@@ -1,4 +1,4 @@
-"""What a name means: in a file, across files, inside a state machine."""
+"""Resolution of names in a file, across files and inside a state machine."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def nodes(project: Project) -> list[Node]:
 
 
 def targets(project: Project) -> list[str]:
-    """Where the transitions lead: the line of the state's declaration."""
+    """Return the targets of transitions: the line of the state's declaration."""
     found = []
     for node in nodes(project):
         if isinstance(node, Transition):

@@ -31,7 +31,7 @@ AIR = """
 
 @pytest.fixture
 def checked(tmp_path: Path) -> Checked:
-    """What comes of a file that imports two packages with the same names."""
+    """Check a file that imports two packages with the same names."""
 
     def check(text: str) -> pipeline.Result:
         (tmp_path / "sar.swarm").write_text(SAR, encoding="utf-8")

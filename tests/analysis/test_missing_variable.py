@@ -1,4 +1,4 @@
-"""What is said of a name in an expression that means nothing: the line that would declare it."""
+"""Hints that declare an unresolved name in an expression."""
 
 from pathlib import Path
 
@@ -71,7 +71,7 @@ def test_the_type_is_said_where_it_is_certain(tmp_path, text, type_):
     ],
 )
 def test_no_type_is_guessed_in_arithmetic(tmp_path, text):
-    assert said(tmp_path, text) == ["declare it in `M`, with the type that it has: `var xx : ...`"]
+    assert said(tmp_path, text) == ["declare it in `M` with its type: `var xx : ...`"]
 
 
 def test_the_order_of_names_does_not_matter(tmp_path):

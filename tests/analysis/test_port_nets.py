@@ -1,4 +1,4 @@
-"""Which topic connected ports are on."""
+"""Topics of connected ports."""
 
 from __future__ import annotations
 

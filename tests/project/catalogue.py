@@ -1,4 +1,4 @@
-"""What the shipped library has, as a page of Markdown."""
+"""Catalogue of the shipped library as a page of Markdown."""
 
 from __future__ import annotations
 

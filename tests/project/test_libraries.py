@@ -1,4 +1,4 @@
-"""Where `import package.*` finds its models, and what of them is in the system."""
+"""Search path of `import package.*`, and the declarations it adds to a system."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_a_similar_name_in_an_installed_library(swarmc, project, install) -> Non
     [
         ("nowhere", {}, "there is no module `nowhere`"),
         ("nowhere.below", {}, "No module named 'nowhere'"),
-        ("bare", {"__init__.py": ""}, "no .swarm file lies in the folder of `bare`"),
+        ("bare", {"__init__.py": ""}, "no .swarm file is in the folder of `bare`"),
         ("a b", {}, "AttributeError"),
     ],
 )

@@ -1,4 +1,4 @@
-"""Which files belong to a project, and in which order."""
+"""Files of a project and their order."""
 
 from __future__ import annotations
 

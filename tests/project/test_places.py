@@ -1,4 +1,4 @@
-"""Where the values of a TOML document stand."""
+"""Positions of values in a TOML document."""
 
 from __future__ import annotations
 

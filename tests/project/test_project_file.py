@@ -1,4 +1,4 @@
-"""What `swarm.toml` changes in a run, and what is said about mistakes in it."""
+"""Effects of `swarm.toml`, and diagnostics for errors in it."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def _everything(name: str, system: ir.System) -> Iterator[str]:
 
 
 def _called(system: ir.System) -> list[ir.Function]:
-    """Those that are no operations of components."""
+    """Return the functions that are no operations of components."""
     operations = {each for component in system.components for each in component.operations}
     return [each for each in system.functions if each.name not in operations]
 

@@ -1,4 +1,4 @@
-"""What the tests of ROS interface types share."""
+"""Fixtures of the tests of ROS interface types."""
 
 import os
 from collections.abc import Callable

@@ -110,7 +110,7 @@ def both(first: list[Item], second: list[Item]) -> list[Item]:
 
 
 def wider(first: Item, second: Item) -> Item:
-    """What stands for an item of which the types differ."""
+    """Return the type that covers an item with different types."""
     assert first.value == second.value, (first, second)
     if first.type == second.type or first.value is not None:
         return second  # the same number, in the type that the later release gives it

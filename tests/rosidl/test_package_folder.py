@@ -1,4 +1,4 @@
-"""Which interfaces a folder has, and of which packages."""
+"""Interfaces in a folder and their packages."""
 
 from __future__ import annotations
 

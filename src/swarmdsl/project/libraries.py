@@ -137,7 +137,7 @@ def _folder_of(module: str) -> Path:
     for folder in folders:
         if next(folder.rglob(f"*{SUFFIX}"), None) is not None:
             return folder
-    raise FileNotFoundError(f"no {SUFFIX} file lies in the folder of `{module}`")
+    raise FileNotFoundError(f"no {SUFFIX} file is in the folder of `{module}`")
 
 
 def imported_name(statement: Import) -> str | None:

@@ -30,12 +30,12 @@ from swarmdsl.syntax.parse import Parsed, parse
 if TYPE_CHECKING:
     from swarmdsl.project.rosidl.package_folder import InterfacePath
 
-_IMPORTED = "`swarmc import` makes a model of SCXML, ADF and AMF"
+_IMPORTED = "`swarmc import` converts SCXML, ADF and AMF to a model"
 _WAYS = {
-    ".toml": "`swarmc simulate --scenario FILE` plays a scenario, `swarmc test FILE` runs tests; "
+    ".toml": "`swarmc simulate --scenario FILE` runs a scenario, `swarmc test FILE` runs tests; "
     "swarm.toml is found without being named",
     ".jsonl": "`swarmc simulate` takes events by `--events FILE`, and traces by `--replay FILE`, "
-    "which is written before each",
+    "given before each file",
     ".json": "`swarmc simulate` takes events by `--events FILE`",
     ".xml": _IMPORTED,
     ".scxml": _IMPORTED,
@@ -326,6 +326,6 @@ def _report_cycles(files: list[File], report: Diagnostics) -> None:
             "import-cycle",
             place_of(last),
             path=file.source.name,
-            related=tuple(Label(place_of(step), "by way of this import") for step in way),
+            related=tuple(Label(place_of(step), "through this import") for step in way),
             help="move what both files need to a third one" if way else "remove this import",
         )

@@ -163,6 +163,6 @@ def _check_callback(
             "shared-callback",
             callback.span,
             name=callback,
-            related=(Label(first.function.span, "it serves this function already"),),
+            related=(Label(first.function.span, "already used for this function"),),
             help="each function needs a callback of its own: goals and results differ in type",
         )

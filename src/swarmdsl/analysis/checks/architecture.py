@@ -76,7 +76,7 @@ def check_inheritance(project: Project, context: Context) -> None:
             "inheritance-cycle",
             last,
             name=owner.name,
-            related=tuple(Label(span, "by way of this") for span in way),
+            related=tuple(Label(span, "through this") for span in way),
         )
     if not has_cycles:
         _check_depth(owners, context.report)

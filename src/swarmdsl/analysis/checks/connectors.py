@@ -77,7 +77,7 @@ def _check_driven_once(connectors: list[Connector], context: Context) -> None:
                 end.span,
                 port=end.span.text,
                 related=(Label(others[0].span, "already connected here"),),
-                help="what comes from two sides mixes on one topic: give each a port of its own",
+                help="data of two connectors mix on one topic: give each a port of its own",
             )
 
 
@@ -103,7 +103,7 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
                 at[group.ports[0]].span,
                 topic=group.topic,
                 related=(Label(at[other.ports[0]].span, "the other one is here"),),
-                help="each hears what the other one sends: give the ports topics of their own",
+                help="each receives the data of the other: give the ports different topics",
             )
         if group.ports[0][0] is None:
             continue

@@ -54,8 +54,8 @@ def check_late(transition: Transition, outer: Leaving, context: Context) -> bool
     context.report.report(
         "transition-never-fires",
         transition.span,
-        related=(Label(before.span, "this one leaves the state around it no later"),),
-        help="let it wait less long, or the other one longer",
+        related=(Label(before.span, "this one leaves the outer state no later"),),
+        help="shorten this delay, or lengthen the other one",
     )
     return True
 

@@ -118,8 +118,8 @@ def _check_own_events(members: list[Exchange], context: Context) -> None:
             send.event.span,
             where=_where("member", [member.name for member in own]),
             name=send.event.name,
-            related=(Label(hearing[topic].span, "this waits in another member"),),
-            help=f"as `swarm event {send.event.name}` it is heard by the other members",
+            related=(Label(hearing[topic].span, "another member waits for it here"),),
+            help=f"as `swarm event {send.event.name}` it reaches the other members",
         )
 
 

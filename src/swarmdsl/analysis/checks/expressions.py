@@ -79,7 +79,7 @@ def _check_delay(delay: Expression, context: Context) -> None:
         context.report.report(
             "zero-delay",
             delay.span,
-            help="give it a length; `on done` of a state that does nothing is at once",
+            help="give it a duration; `on done` of an idle state fires at once",
         )
 
 

@@ -37,7 +37,7 @@ def _check(item: Transition | Branch, hint: str, context: Context) -> None:
         "constant-guard",
         guard.span,
         held=held,
-        label="" if known else f"whatever the values are, this is {str(held == 'always').lower()}",
+        label="" if known else f"this is always {str(held == 'always').lower()}",
         help=help_ if known else f"change the comparisons, or {help_}",
     )
 
@@ -50,4 +50,4 @@ def _hint(item: Transition | Branch, owner: Choice | State | Parallel) -> str:
         return "remove the guard"
     if is_idle(owner) and item.target is not None:
         return f"write `on done -> {item.target.name}`: it is taken at once"
-    return "give the transition a trigger: nothing in the state is ever waited for"
+    return "give the transition a trigger: the state waits for nothing"

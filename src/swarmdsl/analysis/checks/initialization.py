@@ -126,16 +126,16 @@ def _report(read: Read, path: Iterable[Node], settable: bool, context: Context) 
     variable = read.variable
     transitions = (node.transition for node in path)
     here = next((span for span in transitions if span and not _contains(span, read)), None)
-    help_ = "write it on every way that leads here"
+    help_ = "write it on every path to this place"
     if settable:
         written = f"var {variable.name} : {variable.type.span.text} = ..."
-        help_ = f"give it a first value, `{written}`, or {help_}"
+        help_ = f"give it an initial value, `{written}`, or {help_}"
     context.report.report(
         "early-read",
         read.span,
         name=variable.name,
-        label=f"nothing is stored in it yet: {_zero(variable.type.type, context)}",
-        related=(Label(here, "this way leads here before it is written"),) if here else (),
+        label=f"not written yet: {_zero(variable.type.type, context)}",
+        related=(Label(here, "this path leads here without a write"),) if here else (),
         help=help_,
     )
 

@@ -64,7 +64,7 @@ def check_message_cycles(project: Project, context: Context) -> None:
             "type-cycle",
             last.type.span,
             name=type_.name,
-            related=tuple(Label(field.type.span, "by way of this field") for field in way),
+            related=tuple(Label(field.type.span, "through this field") for field in way),
         )
 
 
@@ -97,8 +97,8 @@ def check_known(declaration: Declaration, context: Context) -> None:
                 "undescribed-interface",
                 node.span,
                 name=element,
-                notes=(f"a workspace needs package `{element.package}`, from wherever it comes",),
-                help='describe it in the model, or `import ros "FOLDER"`, that of its package',
+                notes=(f"the workspace must get package `{element.package}` from elsewhere",),
+                help='declare it in the model, or `import ros "FOLDER"`, the folder of its package',
             )
 
 
@@ -156,7 +156,7 @@ def check_graph_name(name: Word, what: str, context: Context) -> None:
             name.span,
             name=name,
             what=what,
-            help="letters, digits and `_`, in parts divided by `/`, each with a letter first",
+            help="use letters, digits and `_`; parts are separated by `/` and start with a letter",
         )
 
 

@@ -77,14 +77,14 @@ def check_livelock(machine: StateMachine, context: Context) -> None:
     """Report cycles of steps that wait for no event, and cycles that only guards may end."""
     eventless = context.analysis(EventlessSteps, machine)
     for vertex, steps in eventless.cycles:
-        help_ = "let one of the states on the way wait for something"
+        help_ = "let one of the states in the cycle wait for an event"
         _report("endless-steps", vertex, steps, help_, context)
     for state, transitions in eventless.immediate.items():
         _check_internal(state, transitions, context)
     choices = nodes_of(machine, Choice)
     for choice, branches in cycles(choices, lambda choice: _branches(choice, context)):
         if any(not _is_always_taken(branch, context) for branch in branches):
-            help_ = "lead through a state that waits for something"
+            help_ = "lead through a state that waits for an event"
             _report("choice-circle", choice, branches, help_, context)
 
 
@@ -98,8 +98,8 @@ def _check_internal(
                 "endless-steps",
                 transition.span,
                 name=state.name,
-                label="done again and again: the state is not left",
-                help="let it lead to another state, or put the effects behind `entry /`",
+                label="repeated without end: the state is not left",
+                help="let it lead to another state, or put the effects after `entry /`",
             )
 
 
@@ -141,6 +141,6 @@ def _report(name: str, at: Vertex, steps: Sequence[Step], help_: str, context: C
         name,
         last,
         name=at.name,
-        related=tuple(Label(span, "by way of this transition") for span in way),
+        related=tuple(Label(span, "through this transition") for span in way),
         help=help_,
     )

@@ -103,7 +103,7 @@ def check_names_inside(
             "reserved-event-name",
             declaration.name.span,
             name=declaration.name,
-            help="SCXML keeps it for errors of its own",
+            help="SCXML reserves it for its own errors",
         )
     for kind, nodes in by_class(declaration).items():
         if kind not in _NAMESPACES:

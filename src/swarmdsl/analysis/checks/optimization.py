@@ -155,8 +155,8 @@ def _check_range(
         context.report.report(
             "empty-range",
             lower.span,
-            fault=f"is of values of type `{type_}`",
-            help="a range is one of numbers or durations",
+            fault=f"has values of type `{type_}`",
+            help="a range has numbers or durations",
         )
         return
     for value in (lower, upper, step):

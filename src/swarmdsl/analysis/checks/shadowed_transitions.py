@@ -97,10 +97,10 @@ def _check_immediate(
             "transition-never-fires",
             dead[0].span,
             related=(
-                Label(first.span, "the state is left by this one as soon as it is entered"),
-                *(Label(other.span, "nor can this one fire") for other in dead[1:]),
+                Label(first.span, "this transition leaves the state as soon as it is entered"),
+                *(Label(other.span, "this one can never fire either") for other in dead[1:]),
             ),
-            help=f"let `{state.name}` wait before it is left, or remove what it cannot wait for",
+            help=f"let `{state.name}` wait before it is left, or remove the other transitions",
         )
     return set(dead)
 
@@ -218,9 +218,9 @@ def _report(
         related = [Label(blockers[0].span, "this one is always taken first")]
         help_ = "give the first one a guard, or remove one of the two"
     else:
-        message = "whenever the guard holds, this one does, and is looked at first"
+        message = "this guard holds whenever the other one does, and comes first"
         if len(guards) > 1:
-            message = "whenever the guard holds, one of these does, and is looked at first"
+            message = "one of these guards holds whenever the other one does, and comes first"
         elif item.guard is not None and _words(guards[0].span.text) == _words(item.guard.span.text):
             message = "the same guard holds here first"
         related = [

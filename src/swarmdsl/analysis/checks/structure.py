@@ -43,7 +43,7 @@ def check_structure(machine: StateMachine, context: Context) -> None:
                 "too-few-regions",
                 parallel.name.span,
                 name=parallel.name,
-                help="add `region Name { ... }`; one without is a plain `state`",
+                help="add `region Name { ... }`; a state without regions is a plain `state`",
             )
     for state in nodes_of(machine, State):
         _check_state(state, hierarchy, context)
@@ -93,7 +93,7 @@ def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
                 "misplaced-history",
                 history.name.span,
                 name=history.name,
-                fault="stands outside of any composite state",
+                fault="is outside of any composite state",
                 help="put it into the state that it leads back into",
             )
     for state, transitions in hierarchy.transitions.items():
@@ -107,7 +107,7 @@ def _check_levels(hierarchy: StateHierarchy, context: Context) -> None:
                     item.target.span,
                     state=state.name,
                     target=target.name,
-                    help="it leads to a state inside its own, or has no target at all",
+                    help="its target is inside its source, or it has no target",
                 )
 
 

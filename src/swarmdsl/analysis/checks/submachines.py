@@ -46,7 +46,7 @@ def check_submachines(project: Project, context: Context) -> None:
             "submachine-cycle",
             last.span,
             name=machine.name,
-            related=tuple(Label(use.span, "by way of this state") for use in way),
+            related=tuple(Label(use.span, "through this state") for use in way),
         )
     if not has_cycles:
         _check_growth(reuse, context)
@@ -76,7 +76,7 @@ def _check_growth(reuse: Mapping[StateMachine, Reuse], context: Context) -> None
                 machine.name.span,
                 name=machine.name,
                 limit=_MAX_STATES,
-                notes=("the states of a machine that it reuses count each time",),
+                notes=("the states of a submachine count at each use",),
             )
             del sizes[machine]
 

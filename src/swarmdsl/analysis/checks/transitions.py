@@ -74,7 +74,7 @@ def _check_completes(trigger: DoneTrigger, of: State | Parallel | Region, contex
     elif isinstance(of, State) and of.machine is not None:
         help_ = f"state machine `{of.machine.name}` has no final state"
     elif simple:
-        help_ = "`succeeded` and `aborted` are the ends of an activity"
+        help_ = "`succeeded` and `aborted` are the outcomes of an activity"
     context.report.report(
         "done-without-content",
         trigger.span,
@@ -129,7 +129,7 @@ def _check_preempted(state: State, transitions: Sequence[Transition], context: C
                 "transition-never-fires",
                 transition.span,
                 related=(Label(calls[0].span, "a service ends as `succeeded` or `aborted`"),),
-                help="remove it: only what calls an action can be preempted",
+                help="remove it: only the call of an action can be preempted",
             )
 
 

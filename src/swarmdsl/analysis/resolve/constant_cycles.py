@@ -25,7 +25,7 @@ def open_cycles(project: Project, report: Diagnostics) -> None:
             "constant-cycle",
             last.span,
             name=constant.name,
-            related=tuple(Label(use.span, "by way of this") for use in way),
+            related=tuple(Label(use.span, "through this") for use in way),
             help="write the value of one of them" if way else "write its value",
         )
         last.target = None

@@ -86,7 +86,7 @@ def value_hint(name: str, scope: FileScope, report: Diagnostics) -> str | None:
     if meant and name not in scope.skipped_names:
         return f"write {listed(meant)}"
     if name.lower() in _NULL:
-        return 'a value is always there: compare with one that stands for nothing, 0 or ""'
+        return 'values are never absent: compare with a default, 0 or ""'
     return None
 
 

@@ -85,7 +85,7 @@ def suggest_declaration(name: str, kinds: tuple[type[Node], ...]) -> str | None:
     line = next((_LINES[kind] for kind in kinds if kind in _LINES), None)
     if line is None:
         return None
-    elsewhere = f", or say of which package of ROS it is: `package/{name}`"
+    elsewhere = f", or name its ROS package: `package/{name}`"
     return f"declare it: `{line.format(name)}`{elsewhere if StructType in kinds else ''}"
 
 

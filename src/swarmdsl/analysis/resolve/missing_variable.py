@@ -78,7 +78,7 @@ def suggest_variable(
         wanted = None
     written = _written(wanted, scope) if wanted is not None else None
     if wanted is None or written is None:
-        return f"declare it in `{owner.name}`, with the type that it has: `var {use.name} : ...`"
+        return f"declare it in `{owner.name}` with its type: `var {use.name} : ...`"
     return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(wanted)}`"
 
 

@@ -117,7 +117,7 @@ def report_reference(
 
         outcome = other_outcome(name)
         if outcome is not None and name not in scope.skipped_names:
-            help_ = f"where an activity ends so, write `{outcome}`"
+            help_ = f"for the outcome of an activity, write `{outcome}`"
             report.report("unresolved-name", ref.span, kind="event", name=name, help=help_)
             return
     instead = None
@@ -379,7 +379,7 @@ def report_state_outside(
         arrow.target.span,
         kind=f"state in `{container.name}`",
         name=arrow.target.name,
-        related=(Label(outside.name.span, "this one is not inside"),),
+        related=(Label(outside.name.span, "this state is not inside"),),
         help=f"{what} a state inside `{container.name}`",
     )
 

@@ -121,10 +121,10 @@ class TypeLinker:
         if ref.name not in ("string", "wstring"):
             what, size, help_ = f"a `{ref.name}`", "a bound", "`[<=4]` is the bound of an array"
         elif not ref.bound.startswith("<="):
-            what, size, help_ = "a text", "such a bound", f"write `{ref.name}<={bound_of(ref)}`"
+            what, size, help_ = "a string", "such a bound", f"write `{ref.name}<={bound_of(ref)}`"
         elif not is_size(bound_of(ref)):
-            what, size = "a text", f"at most {bound_of(ref)} characters"
-            help_ = f"write `{ref.name}` for a text of any length"
+            what, size = "a string", f"at most {bound_of(ref)} characters"
+            help_ = f"write `{ref.name}` for a string of any length"
         else:
             return True
         self._report.report("impossible-array", ref.span, what=what, size=size, help=help_)
@@ -136,5 +136,5 @@ class TypeLinker:
             "type-cycle",
             first.type.span,
             name=first.name,
-            related=tuple(Label(alias.type.span, "by way of this") for alias in others),
+            related=tuple(Label(alias.type.span, "through this") for alias in others),
         )

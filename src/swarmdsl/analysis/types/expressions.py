@@ -147,7 +147,7 @@ class Typing:
             case int() | float() if abs(value) > _LARGEST_FLOAT32 and wanted == _FLOAT32:
                 help_ = "larger numbers need a `float64`"
             case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):
-                found = f"a text of {len(value)} characters"
+                found = f"a string of {len(value)} characters"
             case _:
                 return
         self.report.report(

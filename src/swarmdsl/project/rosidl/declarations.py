@@ -97,7 +97,7 @@ def _type(span: Span, package: str) -> tuple[TypeRef, int | None]:
         )
     if bound is not None and (name not in TEXTS or not int(bound)):
         raise InterfaceError(
-            span, f"`{span.text}` is no type", "texts can have a bound: `string<=10`"
+            span, f"`{span.text}` is no type", "strings can have a bound: `string<=10`"
         )
     if name in _SAME_TYPE:
         name = _SAME_TYPE[name]
@@ -112,7 +112,7 @@ def _name(span: Span, type_: Span) -> Word:
     name = Word(span.text, span)
     if _NAME.fullmatch(name):
         return name
-    advice = "a name is made of letters, digits and `_`, and starts with a letter"
+    advice = "a name has letters, digits and `_`, and starts with a letter"
     if found := re.fullmatch(r"(\w+)(\[.*\])", name):
         advice = f"write `{type_.text}{found[2]} {found[1]}`"
     elif name.endswith((",", ";")):
@@ -125,7 +125,7 @@ def _constant(name: Word, type_: TypeRef, bound: int | None, rest: Span) -> Line
         raise InterfaceError(
             type_.span,
             f"a constant cannot be of type `{type_.span.text}`",
-            "a constant is a number, a text or a truth value",
+            "a constant is a number, a string or a Boolean",
         )
     span, comment = _split(rest)
     if type_.name in TEXTS and not is_quoted(span.text):

@@ -73,7 +73,7 @@ def read_value(span: Span, type_: str, bound: int | None = None) -> Value:
     if type_ in TEXTS:
         value = _text(span)
         if bound is not None and len(value) > bound:
-            raise InterfaceError(span, f"the text is longer than {bound} characters")
+            raise InterfaceError(span, f"the string is longer than {bound} characters")
         return Value(span, value)
     if type_ == "bool":
         value, help_ = _BOOLEANS.get(text.lower()), "write `true` or `false`"
@@ -92,7 +92,7 @@ def _text(span: Span) -> str:
     if quote not in ("'", '"'):
         return text
     if not is_quoted(text):
-        raise InterfaceError(span, f"this text has no closing `{quote}`, or goes on after it")
+        raise InterfaceError(span, f"this string has no closing `{quote}`, or goes on after it")
     return text[1:-1].replace("\\" + quote, quote)
 
 
