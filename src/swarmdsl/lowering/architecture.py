@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from swarmdsl import ir
-from swarmdsl.analysis.port_nets import PortKey, PortTopic, port_groups
+from swarmdsl.analysis.port_groups import PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.base.naming import snake_case
 from swarmdsl.lowering.context import Context

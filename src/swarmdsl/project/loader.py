@@ -195,25 +195,25 @@ class _Loader:
     def _imported(self, file: File, statement: Import) -> Iterator[_Step]:
         folder = Path(file.source.name).parent
         match statement:
-            case ImportFile(path=wanted) if Path(wanted).suffix[1:] in INTERFACE_KINDS:
+            case ImportFile(path=target) if Path(target).suffix[1:] in INTERFACE_KINDS:
                 self._report.report(
                     "not-a-file",
-                    wanted.span,
-                    path=wanted,
+                    target.span,
+                    path=target,
                     actual="an interface of ROS",
                     expected="a .swarm file",
-                    help=f'write `import ros "{Path(wanted).parent.as_posix()}"`, with its folder',
+                    help=f'write `import ros "{Path(target).parent.as_posix()}"`, with its folder',
                 )
-            case ImportFile(path=wanted):
-                yield _Step(_relative(folder, wanted), file, statement)
-            case ImportRos(path=wanted):
-                place = _relative(folder, wanted)
-                if not self._reader.allows(place, wanted.span, self._report):
+            case ImportFile(path=target):
+                yield _Step(_relative(folder, target), file, statement)
+            case ImportRos(path=target):
+                place = _relative(folder, target)
+                if not self._reader.allows(place, target.span, self._report):
                     return
                 # Most files import no interfaces.
                 from swarmdsl.project.rosidl.package_folder import find_interfaces
 
-                found = find_interfaces(place, wanted.span, self._report, look=self._reader.look)
+                found = find_interfaces(place, target.span, self._report, look=self._reader.look)
                 for interface in found:
                     yield _Step(interface.path, file, statement, interface)
             case ImportLibrary():
@@ -284,9 +284,9 @@ def expanded(paths: Iterable[Path], report: Diagnostics) -> Iterator[Path]:
         yield from found
 
 
-def _relative(folder: Path, wanted: str) -> Path:
+def _relative(folder: Path, path: str) -> Path:
     """Return the normalized path of an import in a folder."""
-    return Path(os.path.normpath(folder / wanted))
+    return Path(os.path.normpath(folder / path))
 
 
 def parsed_interface(interface: InterfacePath, source: Source, report: Diagnostics) -> Parsed:
@@ -321,11 +321,11 @@ def report_empty(source: Source, model: Model, report: Diagnostics) -> None:
 
 def _report_cycles(files: list[File], report: Diagnostics) -> None:
     for file, imports in cycles(files, lambda file: file.imports):
-        *way, last = imports
+        *earlier, last = imports
         report.report(
             "import-cycle",
             place_of(last),
             path=file.source.name,
-            related=tuple(Label(place_of(step), "through this import") for step in way),
-            help="move what both files need to a third one" if way else "remove this import",
+            related=tuple(Label(place_of(step), "through this import") for step in earlier),
+            help="move what both files need to a third one" if earlier else "remove this import",
         )

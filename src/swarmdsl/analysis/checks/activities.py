@@ -97,7 +97,7 @@ def check_arguments(
     """
     exist = True
     for argument in arguments:
-        wanted = None
+        expected = None
         if fields is not None:
             field = next((known for known in fields if known.name == argument.name), None)
             if field is None:
@@ -106,8 +106,8 @@ def check_arguments(
                     owner, argument.name, argument.name.span, fields, typing.report
                 )
             else:
-                wanted = field.type.type
-        typing.expect(argument.value.tree, wanted)
+                expected = field.type.type
+        typing.expect(argument.value.tree, expected)
     return exist
 
 
@@ -149,8 +149,8 @@ def _check_result(
         report_unknown_field(owner, result.field, result.field.span, fields, context.report)
     if tree is None or found is None:
         return
-    wanted = context.typing.infer(tree)
-    context.check_fits(found.type.type, wanted, result.span)
+    expected = context.typing.infer(tree)
+    context.check_fits(found.type.type, expected, result.span)
 
 
 def _check_callback(

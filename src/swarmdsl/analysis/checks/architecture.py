@@ -71,12 +71,12 @@ def check_inheritance(project: Project, context: Context) -> None:
     has_cycles = False
     for owner, spans in cycles(owners, bases):
         has_cycles = True
-        *way, last = spans
+        *earlier, last = spans
         context.report.report(
             "inheritance-cycle",
             last,
             name=owner.name,
-            related=tuple(Label(span, "through this") for span in way),
+            related=tuple(Label(span, "through this") for span in earlier),
         )
     if not has_cycles:
         _check_depth(owners, context.report)
@@ -126,8 +126,8 @@ def _check_settings(settings: CommunicationSettings, context: Context) -> None:
                 help=suggest(value.name, _SETTINGS, "settings"),
             )
             continue
-        wanted = INT if value.name == "port" else STRING
-        context.expect(value.value, wanted, context.typing)
+        expected = INT if value.name == "port" else STRING
+        context.expect(value.value, expected, context.typing)
 
 
 def _check_params_given(owner: Component | Member, use: BehaviorUse, context: Context) -> None:

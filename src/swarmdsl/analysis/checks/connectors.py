@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.port_nets import PortGroup, PortKey, PortTopic, port_groups
+from swarmdsl.analysis.port_groups import PortGroup, PortKey, PortTopic, port_groups
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.types import fits
 from swarmdsl.base.diagnostics.collector import Label
@@ -91,11 +91,11 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
         if part.component.target is not None:
             ports = all_items(part.component.target, Port)
             declared.update(((str(part.name), str(port.name)), port) for port in ports)
-    topics = {pin: _topic(pin, port) for pin, port in declared.items()}
+    topics = {key: _topic(key, port) for key, port in declared.items()}
     ends = [(connector.source, connector.target) for connector in connectors]
-    at = {_pin(end): end for both in reversed(ends) for end in both}
+    at = {_key(end): end for both in reversed(ends) for end in both}
     first: dict[str, PortGroup] = {}
-    for group in port_groups(topics, ((_pin(source), _pin(target)) for source, target in ends)):
+    for group in port_groups(topics, ((_key(source), _key(target)) for source, target in ends)):
         other = first.setdefault(group.topic, group)
         if other is not group:
             context.report.report(
@@ -107,27 +107,27 @@ def _check_topics(member: Member, connectors: list[Connector], context: Context)
             )
         if group.ports[0][0] is None:
             continue
-        for pin in group.ports:
-            if topics[pin].given and topics[pin].topic != group.topic:
+        for key in group.ports:
+            if topics[key].given and topics[key].topic != group.topic:
                 context.report.report(
                     "replaced-topic",
-                    at[pin].span,
-                    port=at[pin].span.text,
+                    at[key].span,
+                    port=at[key].span.text,
                     topic=group.topic,
-                    own=topics[pin].topic,
-                    related=(Label(declared[pin].name.span, "declared here"),),
-                    help="what is connected is on one topic: give it at one of the ports, or at "
-                    "a port of the member",
+                    own=topics[key].topic,
+                    related=(Label(declared[key].name.span, "declared here"),),
+                    help="connected ports share one topic: give it at one of the ports, or at a "
+                    "port of the member",
                 )
 
 
-def _topic(pin: PortKey, port: Port) -> PortTopic:
+def _topic(key: PortKey, port: Port) -> PortTopic:
     name = snake_case(port.name)
     topic = str(port.topic) if port.topic is not None else name
-    return PortTopic(topic, pin[0] is None or topic != name, port.direction != "in")
+    return PortTopic(topic, key[0] is None or topic != name, port.direction != "in")
 
 
-def _pin(end: PortRef) -> PortKey:
+def _key(end: PortRef) -> PortKey:
     return end.part.name if end.part is not None else None, end.port.name
 
 

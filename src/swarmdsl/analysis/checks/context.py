@@ -88,28 +88,28 @@ class Context:
             self.conditions.clear()
             self.guard_values.clear()
 
-    def expect(self, expression: Expression | None, wanted: Type | None, typing: Typing) -> None:
+    def expect(self, expression: Expression | None, expected: Type | None, typing: Typing) -> None:
         """Check the type of an expression."""
         if expression is not None:
-            typing.expect(expression.tree, wanted)
+            typing.expect(expression.tree, expected)
 
-    def check_fits(self, found: Type | None, wanted: Type | None, at: Span) -> None:
-        """Check that a value of type `found` can be stored as `wanted`."""
-        if not fits(found, wanted):
-            self.report.report("type-mismatch", at, expected=f"`{wanted}`", found=f"`{found}`")
+    def check_fits(self, found: Type | None, expected: Type | None, at: Span) -> None:
+        """Check that a value of type `found` can be stored as `expected`."""
+        if not fits(found, expected):
+            self.report.report("type-mismatch", at, expected=f"`{expected}`", found=f"`{found}`")
 
     def check_default(self, owner: Param | Variable, value: Expression | None) -> None:
         """Check an initial or default value: a constant of the type of its owner."""
         if value is not None:
             self.check_constant(value, owner.type.type)
 
-    def check_constant(self, value: Expression, wanted: Type | None) -> None:
+    def check_constant(self, value: Expression, expected: Type | None) -> None:
         """Check a constant of a type."""
         if value.tree is None:
             return
         if not constant(value.tree):
             self.report.report("not-constant", value.span)
-        self.typing.expect(value.tree, wanted)
+        self.typing.expect(value.tree, expected)
 
     def check_number(self, value: Expression) -> None:
         """Check that a value is a number."""
@@ -119,13 +119,13 @@ class Context:
         if found is not None and not is_number(found):
             self.report.report("type-mismatch", value.span, expected="a number", found=f"`{found}`")
 
-    def check_kind(self, ref: TypeRef, wanted: type[Interface]) -> None:
+    def check_kind(self, ref: TypeRef, kind: type[Interface]) -> None:
         """Check that a type is a message, an action or a service, if its interface is known."""
         element = ref.type.element if isinstance(ref.type, Array) else ref.type
-        known = self.interfaces.get(element, wanted) if isinstance(element, Named) else None
+        known = self.interfaces.get(element, kind) if isinstance(element, Named) else None
         unknown = isinstance(element, Named) and known is None
         # A struct is a message that a model defines.
-        kinds = (MessageType, StructType) if wanted is MessageType else wanted
+        kinds = (MessageType, StructType) if kind is MessageType else kind
         fine = element is ref.type and (unknown or isinstance(known, kinds))
         if ref.type is not None and not fine:
             self.report.report(
@@ -133,7 +133,7 @@ class Context:
                 ref.span,
                 name=ref.span.text,
                 actual=_kind_of_type(ref, known),
-                expected=kind_of(wanted),
+                expected=kind_of(kind),
                 related=(Label(known.name.span, "declared here"),) if known else (),
             )
 

@@ -59,12 +59,12 @@ def check_message_cycles(project: Project, context: Context) -> None:
                 yield field, element
 
     for type_, fields in cycles(messages, inside):
-        *way, last = fields
+        *earlier, last = fields
         context.report.report(
             "type-cycle",
             last.type.span,
             name=type_.name,
-            related=tuple(Label(field.type.span, "through this field") for field in way),
+            related=tuple(Label(field.type.span, "through this field") for field in earlier),
         )
 
 
@@ -208,9 +208,9 @@ def check_function(function: Function, context: Context) -> None:
     for item in function.items:
         match item:
             case Communication():
-                wanted = ActionType if item.paradigm == "action" else ServiceType
-                check_graph_name(item.name, kind_of(wanted), context)
-                context.check_kind(item.type, wanted)
+                kind = ActionType if item.paradigm == "action" else ServiceType
+                check_graph_name(item.name, kind_of(kind), context)
+                context.check_kind(item.type, kind)
             case FunctionPort():
                 check_graph_name(item.topic, "a topic", context)
                 context.check_kind(item.type, MessageType)

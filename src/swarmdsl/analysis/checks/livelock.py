@@ -136,11 +136,11 @@ def _is_always_taken(branch: Branch, context: Context) -> bool:
 
 
 def _report(name: str, at: Vertex, steps: Sequence[Step], help_: str, context: Context) -> None:
-    *way, last = (step.target.span for step in steps if step.target is not None)
+    *earlier, last = (step.target.span for step in steps if step.target is not None)
     context.report.report(
         name,
         last,
         name=at.name,
-        related=tuple(Label(span, "through this transition") for span in way),
+        related=tuple(Label(span, "through this transition") for span in earlier),
         help=help_,
     )

@@ -41,12 +41,12 @@ def check_submachines(project: Project, context: Context) -> None:
     has_cycles = False
     for machine, uses in cycles(reuse, lambda machine: reuse[machine].uses):
         has_cycles = True
-        *way, last = uses
+        *earlier, last = uses
         context.report.report(
             "submachine-cycle",
             last.span,
             name=machine.name,
-            related=tuple(Label(use.span, "through this state") for use in way),
+            related=tuple(Label(use.span, "through this state") for use in earlier),
         )
     if not has_cycles:
         _check_growth(reuse, context)

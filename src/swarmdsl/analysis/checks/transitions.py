@@ -154,10 +154,10 @@ def _check_targets(machine: StateMachine, context: Context) -> None:
         target = arrow.target.target if arrow.target is not None else None
         if arrow.target is None or target is None:
             continue
-        ways = zip(
+        pairs = zip(
             _regions_around(source, hierarchy), _regions_around(target, hierarchy), strict=False
         )
-        for here, there in ways:
+        for here, there in pairs:
             if here is not there and hierarchy.parent[here] is hierarchy.parent[there]:
                 context.report.report(
                     "target-outside",

@@ -20,12 +20,12 @@ def open_cycles(project: Project, report: Diagnostics) -> None:
                 yield node, node.target
 
     for constant, uses in cycles(constants, used):
-        *way, last = uses
+        *earlier, last = uses
         report.report(
             "constant-cycle",
             last.span,
             name=constant.name,
-            related=tuple(Label(use.span, "through this") for use in way),
-            help="write the value of one of them" if way else "write its value",
+            related=tuple(Label(use.span, "through this") for use in earlier),
+            help="write the value of one of them" if earlier else "write its value",
         )
         last.target = None

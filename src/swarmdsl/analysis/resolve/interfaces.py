@@ -68,17 +68,17 @@ class Interfaces:
                 self.declared.setdefault(name, node)
                 self._packages.setdefault(name.package, []).append(name.name)
 
-    def get(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
+    def get(self, type_: Named, kind: type[Interface] = MessageType) -> Interface | None:
         """Return the interface of a name, None if it is unknown.
 
-        `wanted` chooses between several of one name in ROS (`nav_msgs/GetMap`).
+        `kind` chooses between several of one name in ROS (`nav_msgs/GetMap`).
         """
         found = self.declared.get(type_)
-        return found if found is not None else self.standard(type_, wanted)
+        return found if found is not None else self.standard(type_, kind)
 
-    def standard(self, type_: Named, wanted: type[Interface] = MessageType) -> Interface | None:
+    def standard(self, type_: Named, kind: type[Interface] = MessageType) -> Interface | None:
         """Return the standard interface of ROS with a name, whatever the project declares."""
-        found = standard.lookup(type_, _KINDS.get(wanted)) or standard.lookup(type_)
+        found = standard.lookup(type_, _KINDS.get(kind)) or standard.lookup(type_)
         for ref in nodes_of(found, TypeRef) if found is not None else ():
             if ref.type is None:
                 ref.type = written_type(ref)

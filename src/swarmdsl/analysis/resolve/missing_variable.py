@@ -68,18 +68,18 @@ def suggest_variable(
         return f"declare it in `{owner.name}`: `in {use.name} : float64`"
     around = _around(within, use)
     if around is None:
-        wanted = _expected_type(within, owner, scope.interfaces)
+        expected = _expected_type(within, owner, scope.interfaces)
     elif isinstance(around, OperatorUse) and around.operator in _LOGIC:
-        wanted = BOOL
+        expected = BOOL
     elif isinstance(around, OperatorUse) and around.operator in _COMPARISONS:
         (beside,) = (operand for operand in around.operands if operand is not use)
-        wanted = _type_of(beside)
+        expected = _type_of(beside)
     else:
-        wanted = None
-    written = _written(wanted, scope) if wanted is not None else None
-    if wanted is None or written is None:
+        expected = None
+    written = _written(expected, scope) if expected is not None else None
+    if expected is None or written is None:
         return f"declare it in `{owner.name}` with its type: `var {use.name} : ...`"
-    return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(wanted)}`"
+    return f"declare it in `{owner.name}`: `var {use.name} : {written}{_initial(expected)}`"
 
 
 def _initial(type_: Type) -> str:

@@ -65,8 +65,8 @@ class TypeLinker:
             if not isinstance(found, AliasType):
                 break
             if found in aliases:
-                way = list(aliases)
-                self._report_cycle(way[way.index(found) :])
+                seen = list(aliases)
+                self._report_cycle(seen[seen.index(found) :])
                 self._endless.update(aliases)
             if found in self._endless:
                 break

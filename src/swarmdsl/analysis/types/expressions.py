@@ -97,25 +97,25 @@ class Typing:
         """Return the type of an operation on operands of these types."""
         return Application(tree, types, self._is_enum, self.report).result()
 
-    def expect(self, tree: ExpressionTree | None, wanted: Type | None) -> bool:
-        """Report an expression that does not fit type `wanted`; return True for a correct one."""
+    def expect(self, tree: ExpressionTree | None, expected: Type | None) -> bool:
+        """Report an expression that does not fit type `expected`; return True for a correct one."""
         if tree is None:
             return True
         before = len(self.report)
         found = self.infer(tree)
-        if fits(found, wanted):
+        if fits(found, expected):
             value = self.folding.value(tree)
             if value is not None and len(self.report) == before:
-                self._check_size(tree, value, wanted)
+                self._check_size(tree, value, expected)
         else:
-            help_ = _bool_hint(tree, found) if wanted == BOOL else None
-            if wanted == DURATION and isinstance(tree, Value) and is_number(found):
+            help_ = _bool_hint(tree, found) if expected == BOOL else None
+            if expected == DURATION and isinstance(tree, Value) and is_number(found):
                 help_ = f"give it a unit: `{tree.span.text} s`"
-            enum = self.interfaces.get(wanted) if isinstance(wanted, Named) else None
+            enum = self.interfaces.get(expected) if isinstance(expected, Named) else None
             if isinstance(enum, EnumType) and enum.values and is_number(found):
                 help_ = f"name one of its values: `{enum.name}.{enum.values[0].name}`"
             self.report.report(
-                "type-mismatch", tree.span, expected=f"`{wanted}`", found=f"`{found}`", help=help_
+                "type-mismatch", tree.span, expected=f"`{expected}`", found=f"`{found}`", help=help_
             )
         return len(self.report) == before
 
@@ -131,27 +131,27 @@ class Typing:
             self.report.report("no-result", tree.span, operator=operator, fault=fault)
         return type_
 
-    def _check_size(self, tree: ExpressionTree, value: Folded, wanted: Type | None) -> None:
+    def _check_size(self, tree: ExpressionTree, value: Folded, expected: Type | None) -> None:
         """Report a constant that is too large for its type."""
         found, help_ = f"`{value}`", None
         match value:
             case bool():
                 return
-            case int() if (possible := range_of(wanted)) is not None and value not in possible:
+            case int() if (possible := range_of(expected)) is not None and value not in possible:
                 help_ = f"it is a number from {possible[0]} to {possible[-1]}"
-            case int() | float() if wanted == DURATION:
+            case int() | float() if expected == DURATION:
                 if -_LONGEST <= value < _LONGEST:
                     return
                 found = f"`{value / 1e9:.12g} s`"
                 help_ = f"ROS counts its seconds in an `int32`: they are {2**31 - 1} at most"
-            case int() | float() if abs(value) > _LARGEST_FLOAT32 and wanted == _FLOAT32:
+            case int() | float() if abs(value) > _LARGEST_FLOAT32 and expected == _FLOAT32:
                 help_ = "larger numbers need a `float64`"
-            case str() if isinstance(wanted, Primitive) and len(value) > (wanted.bound or inf):
+            case str() if isinstance(expected, Primitive) and len(value) > (expected.bound or inf):
                 found = f"a string of {len(value)} characters"
             case _:
                 return
         self.report.report(
-            "type-mismatch", tree.span, expected=f"`{wanted}`", found=found, help=help_
+            "type-mismatch", tree.span, expected=f"`{expected}`", found=found, help=help_
         )
 
     def field(self, owner: Type | None, name: str, at: Span) -> Type | None:

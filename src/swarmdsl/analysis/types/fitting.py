@@ -12,20 +12,24 @@ _RANGES = {
 }
 
 
-def fits(found: Type | None, wanted: Type | None) -> bool:
-    """Return True if a value of type `found` can be used as `wanted`."""
-    if found is None or wanted is None or found is wanted or found == wanted:
+def fits(found: Type | None, expected: Type | None) -> bool:
+    """Return True if a value of type `found` can be used as `expected`."""
+    if found is None or expected is None or found is expected or found == expected:
         return True
-    if isinstance(found, Array) and isinstance(wanted, Array):
-        if wanted.size is None or (wanted.bounded and found.size is not None):
-            enough = wanted.size is None or (found.size or 0) <= wanted.size
+    if isinstance(found, Array) and isinstance(expected, Array):
+        if expected.size is None or (expected.bounded and found.size is not None):
+            enough = expected.size is None or (found.size or 0) <= expected.size
         else:
-            enough = wanted.size == found.size and not found.bounded
-        return enough and fits(found.element, wanted.element)
-    if isinstance(found, Primitive) and isinstance(wanted, Primitive) and found.name == wanted.name:
+            enough = expected.size == found.size and not found.bounded
+        return enough and fits(found.element, expected.element)
+    if (
+        isinstance(found, Primitive)
+        and isinstance(expected, Primitive)
+        and found.name == expected.name
+    ):
         return True  # strings of different bounds
-    if is_number(found) and is_number(wanted):
-        return is_float(wanted) or not is_float(found)
+    if is_number(found) and is_number(expected):
+        return is_float(expected) or not is_float(found)
     return False
 
 

@@ -112,12 +112,12 @@ def _name(span: Span, type_: Span) -> Word:
     name = Word(span.text, span)
     if _NAME.fullmatch(name):
         return name
-    advice = "a name has letters, digits and `_`, and starts with a letter"
+    hint = "a name has letters, digits and `_`, and starts with a letter"
     if found := re.fullmatch(r"(\w+)(\[.*\])", name):
-        advice = f"write `{type_.text}{found[2]} {found[1]}`"
+        hint = f"write `{type_.text}{found[2]} {found[1]}`"
     elif name.endswith((",", ";")):
-        advice = f"a line has one field and nothing after it: `{type_.text} {name[:-1]}`"
-    raise InterfaceError(span, f"`{name}` cannot be a name", advice)
+        hint = f"a line has one field and nothing after it: `{type_.text} {name[:-1]}`"
+    raise InterfaceError(span, f"`{name}` cannot be a name", hint)
 
 
 def _constant(name: Word, type_: TypeRef, bound: int | None, rest: Span) -> Line:

@@ -229,9 +229,9 @@ class _Finder:
             return None
         return name or None
 
-    def _bad_name(self, name: str, what: str, advice: str) -> None:
+    def _bad_name(self, name: str, what: str, hint: str) -> None:
         message = f"`{name}` cannot be the name of a ROS {what}"
-        self._report.report("syntax-error", self._at, message=message, help=advice)
+        self._report.report("syntax-error", self._at, message=message, help=hint)
         self.reported = True
 
     def _unreadable(self, error: OSError) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from swarmdsl.analysis.port_nets import PortKey, PortTopic, port_groups
+from swarmdsl.analysis.port_groups import PortKey, PortTopic, port_groups
 
 
 def _pin(text: str) -> PortKey:
