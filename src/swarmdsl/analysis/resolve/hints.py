@@ -12,7 +12,7 @@ from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import states_by_name
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.project.loader import File
-from swarmdsl.syntax.ast import EnumType, ImportLibrary, Vertex
+from swarmdsl.syntax.ast import Declaration, EnumType, ImportLibrary, Node, Vertex
 from swarmdsl.syntax.types import PRIMITIVES
 
 # Names of the outcomes of an activity in SMACH, YASMIN and behaviour trees.
@@ -41,7 +41,29 @@ def other_outcome(name: str) -> str | None:
     return _OTHER_OUTCOMES.get(name.lower())
 
 
-def import_path(other: File, name: str, scope: FileScope) -> str:
+def declared_elsewhere(
+    name: str, kinds: tuple[type[Node], ...], scope: FileScope
+) -> tuple[Declaration, str] | None:
+    """Return a declaration in a file that is not imported, and the import that adds it."""
+    for file, node in scope.project.declarations():
+        if node.name == name and isinstance(node, kinds):
+            return node, f"import {_import_path(file, name, scope)}"
+    return None
+
+
+def candidates_for(
+    name: str, kinds: tuple[type[Node], ...], scope: FileScope
+) -> dict[str, Declaration]:
+    """Return the visible declarations of these kinds, qualified by the package of `name`."""
+    package = name.rpartition(".")[0]
+    found = {key: node for key, node in scope.visible().items() if isinstance(node, kinds)}
+    if package not in scope.packages:
+        return found
+    qualified = {key: scope.find(key) for key in (f"{package}.{last}" for last in found)}
+    return {key: nodes[0][1] for key, nodes in qualified.items() if nodes}
+
+
+def _import_path(other: File, name: str, scope: FileScope) -> str:
     """Path of an import statement for a declaration of another file: a package or a file."""
     for file in scope.project.files:
         for statement, target in file.imports:

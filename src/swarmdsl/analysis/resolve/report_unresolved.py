@@ -188,51 +188,38 @@ def _report_missing_declaration(
     report: Diagnostics,
     hint: Hint | None,
 ) -> None:
+    """Report a missing declaration with the best hint.
+
+    A declaration in another file is best, then an import from the library, a similar name, and
+    a declaration to add.
+    """
     kind = _kind_of_any(kinds).split(" ", 1)[1]
     if not report.wants_hint("unresolved-name"):
         report.report("unresolved-name", at, kind=kind, name=name)
         return
-    elsewhere = next(
-        (
-            (file, node)
-            for file, node in scope.project.declarations()
-            if node.name == name and isinstance(node, kinds)
-        ),
-        None,
-    )
-    if elsewhere is not None:
-        from swarmdsl.analysis.resolve.hints import import_path
-
-        file, node = elsewhere
-        report.report(
-            "unresolved-name",
-            at,
-            kind=kind,
-            name=name,
-            related=(Label(node.name.span, "declared in a file that is not imported"),),
-            help=f"add `import {import_path(file, name, scope)}`",
-        )
-        return
-    names = scope.visible()
-    candidates = [key for key, node in names.items() if isinstance(node, kinds)]
-    package, _, _ = name.rpartition(".")
-    if package in scope.packages:
-        candidates = [f"{package}.{key}" for key in candidates if scope.find(f"{package}.{key}")]
-        names = {key: scope.find(key)[0][1] for key in candidates}
-    if package:
-        report_missing(kind, name, at, [*built_in, *candidates], report, nodes=names)
-        return
+    from swarmdsl.analysis.resolve.hints import candidates_for, declared_elsewhere
     from swarmdsl.analysis.resolve.missing_declaration import suggest_declaration, suggest_import
 
-    line = suggest_import(name, kinds, scope.project)
-    if line is not None:
-        report.report("unresolved-name", at, kind=kind, name=name, help=f"add `{line}`")
+    elsewhere = declared_elsewhere(name, kinds, scope)
+    if elsewhere is not None:
+        node, line = elsewhere
+        label = Label(node.name.span, "declared in a file that is not imported")
+        help_ = f"add `{line}`"
+        report.report("unresolved-name", at, kind=kind, name=name, related=(label,), help=help_)
+        return
+    qualified = "." in name
+    if not qualified and (library := suggest_import(name, kinds, scope.project)) is not None:
+        report.report("unresolved-name", at, kind=kind, name=name, help=f"add `{library}`")
         return
 
     def declaration() -> str | None:
+        if qualified:
+            return None
         return suggest_declaration(name, kinds) or (hint() if hint is not None else None)
 
-    report_missing(kind, name, at, [*built_in, *candidates], report, nodes=names, hint=declaration)
+    nodes = candidates_for(name, kinds, scope)
+    candidates = [*built_in, *nodes]
+    report_missing(kind, name, at, candidates, report, nodes=nodes, hint=declaration)
 
 
 def _may_be_skipped(name: str, scope: FileScope) -> bool:
