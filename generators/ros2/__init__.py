@@ -1,4 +1,4 @@
-"""ROS 2: an ament_python package whose nodes run the state machines on rclpy."""
+"""Target `ros2`: an ament_python package whose nodes run the state machines on rclpy."""
 
 from __future__ import annotations
 

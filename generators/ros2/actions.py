@@ -1,6 +1,7 @@
-"""Messages that belong to actions: what a model calls as ROS 1 does is inside of a class in ROS 2.
+"""Messages of actions, which models name as in ROS 1.
 
-A topic of such messages, `fly/feedback` of `uav_msgs/FlyActionFeedback`, is a hidden one there.
+In ROS 2 they are inside the class of the action, and their topics are hidden: topic `fly/feedback`
+of `uav_msgs/FlyActionFeedback` is `fly/_action/feedback`.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ _PARTS = {
     "Result": "Result",
     "Feedback": "Feedback",
     "ActionFeedback": "Impl.FeedbackMessage",
-    # Services in ROS 2, of which nobody else hears.
+    # Services in ROS 2, to which no other node can subscribe.
     "ActionGoal": "Impl.SendGoalService",
     "ActionResult": "Impl.GetResultService",
 }
@@ -43,7 +44,7 @@ _HIDDEN = "/_action/feedback"
 
 
 def messages_of_actions(system: System) -> Mapping[Named, str]:
-    """How Python writes the messages that belong to actions, by their names in a model."""
+    """Return the messages of actions in Python, by their names in the model."""
     calls = (function.communication for function in system.functions)
     actions = {call.type for call in calls if call.paradigm == "action"}
     actions |= {each.type for each in system.interfaces if isinstance(each, Action)}
@@ -57,7 +58,7 @@ def messages_of_actions(system: System) -> Mapping[Named, str]:
 
 
 def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
-    """The topic of an event whose message belongs to an action: that has to be its feedback."""
+    """Return the topic of an event with a message of an action; only feedback is supported."""
     assert isinstance(event.type, Named)
     if is_sent or not event.type.name.endswith(_FEEDBACK):
         way = "sent" if is_sent else "heard"
@@ -72,7 +73,7 @@ def feedback_topic(event: Event, is_sent: bool, report: Diagnostics) -> str:
 
 
 def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Diagnostics) -> None:
-    """Report what is used of feedback in ROS 1 only: its header and the status of its goal."""
+    """Report uses of the fields of feedback that only ROS 1 has: header and goal status."""
     kept = {each.name: each.type for each in machine.variables}
     for state in machine.walk():
         read = ((use.base.type, use.field, use.origin) for use in _fields_read(state))
@@ -84,12 +85,12 @@ def check_feedback(machine: StateMachine, made: Mapping[Named, str], report: Dia
                     origin or state.origin,
                     target=TARGET,
                     construct=f"field `{field}` of `{owner}`",
-                    help="of that message in ROS 2, a model can use `feedback` only",
+                    help="in ROS 2, only field `feedback` of that message can be used",
                 )
 
 
 def _stored(state: State) -> Iterator[tuple[str, tuple[str, ...], Span | None]]:
-    """The variables that are assigned to, with the path below each, and where."""
+    """Yield each assigned variable with the path of the field and its place in the model."""
     effects = [*state.entry, *state.exit, *(e for each in state.transitions for e in each.effects)]
     for effect in effects:
         if isinstance(effect, Assignment):

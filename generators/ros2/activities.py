@@ -1,4 +1,4 @@
-"""What states call: goals and requests, and what becomes of results and responses."""
+"""Activities: goals and requests of calls, and handling of results and responses."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .names import field_name
 
 
 def activity_of(state: State, activity: Activity, module: Module) -> Call:
-    """The call of a function in the table."""
+    """Return the `Activity(...)` of a state for the table."""
     module.imports.own("engine", "Activity")
     module.imports.own("host", "outcomes")
     call = module.system.function(activity.function).communication

@@ -1,4 +1,4 @@
-"""Effects as statements of Python, and messages that are filled."""
+"""Effects as Python statements, and messages with values in their fields."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .names import field_name
 
 
 def effects_of(what: str, state: str, effects: Sequence[Effect], module: Module) -> Source:
-    """A function that does the effects in their order."""
+    """Add a function that performs the effects in order; return its name."""
     lines = [line for each in effects for line in _effect(each, module)]
     return module.function(what, state, BOTH, lines, effects[0].origin)
 
@@ -40,7 +40,7 @@ def _store(variable: str, path: tuple[str, ...], value: Expression, module: Modu
 
 
 def put(variable: str, path: tuple[str, ...], value: str, module: Module) -> str:
-    """Store a value in a field of a variable."""
+    """Return the statement that stores a value in a field of a variable."""
     module.imports.own("values", "put")
     base = f"{DATA}.{variable}"
     *way, last = map(field_name, path)
@@ -51,14 +51,14 @@ def put(variable: str, path: tuple[str, ...], value: str, module: Module) -> str
 
 
 def filled(type_: str, arguments: Iterable[tuple[str, Expression]], module: Module) -> Call:
-    """A new message with these fields."""
+    """Return the expression of a new message with these fields."""
     values = [
         (field_name(name), python_expression(value, module.imports)) for name, value in arguments
     ]
     if not values:
         return Call(type_)
     module.imports.own("values", "filled")
-    # What Python has a keyword for is no name of an argument.
+    # A keyword of Python cannot be the name of an argument.
     odd = [Source(f"**{{{name!r}: {value}}}") for name, value in values if iskeyword(name)]
     plain = [(name, Source(value)) for name, value in values if not iskeyword(name)]
     return Call("filled", (Call(type_), *odd), tuple(plain))

@@ -1,4 +1,4 @@
-"""The engine as one file in the style of ROS: what `swarmdsl.execution.engine` has in several."""
+"""The engine `swarmdsl.execution.engine` as one module in the style of ROS."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from inspect import cleandoc
 
 from swarmdsl.codegen import engine_folder
 
-# How docstrings begin that are no orders, as the linters want them to be.
+# First words of docstrings that are not in the imperative, which the linters reject.
 _NOUNS = ("A", "An", "The", "What", "Which")
-# In an order in which each needs only those before it.
+# Each module needs only modules before it.
 _MODULES = ("table", "activity", "world", "step", "configuration", "instance")
 _GONE = "\0"
 _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
@@ -21,12 +21,12 @@ _TOKEN = re.compile(r'"""[\s\S]*?"""|#[^\n]*|f?"(?:[^"\\\n]|\\.)*"')
 
 @cache
 def engine_source() -> str:
-    """The source without what stands at the top of a generated file.
+    """Return the source of the engine without the header of a generated file.
 
-    Strings are in single quotes and docstrings of several lines begin below the quotes, as
-    the linters of ROS 2 want it.
+    Strings have single quotes and docstrings of several lines begin below the quotes, as the
+    linters of ROS 2 require.
     """
-    # It is only read: to import it takes longer.
+    # The source is read, not imported, which is faster.
     folder = engine_folder()
     imports: dict[str, set[str]] = {}
     sections = []
@@ -38,7 +38,7 @@ def engine_source() -> str:
             if isinstance(node, ast.ImportFrom) and node.level == 0 and node.module is not None:
                 imports.setdefault(node.module, set()).update(name.name for name in node.names)
             for inner in _statements(node):
-                _suit(inner, lines)
+                _adapt(inner, lines)
             if _is_left_out(node):
                 end = node.end_lineno or node.lineno
                 lines[node.lineno - 1 : end] = [""] * (end - node.lineno + 1)
@@ -58,7 +58,7 @@ def engine_source() -> str:
 
 
 def _is_left_out(node: ast.stmt) -> bool:
-    """Whether it is an import, one for type checkers, or the docstring of the module."""
+    """Return True for an import, a `TYPE_CHECKING` block, or the docstring of the module."""
     if isinstance(node, ast.If):
         return isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
     if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):
@@ -67,16 +67,16 @@ def _is_left_out(node: ast.stmt) -> bool:
 
 
 def _statements(node: ast.stmt) -> Iterator[ast.stmt]:
-    """A statement and those in its body; nothing else of it is looked at."""
+    """Yield a statement and the statements in its body, but not in other blocks."""
     yield node
     for inner in getattr(node, "body", ()):
         yield from _statements(inner)
 
 
-def _suit(node: ast.stmt, lines: list[str]) -> None:
-    """Make what linters want otherwise to what they take, in the lines of a module.
+def _adapt(node: ast.stmt, lines: list[str]) -> None:
+    """Adapt the lines of a statement to the linters of ROS 2.
 
-    To them the docstring of a function is an order, so others become comments.
+    They require docstrings of functions in the imperative, so other docstrings become comments.
     """
     if isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
         if node.col_offset and hasattr(builtins, node.target.id):

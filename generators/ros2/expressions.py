@@ -1,7 +1,7 @@
 """Expressions, values and types of the model in Python with rclpy.
 
-Durations and times are whole nanoseconds; what a message has of them is read with `get`, as
-is what the model does not know of a message.
+Durations and times are integers in nanoseconds. Fields with them, and fields that the model does
+not describe, are read with `get`.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ _HELD_OTHERWISE = ("byte", "duration", "time")
 
 
 def python_expression(expression: Expression, imports: Imports, data: str = DATA) -> str:
-    """The expression in a function of `machine` and `event`; `data` has variables and params."""
+    """Return an expression for a function of `machine` and `event`, with variables in `data`."""
     made = _for_python(expression)
     for part in subexpressions(made):
         if isinstance(part, Call) and part.function == "sqrt":
@@ -50,9 +50,10 @@ def python_expression(expression: Expression, imports: Imports, data: str = DATA
 
 
 def stored(expression: Expression, wanted: Type, imports: Imports, data: str = DATA) -> str:
-    """A value that is kept in a variable of the type `wanted`.
+    """Return an expression for a variable of the type `wanted`.
 
-    It is a copy, as ROS has it, durations are in whole nanoseconds, and whole numbers fit.
+    Messages are copied, durations become integers in nanoseconds, and integers are checked against
+    the range of the type.
     """
     text = python_expression(expression, imports, data)
     if (bound := bound_of(expression, wanted)) is not None:
@@ -66,17 +67,17 @@ def stored(expression: Expression, wanted: Type, imports: Imports, data: str = D
 
 
 def attribute(base: str, field: str) -> str:
-    """A field of a message to go on from, also one that Python has a keyword for."""
+    """Return the access to a field of a message, by `getattr` if its name is a keyword."""
     return f"getattr({base}, {field!r})" if keyword.iskeyword(field) else f"{base}.{field}"
 
 
 def uses_event(expression: Expression) -> bool:
-    """Whether it needs the message of the triggering event."""
+    """Return True if an expression needs the message of the triggering event."""
     return any(isinstance(part, EventData) for part in subexpressions(expression))
 
 
 def default_value(type_: Type, imports: Imports) -> str:
-    """The value of a variable that the model gives none."""
+    """Return the initial value of a variable that has none in the model."""
     match type_:
         case Array(size=None) | Array(bounded=True):
             return "[]"
@@ -94,7 +95,7 @@ def default_value(type_: Type, imports: Imports) -> str:
 
 
 def _for_python(expression: Expression) -> Expression:
-    """The same with fields as ROS has them."""
+    """Return an expression with the names of fields in ROS 2."""
     match expression:
         case FieldAccess(base=base, field=field, type=type_):
             inner, field = _for_python(base), field_name(field)
@@ -121,7 +122,7 @@ def _literal(literal: Literal) -> str:
 
 @cache
 def _dialect(data: str) -> Dialect:
-    """Python, where `data` has variables and params."""
+    """Return the dialect of Python in which `data` has variables and params."""
     name = f"{data}.{{}}".format
     return Dialect(
         literal=_literal,

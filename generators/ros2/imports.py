@@ -1,4 +1,4 @@
-"""The imports of one generated module."""
+"""Imports of a generated module."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WIDTH = 99
 
 
 class Imports:
-    """Gathers what one module needs; interfaces are called by their modules."""
+    """Collects the imports of a module; interfaces are qualified with their modules."""
 
     def __init__(self, messages_of_actions: Mapping[Named, str]) -> None:
         self.messages_of_actions = messages_of_actions
@@ -21,20 +21,20 @@ class Imports:
         self._names: dict[str, set[str]] = {}
 
     def module(self, name: str) -> None:
-        """Need a module by its own name."""
+        """Import a module by its own name."""
         self._modules.add(name)
 
     def name(self, module: str, name: str) -> str:
-        """Need a name of a module; return it."""
+        """Import a name from a module; return the name."""
         self._names.setdefault(module, set()).add(name)
         return name
 
     def own(self, module: str, name: str) -> str:
-        """Need a name of another module of the package; return it."""
+        """Import a name from another module of the package; return the name."""
         return self.name(f".{module}", name)
 
     def interface(self, type_: Named, kind: str) -> str:
-        """Need an interface, a `msg`, `srv` or `action`; return how to write it."""
+        """Import an interface, a `msg`, `srv` or `action`; return its qualified name."""
         if type_ in self.messages_of_actions:
             self.module(f"{type_.package}.action")
             return self.messages_of_actions[type_]
@@ -42,9 +42,9 @@ class Imports:
         return f"{type_.package}.{kind}.{type_name(type_.name)}"
 
     def lines(self) -> list[str]:
-        """The import statements, sorted as the linters of ROS want it, and blank lines between.
+        """Return the import statements in the order that the linters of ROS require.
 
-        First those of Python's library, then those of ROS, then those of the package.
+        Blank lines separate the standard library, ROS and the package.
         """
         groups: dict[int, list[tuple[str, str]]] = {}
         for module in self._modules:

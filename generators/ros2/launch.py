@@ -1,4 +1,4 @@
-"""What is launched of a swarm: for each role its members, for each member its nodes."""
+"""Launch files of swarms: the members of each role, and the nodes of each member."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .params import given
 
 @dataclass(frozen=True)
 class LaunchedNode:
-    """A node of a member: that of its own behaviour, or of a part of it."""
+    """A node of a member, for its own behaviour or the behaviour of a part."""
 
     executable: str
     name: str
@@ -34,9 +34,9 @@ class LaunchedNode:
 
 @dataclass(frozen=True)
 class LaunchedRole:
-    """A role of the swarm; `least` members are launched if nothing else is said.
+    """A role of the swarm, of which `least` members are launched by default.
 
-    `components` is the launch file, in another package, of the nodes of its components.
+    `components` is the launch file of the nodes of its components, in another package.
     """
 
     name: str
@@ -50,7 +50,7 @@ class LaunchedRole:
 
 @dataclass(frozen=True)
 class Launch:
-    """A launch file: that of a swarm."""
+    """The launch file of a swarm."""
 
     name: str
     swarm: str
@@ -61,17 +61,17 @@ class Launch:
 
     @property
     def has_components(self) -> bool:
-        """Whether components need nodes besides those of behaviours."""
+        """True if components need nodes of their own."""
         return any(role.components is not None for role in self.roles)
 
     @property
     def has_remaps(self) -> bool:
-        """Whether a node is to find topics under other names."""
+        """True if topics of a node are remapped."""
         return any(node.remaps for role in self.roles for node in role.nodes)
 
 
 def launches(system: System, modules: Mapping[str, str], report: Diagnostics) -> list[Launch]:
-    """The launch files; there is none for a swarm in which nobody has a behaviour."""
+    """Return the launch files of all swarms in which a member has a behaviour."""
     found: list[Launch] = []
     for swarm in system.swarms:
         roles = tuple(role for role in _roles(swarm, system, modules, report) if role.nodes)
@@ -114,7 +114,7 @@ def _nodes(
 
 
 def configuration(role: LaunchedRole, head: Iterable[str]) -> str:
-    """The parameters of the nodes of a role, as YAML."""
+    """Return the parameters of the nodes of a role, as YAML."""
     lines = [f"# {line}".rstrip() for line in head]
     for node in role.nodes:
         lines += [f"/**/{node.name}:", "  ros__parameters:"]

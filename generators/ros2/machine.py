@@ -1,4 +1,4 @@
-"""The table of a state machine: a row for each state, with its transitions."""
+"""Table of a state machine: a row for each state, with its transitions."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ _KINDS = {
 
 @dataclass(frozen=True)
 class Row:
-    """A state in the table: comments above it, and its expression."""
+    """A state in the table: its expression, and the comments above it."""
 
     comments: tuple[str, ...]
     text: str
 
 
 class Table:
-    """Makes the rows of a machine; the functions that they name go to its module."""
+    """Makes the rows of a machine, and adds the functions that they use to its module."""
 
     def __init__(self, machine: StateMachine, module: Module) -> None:
         self._module = module
@@ -142,7 +142,7 @@ class Table:
         )
 
     def _inward(self, region: State, around: State) -> Iterable[Call]:
-        """The transitions of a parallel state that its region takes."""
+        """Yield the internal transitions of a parallel state that its region takes."""
         for event, guard, transition, number in region_transitions(region, around, self._events):
             yield self._transition_call(
                 (event,) if event else (),
@@ -172,7 +172,7 @@ class Table:
         return (("guard", self._module.function("guard", state, BOTH, lines, guard.origin)),)
 
     def _returned(self, guard: Expression) -> list[str]:
-        """The statement that returns a condition, its parts on lines of their own if need be."""
+        """Return the `return` statement of a condition, split into lines if it is too long."""
         line = f"{STEP}return {python_expression(guard, self._module.imports)}"
         if len(line) <= WIDTH or not isinstance(guard, Binary) or guard.operator not in _LOGIC:
             return [line]

@@ -1,6 +1,6 @@
-"""What becomes of each construct of a model, for `swarmc targets ros2`.
+"""Mapping of each construct of a model, for `swarmc targets ros2`.
 
-What stands between backticks is found in the generated module, or in launch files.
+Text between backticks occurs in the generated module or in launch files.
 """
 
 from __future__ import annotations
@@ -15,13 +15,17 @@ MAPPING = tuple(
         ("state with an action", _EXACT, "`State(` with an `Activity(`; client `Action(`"),
         ("state with a service", _EXACT, "`State(` with an `Activity(`; client `Service(`"),
         ("state without activity", _EXACT, "row of the table, a `State(`"),
-        ("composite state, submachine", _EXACT, "row with `initial=`; those inside follow it"),
-        ("parallel state", _EXACT, "row that is `Kind.PARALLEL`; its regions follow it"),
-        ("final state", _EXACT, "row that is `Kind.FINAL`"),
+        ("composite state, submachine", _EXACT, "row with `initial=`, before the states inside"),
+        ("parallel state", _EXACT, "row of `Kind.PARALLEL`, before its regions"),
+        ("final state", _EXACT, "row of `Kind.FINAL`"),
         ("transition on an outcome", _EXACT, "`Transition(` on `'do."),
-        ("transition on an event", _EXACT, "`Transition(` on the event; a `Topic(` is heard"),
+        ("transition on an event", _EXACT, "`Transition(` on the event; subscription `Topic(`"),
         ("transition on a completion", _EXACT, "`Transition(` on `'done.state."),
-        ("transition on a certain final state", _EXACT, "the state tells: `machine.raise_event(`"),
+        (
+            "transition on a certain final state",
+            _EXACT,
+            "raised by the final state: `machine.raise_event(`",
+        ),
         ("transition after a time", _EXACT, "timer on the node's clock: `machine.send_after(`"),
         ("transition without a trigger", _EXACT, "`Transition((),`"),
         ("choice", _EXACT, "row whose transitions have no trigger: `Transition((),`"),
@@ -31,8 +35,8 @@ MAPPING = tuple(
         ("transition out of states", _EXACT, "a `Transition(` with its target"),
         ("transition into a state", _EXACT, "a `Transition(` with its target"),
         ("initial state inside a state", _EXACT, "path of the state, in `Machine(`"),
-        ("history", _EXACT, "row that is `Kind.HISTORY`"),
-        ("deep history", _EXACT, "row that is `Kind.DEEP_HISTORY`"),
+        ("history", _EXACT, "row of `Kind.HISTORY`"),
+        ("deep history", _EXACT, "row of `Kind.DEEP_HISTORY`"),
         ("internal transition", _EXACT, "`internal=True`"),
         ("transition without a target", _EXACT, "`Transition(` to `()`"),
         ("entry, exit", _EXACT, "functions of the module: `entry=`, `exit=`"),
@@ -47,11 +51,11 @@ MAPPING = tuple(
             _EXACT,
             "parameter of the node, a `Parameter(`, and an attribute of `class Data`",
         ),
-        ("param that is a message", _REJECTED, "ROS 2 has no such parameters (SW0903)"),
+        ("param that is a message", _REJECTED, "not a type of ROS parameters (SW0903)"),
         ("sent event", _EXACT, "published: `machine.emit(`, with `sent=True`"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
         ("initial state of a machine that is final", _EXACT, "the node ends at once: `Kind.FINAL`"),
-        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
+        ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
         ("monitored topic", _EXACT, "subscription: `Topic(` with `reliable=False`"),
         (

@@ -1,4 +1,4 @@
-"""What gathers while a state machine becomes a module: its functions, imports and callbacks."""
+"""The generated module of a state machine under construction."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ BOTH = "machine, event"
 
 @dataclass(frozen=True)
 class Function:
-    """A function of the module: `parameters`, `comments` and `body` are text."""
+    """A function of the module, with source text for its parts."""
 
     name: str
     parameters: str
@@ -25,7 +25,7 @@ class Function:
 
 
 class Module:
-    """The module of one state machine; `callbacks` are those of the user, with their parameters."""
+    """The module of a state machine; `callbacks` are the user's, with their parameters."""
 
     def __init__(self, machine: StateMachine, system: System, imports: Imports) -> None:
         self.system = system
@@ -36,14 +36,14 @@ class Module:
         self._used: set[str] = set()
 
     def new_event(self, name: str) -> str:
-        """An event of the engine."""
+        """Return the expression of a new event of the engine."""
         self.imports.own("engine", "Event")
         return f"Event({name!r})"
 
     def function(
         self, what: str, state: str, parameters: str, lines: Iterable[str], origin: Span | None
     ) -> Source:
-        """Add a function that does something for a state; what it is called."""
+        """Add a function for a state; return its name."""
         name = fresh(f"{what}_{snake_case(state.replace('.', '_'))}", self._used)
         self._used.add(name)
         self.functions.append(Function(name, parameters, comments(origin), tuple(lines)))

@@ -1,4 +1,4 @@
-"""Names that Python or ROS 2 cannot take."""
+"""Names that are invalid in Python or ROS 2."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ _MODULES = (
     *("alarms", "callbacks", "diagnostics", "engine", "functions", "host", "node", "parameters"),
     *("topics", "tracing", "values"),
 )
-# A package of such a name would hide what the nodes import.
+# A package with such a name would hide a module that the nodes import.
 _IMPORTED = (
     *("array", "collections", "copy", "heapq", "importlib", "itertools", "json", "math", "re"),
     *("signal", "sys", "threading", "traceback", "typing"),
     *("action_msgs", "builtin_interfaces", "rcl_interfaces", "rclpy", "std_msgs"),
 )
-# What ROS declares in every node.
+# Parameters that ROS declares in every node.
 _PARAMETERS = ("use_sim_time", "start_type_description_service")
 _MADE_OF: dict[type, tuple[str, ...]] = {
     Action: ("_Goal", "_Result", "_Feedback", "_SendGoal", "_GetResult", "_FeedbackMessage"),
@@ -40,25 +40,30 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
             NAMES.bad(report, named.name, "an attribute of Python", named.origin)
     for param in machine.params:
         if param.name in _PARAMETERS:
-            NAMES.bad(report, param.name, "a parameter: every node has one called so", param.origin)
+            NAMES.bad(
+                report,
+                param.name,
+                "a parameter: every node already has one with this name",
+                param.origin,
+            )
     NAMES.check_callbacks(machine, report)
 
 
 def type_name(name: str) -> str:
-    """The name of an interface of others in ROS 2, which does not take all that ROS 1 does."""
+    """Return the valid ROS 2 name of a third-party interface with a name of ROS 1."""
     return name if _INTERFACE.fullmatch(name) else camel_case(name)
 
 
 def field_name(name: str) -> str:
-    """The name of a field of others in ROS 2: in lower case."""
+    """Return the name of a third-party field in ROS 2, which is in lower case."""
     return name if _FIELD.fullmatch(name) else snake_case(name)
 
 
 def check_topic(name: str, at: Span | None, report: Diagnostics, *, of_swarm: bool = False) -> None:
     """Check the name of a topic, a service or an action."""
     if of_swarm and name.startswith("~"):
-        hint = "a topic of the swarm is in no node"
+        hint = "remove `~`: topics of the swarm are outside nodes"
         NAMES.bad(report, name, "the name of a topic of the swarm", at, help=hint)
     elif not _TOPIC.fullmatch(name):
-        hint = "ROS 2 wants letters, digits and `_`, not first a digit, divided by single `/`"
+        hint = "join parts of letters, digits and `_` with `/`; none starts with a digit"
         NAMES.bad(report, name, "the name of a topic, service or action", at, help=hint)

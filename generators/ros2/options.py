@@ -1,4 +1,4 @@
-"""What a person can choose about the generated package."""
+"""Options of the generated package."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ class Options(PackageOptions):
     """The options of the target."""
 
     package: str = option(
-        "", "name of the package; made from the model's name when empty", check=NAMES.option_fault
+        "", "name of the package; from the name of the model when empty", check=NAMES.option_fault
     )
     interfaces: str = option(
         "",
-        "packages of others to write too, with commas, from what the model says of them",
+        "third-party packages to write from the model, separated by commas",
         check=packages_fault,
     )
     copyright: str = option(
-        "", "year and holder of the copyright, for the head of each file", check=copyright_fault
+        "", "year and holder of the copyright, for the header of each file", check=copyright_fault
     )
     lifecycle: bool = option(False, "managed nodes: configured and activated from outside")

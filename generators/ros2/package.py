@@ -1,4 +1,4 @@
-"""What machines use, and the packages that they need."""
+"""Events, functions and interfaces that machines use, and the packages they need."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from swarmdsl.ir import Array, EventTrigger, Named, Send, StateMachine, System
 
 
 def heard_events(machine: StateMachine) -> list[str]:
-    """The names of the events that a machine waits for."""
+    """Return the names of the events that trigger transitions of a machine."""
     found: dict[str, None] = {}
     for state in machine.walk():
         for transition in state.transitions:
@@ -19,7 +19,7 @@ def heard_events(machine: StateMachine) -> list[str]:
 
 
 def sent_events(machine: StateMachine) -> list[str]:
-    """The names of the events that a machine sends."""
+    """Return the names of the events that a machine sends."""
     found: dict[str, None] = {}
     for state in machine.walk():
         effects = (effect for transition in state.transitions for effect in transition.effects)
@@ -30,13 +30,13 @@ def sent_events(machine: StateMachine) -> list[str]:
 
 
 def called_functions(machine: StateMachine) -> list[str]:
-    """The names of the functions that a machine calls."""
+    """Return the names of the functions that a machine calls."""
     called = (state.activity for state in machine.walk())
     return list(dict.fromkeys(each.function for each in called if each is not None))
 
 
 def dependencies(system: System, machines: Iterable[StateMachine]) -> list[str]:
-    """The packages that the nodes need."""
+    """Return the packages that the nodes depend on."""
     found = {"action_msgs", "builtin_interfaces", "diagnostic_msgs", "rcl_interfaces", "rclpy"}
     found.add("std_msgs")
     for machine in machines:

@@ -1,4 +1,4 @@
-"""Params of machines as parameters of ROS, and the values that members give them."""
+"""Params of machines as ROS parameters, and the values that members give them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .names import TARGET
 
 
 def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, Call]]:
-    """How each param of a machine is declared."""
+    """Return the declaration of each param of a machine."""
     found = []
     known = params_by_name(machine.params)
     for param in machine.params:
@@ -27,7 +27,7 @@ def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, 
         if default is not None:
             value = constant(default, known)
             if value is None:
-                _unsupported("a param whose value is not known in advance", param, report)
+                _unsupported("a param whose default is not constant", param, report)
             else:
                 value = parameter_value(value, param.type, 2, default.origin, TARGET, report)
             arguments.append(value)
@@ -38,7 +38,7 @@ def parameters(machine: StateMachine, report: Diagnostics) -> list[tuple[Param, 
 
 
 def given(node: BehaviorNode, report: Diagnostics) -> Mapping[str, Value]:
-    """What whoever runs a machine says of its params; what that itself says needs no file."""
+    """Return the values of params that are not those of their declarations."""
     return {
         each.param.name: each.value
         for each in with_parameters(node, 2, TARGET, report).params

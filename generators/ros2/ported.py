@@ -1,4 +1,4 @@
-"""Interfaces of others under the names that ROS 2 takes."""
+"""Third-party interfaces with valid names of ROS 2."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ T = TypeVar("T", bound=Type)
 
 
 def ported(interface: Interface) -> Interface:
-    """It with the names that nodes know it by, if others define it."""
+    """Return an interface with valid names of ROS 2, if it is third-party."""
     if not interface.external:
         return interface
     interface = replace(interface, type=ported_type(interface.type))
@@ -30,7 +30,7 @@ def ported(interface: Interface) -> Interface:
 
 
 def ported_type(type_: T) -> T:
-    """The type by a name that ROS 2 can have."""
+    """Return a type with a valid name of ROS 2."""
     match type_:
         case Named(package=package, name=name):
             return replace(type_, package=package, name=type_name(name))

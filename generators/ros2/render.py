@@ -1,4 +1,4 @@
-"""From the view to files: each template fills in one kind of file of a package."""
+"""Render the view: the files of the packages."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _MODULES = (
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the package with the behaviour, and of those with the interfaces."""
+    """Return the files of the package with the behaviour, and of interface packages."""
     package = package_view(system, options, report)
     if package is None:
         return []
@@ -44,7 +44,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
 def interface_files(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
-    """The files of a package of interfaces."""
+    """Yield the files of an interface package."""
     yield from definition_files(package, 2, TARGET, report)
     at = package.interfaces[0].origin
     paths = [interface_path(interface) for interface in package.interfaces]
@@ -63,7 +63,7 @@ def interface_files(
 
 
 def files(package: PackageView, options: Options) -> Iterator[OutputFile]:
-    """The files of the package with the behaviour."""
+    """Yield the files of the package with the behaviour."""
     root = package.name
     legal = legal_head(options)
     values = {"package": package, "options": options, "legal": legal}
@@ -121,7 +121,7 @@ def _machine(machine: MachineView, package: PackageView, legal: str) -> OutputFi
 
 
 def narrowed(line: str) -> list[str]:
-    """A line that is too long: a comment in several that are not; code says so."""
+    """Return a line that is too long as shorter lines of comment, or marked for the linter."""
     stripped = line.lstrip()
     indent = line[: len(line) - len(stripped)]
     if stripped.startswith("#"):
@@ -130,7 +130,7 @@ def narrowed(line: str) -> list[str]:
 
 
 def legal_head(options: Options) -> str:
-    """The head of a file that says whose it is, where somebody has said so."""
+    """Return the copyright notice at the head of a file, empty without option `copyright`."""
     if not options.copyright:
         return ""
     template = "package/apache.txt" if options.license == "Apache-2.0" else "package/other.txt"
@@ -138,7 +138,7 @@ def legal_head(options: Options) -> str:
 
 
 _MOST_FILES = 100
-"""For how many members of a role there is a file of parameters for each."""
+"""Number of members of a role up to which each has its own file of parameters."""
 
 
 def _fill(template: str, **values: object) -> MappedText:

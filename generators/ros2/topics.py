@@ -1,4 +1,4 @@
-"""The topics of events: those of a robot are its own, those of the swarm are in its namespace."""
+"""Topics of events: robots have their own, swarm events are in the namespace of the swarm."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def topics(
     imports: Imports,
     report: Diagnostics,
 ) -> list[tuple[Event, Call]]:
-    """How each event of a machine is declared in its module."""
+    """Return the declaration of each event of a machine."""
     heard, sent = heard_events(machine), sent_events(machine)
     found = []
     for name in dict.fromkeys([*heard, *sent]):
@@ -39,7 +39,7 @@ def topics(
         keywords += [("swarm", True)] if of_swarm else []
         keywords += [("heard", True)] if name in heard else []
         keywords += [("sent", True)] if name in sent else []
-        # The feedback of each server is reliable.
+        # Action servers publish feedback reliably.
         if not of_swarm and name not in sent_by_any and not is_feedback:
             keywords.append(("reliable", False))
         if event.swarm and name in sent and _is_heard_here(event, system):
@@ -49,15 +49,15 @@ def topics(
 
 
 def _place(event: Event, is_sent: bool) -> tuple[str, bool]:
-    """The topic, and whether it is one of the swarm."""
+    """Return the topic of an event, and True if it is in the namespace of the swarm."""
     if event.swarm:
         return event.topic.lstrip("/"), True
-    # What arrives from the others: in ROS 1 the bridge has topics of its own for that.
+    # Events from other robots: in ROS 1 the bridge has topics of its own for them.
     if event.topic.startswith(_INCOMING) and not is_sent:
         return event.topic.removeprefix(_INCOMING).lstrip("/"), True
     return event.topic, False
 
 
 def _is_heard_here(sent: Event, system: System) -> bool:
-    """Whether a swarm event is also an event of the robot that sends it."""
+    """Return True if a swarm event is also an event of the robot that sends it."""
     return any(not each.swarm and each.topic == sent.topic for each in system.events)

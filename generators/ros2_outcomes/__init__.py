@@ -1,4 +1,4 @@
-"""Nodes of ROS 2 whose machines run in a library of others, which follows the engine.
+"""Nodes for ROS 2 whose machines run in a third-party library that follows the engine.
 
-For libraries whose states end with outcomes, as those of SMACH and YASMIN do.
+For libraries whose states end with outcomes, such as SMACH and YASMIN.
 """

@@ -1,4 +1,4 @@
-"""What there is to know of a library that follows the engine."""
+"""Properties of a library that follows the engine."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ..ros2.view import Variant
 class Library:
     """A library whose states end with outcomes.
 
-    `target` is what reports call it, `name` what people do. What is stopped ends with the outcome
-    `stopped`. `variant` is what its packages have besides those of target `ros2`; `packages` are
-    those of ROS that it is in.
+    `target` is its name in diagnostics, `name` its usual name. States that are stopped end with the
+    outcome `stopped`. `variant` has the differences from target `ros2`; `packages` are the ROS
+    packages of the library.
     """
 
     target: str
@@ -24,5 +24,5 @@ class Library:
 
     @property
     def suffix(self) -> str:
-        """The end of the name of the module of a machine in the library."""
+        """Suffix of the module of a machine in the library."""
         return self.variant.suffix

@@ -1,7 +1,7 @@
-"""What becomes of each construct of a model in a library, for `swarmc targets`.
+"""Mapping of each construct of a model to a library, for `swarmc targets`.
 
-What stands between backticks is found in the generated module of the library, or in the chart, the
-table of the machine that its engine runs.
+Text between backticks occurs in the generated module of the library, or in the chart, which is the
+table of the machine that the engine runs.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ _EXACT, _EMULATED, _REJECTED = Support.EXACT, Support.EMULATED, Support.REJECTED
 
 
 def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, ...]:
-    """The table of a library, `own` being rows that others do not have.
+    """Return the mapping of a library, with its `own` further rows.
 
-    `start` is how it says in which state a machine begins, `memory` what has the variables.
+    `start` is the call that sets the initial state of a machine, `memory` the store of variables.
     """
     rows = (
         ("state with an action", _EXACT, "an `ActionState`"),
         ("state with a service", _EXACT, "a `ServiceState`"),
         ("state without activity", _EXACT, "a `State`"),
         ("composite state, submachine", _EXACT, "a `StateMachine`"),
-        ("parallel state", _EXACT, "a `Concurrence` with a `StateMachine` a region"),
+        ("parallel state", _EXACT, "a `Concurrence` with a `StateMachine` for each region"),
         ("final state", _EXACT, "outcome of the machine; inside, a `State` that waits"),
         ("transition on an outcome", _EXACT, "outcome of the state, `'succeeded'`"),
-        ("transition on an event", _EMULATED, "outcome; the chart hears the event, `Topic(`"),
+        ("transition on an event", _EMULATED, "outcome; the chart receives the event, `Topic(`"),
         ("transition on a completion", _EMULATED, "outcome `'done'`; the chart has `'done.state.`"),
         ("transition on a certain final state", _EMULATED, "outcome; the chart has `'final.`"),
         ("transition after a time", _EMULATED, "outcome `'timeout'`; the chart has `send_after(`"),
@@ -38,11 +38,11 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         (
             "transition out of states",
             _EMULATED,
-            "outcome of all inside, passed on: `'Stop': 'Stop'`",
+            "outcome of all states inside, passed on: `'Stop': 'Stop'`",
         ),
         ("transition into a state", _EMULATED, "a `Junction` in which the machine begins"),
         ("initial state inside a state", _EXACT, f"`{start}`"),
-        ("history", _EMULATED, "kept by the chart; a `Junction` leads to what it was"),
+        ("history", _EMULATED, "kept by the chart; a `Junction` leads to the last state"),
         ("deep history", _EMULATED, "the same in all machines inside: `Kind.DEEP_HISTORY`"),
         ("internal transition", _EMULATED, "outcome of the states inside"),
         ("transition without a target", _EMULATED, "no outcome: `None`"),
@@ -54,20 +54,24 @@ def mapping(start: str, memory: str, *, own: Iterable[Mapped]) -> tuple[Mapped, 
         ("param", _EXACT, f"ROS parameter, `Parameter(`, and key of the {memory}"),
         ("sent event", _EXACT, "published by the chart: `machine.emit(`"),
         ("swarm event", _EXACT, "topic in the namespace of the swarm: `swarm=True`"),
-        ("monitored topic", _EXACT, "heard by the chart: `Topic(` with `reliable=False`"),
+        ("monitored topic", _EXACT, "subscribed by the chart: `Topic(` with `reliable=False`"),
         (
             "monitored feedback of an action",
             _EXACT,
-            "heard on a hidden topic: `.Impl.FeedbackMessage` on `/_action/feedback`",
+            "subscribed on a hidden topic: `.Impl.FeedbackMessage` on `/_action/feedback`",
         ),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `remappings=`"),
-        ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
+        (
+            "initial state of a machine that is final",
+            _REJECTED,
+            "the node would end at once (SW0903)",
+        ),
         (
             "transition from deep inside to a deep history around",
             _REJECTED,
-            "how far it leads is known too late (SW0903)",
+            "the states that it leaves are not known in advance (SW0903)",
         ),
-        ("param that is a message", _REJECTED, "is no ROS parameter (SW0903)"),
-        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
+        ("param that is a message", _REJECTED, "not a type of ROS parameters (SW0903)"),
+        ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),
     )
     return (*(Mapped(*row) for row in rows), *own)

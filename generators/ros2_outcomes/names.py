@@ -1,4 +1,4 @@
-"""Names that machines and interfaces cannot have besides those that target `ros2` does not take."""
+"""Names of machines and interfaces that are invalid in addition to those of `ros2`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _MODULES = ("following", "library", "runner", "states")
 
 
 def check_names(package: PackageView, library: Library, report: Diagnostics) -> None:
-    """Report modules that would be others of the package, and packages that hide the library."""
+    """Report clashing modules, and packages that would hide the library."""
 
     def bad(name: str, use: str, at: Span | None) -> None:
         report.report("bad-identifier", at, target=library.target, name=name, use=use)
@@ -25,4 +25,4 @@ def check_names(package: PackageView, library: Library, report: Diagnostics) -> 
     for each in package.interfaces:
         if each.name in library.packages:
             at = each.interfaces[0].origin
-            bad(each.name, f"the name of a ROS package: {library.name} has it", at)
+            bad(each.name, f"the name of a ROS package: {library.name} has a package with it", at)

@@ -119,7 +119,7 @@ class OutcomeTable:
         return outcome
 
     def _check(self, route: OutcomeRoute, target: Target) -> None:
-        """Report a history state whose transition may leave less than the route to it."""
+        """Report a history whose default transition may leave fewer states than the route to it."""
         history = self._known[target.state]
         if history.kind is not StateKind.HISTORY or route.internal:
             return
@@ -131,8 +131,8 @@ class OutcomeTable:
                 "unsupported-construct",
                 route.transition.origin,
                 target=self._library.target,
-                construct="a transition to a deep history from states inside of others around it",
-                help=f"let state `{child}` have the transition",
+                construct="a transition to a deep history from a nested state",
+                help=f"move the transition to state `{child}`",
             )
 
     # ---- states that end

@@ -1,4 +1,4 @@
-"""The files of packages whose machines run in a library: those of target `ros2`, and more."""
+"""Files of packages whose machines run in a library."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Behavior = Callable[[PackageView, Diagnostics], Iterable[OutputFile]]
 def emit(
     system: System, options: Options, report: Diagnostics, library: Library, behavior: Behavior
 ) -> list[OutputFile]:
-    """The files of the package that `behavior` makes, and of those with the interfaces."""
+    """Return the files of the package that `behavior` makes, and of interface packages."""
     found = _Report(library.target)
     package = package_view(system, options, found, library.variant)
     files: list[OutputFile] = []
@@ -37,7 +37,7 @@ def emit(
 
 
 class _Report(Diagnostics):
-    """What is found wrong for a target, also by what belongs to target `ros2`."""
+    """Diagnostics that name the target of the library instead of `ros2`."""
 
     def __init__(self, target: str) -> None:
         super().__init__()
@@ -52,7 +52,7 @@ class _Report(Diagnostics):
 def shared_files(
     package: PackageView, options: Options, readme: str, runtime: Path
 ) -> Iterator[OutputFile]:
-    """The files that each library has; modules `library` and `states` are in its `runtime`."""
+    """Yield the files that all libraries share, and its modules from folder `runtime`."""
     root = package.name
     for file in ros2.files(package, options):
         yield OutputFile(file.path, readme) if file.path == f"{root}/README.md" else file
@@ -69,13 +69,13 @@ def shared_files(
 
 
 def header(package: PackageView, options: Options) -> str:
-    """The head of a file of the package."""
+    """Return the header of a file of the package."""
     return f"{ros2.legal_head(options)}# {package.header}"
 
 
 def module_file(
     machine: MachineView, package: PackageView, library: Library, text: MappedText
 ) -> OutputFile:
-    """The module of a machine in the library."""
+    """Return the module of a machine in the library."""
     path = f"{package.name}/{package.name}/{machine.module}{library.suffix}.py"
     return OutputFile(path, text.rewritten(WIDTH, ros2.narrowed), origin=machine.origin)

@@ -171,7 +171,7 @@ def _check(machine: StateMachine, library: Library, report: Diagnostics) -> None
             machine.origin,
             target=library.target,
             construct="an initial state that is final",
-            help="a machine that ends as soon as it begins needs no node",
+            help="start in a state that is not final, or remove the machine",
         )
     for state in by_id.values():
         if state.name == library.stopped:
@@ -180,5 +180,5 @@ def _check(machine: StateMachine, library: Library, report: Diagnostics) -> None
                 state.origin,
                 target=library.target,
                 name=state.name,
-                use=f"a state: machines of {library.name} end with it",
+                use=f"a state: it is the outcome of stopped machines in {library.name}",
             )

@@ -1,4 +1,4 @@
-"""Packages for what is modelled and not written yet: functions and components as ROS nodes."""
+"""Target `skeleton`: ROS nodes to complete, for functions and components of the model."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ generator = Generator(
     emit=emit_of(f"{__name__}.render"),
     options_type=Options,
     mapping=MAPPING,
-    # Machines are not its business: it leaves out none of what it is for.
+    # Machines are not part of this target, so it omits none.
     machines=lambda system: (),
 )

@@ -1,4 +1,4 @@
-"""The package that starts the nodes of a member's components: a part each, connected."""
+"""Package that starts a node for each component of a member, and connects them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from .view import in_yaml
 
 @dataclass(frozen=True)
 class Started:
-    """A part's node: its package, the params of the part as YAML, and topics with other names."""
+    """The node of a part: its package, params as YAML, and remapped topics."""
 
     name: str
     package: str
@@ -47,7 +47,7 @@ class Started:
 
 @dataclass(frozen=True)
 class Robot:
-    """A type of robot with the nodes of its parts."""
+    """A robot type with the nodes of its parts."""
 
     name: str
     member: str
@@ -57,13 +57,13 @@ class Robot:
 
     @property
     def has_values(self) -> bool:
-        """Whether the model gives params of parts values."""
+        """True if the model has values for params of parts."""
         return any(node.values for node in self.nodes)
 
 
 @dataclass(frozen=True)
 class Bringup:
-    """The package with a launch file for each type of robot."""
+    """The package with a launch file for each robot type."""
 
     package: str
     header: str
@@ -71,19 +71,20 @@ class Bringup:
 
     @property
     def depends(self) -> list[str]:
-        """The packages whose nodes are started."""
+        """Packages of the nodes that are started."""
         return sorted({node.package for robot in self.robots for node in robot.nodes})
 
     @property
     def has_values(self) -> bool:
-        """Whether the model gives params of any part values."""
+        """True if the model has values for params of any part."""
         return any(robot.has_values for robot in self.robots)
 
 
 def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Bringup | None:
-    """The package for nodes that are written; None where no member has a part with a node.
+    """Return the package that starts the nodes; None if no member has a part with a node.
 
-    It is there even for none of them, as launch files of behaviours start it with theirs.
+    The package exists even if none of the nodes is written, because launch files of behaviours
+    include its launch files.
     """
     written = {node.model: node for node, _ in made.nodes if node.kind == "component"}
     components = {component.name: component for component in system.components}
@@ -113,14 +114,14 @@ def bringup(system: System, made: Packages, ros: int, report: Diagnostics) -> Br
 
 
 def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
-    """Tell which ports are on topics of swarm events, which no bridge takes over in ROS 2."""
+    """Report ports on topics of swarm events, which have no bridge in ROS 2."""
     between = {event.topic for event in system.events if event.swarm}
     heard = incoming_topic("", swarm=True)
     for ref, port in wired.ports.items():
         if ref.part is None:
             continue
         topic = wired.topic(ref)
-        others = "hear" if port.direction != "in" and topic in between else ""
+        others = "listen" if port.direction != "in" and topic in between else ""
         if port.direction != "out" and topic.startswith(heard):
             others = "send"
         if others:
@@ -129,8 +130,8 @@ def _check_crossing(wired: Wiring, system: System, report: Diagnostics) -> None:
                 port.origin,
                 target=TARGET,
                 what=f"a port between robots, `{ref}` on `{topic}`",
-                notes=(f"in ROS 2 it is a topic of the robot: what others {others} is elsewhere",),
-                help="let a behaviour send and hear what goes from robot to robot",
+                notes=(f"in ROS 2 this is a local topic; other robots {others} on another one",),
+                help="use a behaviour to send and receive events between robots",
             )
 
 
@@ -158,11 +159,11 @@ def _started(part: Part, node: Node, wired: Wiring, ros: int, report: Diagnostic
 def _check_name(
     name: str, origin: Span | None, packages: Mapping[str, Span | None], report: Diagnostics
 ) -> None:
-    """Check that ROS takes the name, and that nothing else that is written has it."""
+    """Check that the name is valid in ROS, and that no other written package has it."""
     if name in packages:
         at = packages[name]
-        related = (Label(at, "the other one is for what stands here"),) if at is not None else ()
-        use = "the package that starts components: another package has that name"
+        related = (Label(at, "the other package is for this element"),) if at is not None else ()
+        use = "the package that starts components: another package has this name"
         report.report("bad-identifier", origin, target=TARGET, name=name, use=use, related=related)
     elif not is_ros_package_name(name):
         use = "the name of a ROS package"

@@ -1,4 +1,4 @@
-"""The files of the package that starts components: launch files, params, manifest."""
+"""Files of the package that starts components: launch files, params, manifest."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PARAMS = "$(find {package})/param/{name}.yaml"
 def bringup_files(
     made: Bringup, system: System, options: Options, fill: Fill
 ) -> Iterator[OutputFile]:
-    """All files of the package; `fill` fills in a template."""
+    """Yield the files of the package; `fill` renders a template."""
     root, ros2 = made.package, options.ros == 2
     depends = [("exec_depend", name) for name in made.depends]
     if ros2:
@@ -63,7 +63,7 @@ def _listed(made: Bringup) -> str:
 
 
 def _launch(robot: Robot, made: Bringup) -> str:
-    """The launch file of a robot for ROS 1: what the model says goes before what nodes bring."""
+    """Return the launch file of a robot for ROS 1; values of the model override those of nodes."""
     places: Places = {}
     root = etree.Element("launch")
     for line in (made.header, *robot.doc):
@@ -95,7 +95,7 @@ def _launch(robot: Robot, made: Bringup) -> str:
 
 
 def _values(robot: Robot, made: Bringup, ros2: bool) -> str:
-    """The params of parts that the model gives values, as YAML."""
+    """Return the params of parts with values in the model, as YAML."""
     lines = [f"# {made.header}", f"# Params of the parts of every {robot.member}."]
     for node in robot.nodes:
         if node.values:

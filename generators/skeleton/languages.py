@@ -1,4 +1,4 @@
-"""How Python and C++ write the types and values of the two generations of ROS."""
+"""Types and values of ROS 1 and 2 in Python and C++."""
 
 from __future__ import annotations
 
@@ -18,44 +18,44 @@ _REAL = (*FLOATS, "duration")
 
 
 class Language(Protocol):
-    """Python or C++ with one generation of ROS."""
+    """Python or C++ with ROS 1 or 2."""
 
     @property
     def ros(self) -> Generation:
-        """The generation."""
+        """Version of ROS, 1 or 2."""
 
     def literal(self, text: str) -> str:
-        """A text as a literal."""
+        """Return a string literal."""
 
     def named(self, type_: Named, kind: str) -> str:
-        """The class of an interface; `kind` is `msg`, `srv` or `action`."""
+        """Return the class of an interface; `kind` is `msg`, `srv` or `action`."""
 
     def imported(self, type_: Named, kind: str) -> str:
-        """The module or header it is in."""
+        """Return the module or header of an interface."""
 
     def server_types(self, type_: Named, kind: str) -> tuple[str, str, str, str]:
-        """The class of an action or service, and those of its parts; empty where it has none."""
+        """Return the classes of an action or service and its parts, empty if it has none."""
 
     def setting_type(self, type_: Primitive | Array) -> str:
-        """The type of a ROS parameter."""
+        """Return the type of a ROS parameter."""
 
     def value(self, value: object, type_: Primitive | Array) -> str:
-        """The value of a ROS parameter."""
+        """Return the literal of a parameter value."""
 
     def zero(self, type_: Primitive | Array) -> str:
-        """What a ROS parameter is until it has a value."""
+        """Return the value of a ROS parameter until it is set."""
 
     def declared(self, type_: Primitive | Array) -> str:
-        """How a ROS parameter is declared that has no value; empty where it need not be."""
+        """Return the declaration of a ROS parameter without a value, empty if none is needed."""
 
     def example(self, type_: Primitive | Array) -> str:
-        """Some value of a ROS parameter."""
+        """Return an example value of a ROS parameter."""
 
     def field(self, name: str) -> str:
-        """A field of a message."""
+        """Return the name of a field of a message."""
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """The lines that answer a service which is not there yet; types of fields by name."""
+        """Return the lines that refuse a request; `fields` are types by name."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class Python:
         return f"{type_.package}.{kind}.{type_.name}"
 
     def imported(self, type_: Named, kind: str) -> str:
-        """The module, `demo.msg`; actions of ROS 1 are messages."""
+        """Module `demo.msg`; actions of ROS 1 are messages."""
         module = "msg" if kind == "action" and self.ros == 1 else kind
         return f"{type_.package}.{module}"
 
@@ -124,7 +124,7 @@ class Python:
         return python_field(name)
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """An exception; ROS 2 has none that reaches who asks, but often a field `success`."""
+        """An exception; in ROS 2, which has none for clients, a field `success`."""
         if self.ros == 1:
             return (f"raise rospy.ServiceException({why!r})",)
         lines = [f"self.get_logger().error({why!r})"]
@@ -151,7 +151,7 @@ class Cpp:
         return f"{type_.package}::{middle}{type_.name}"
 
     def imported(self, type_: Named, kind: str) -> str:
-        """The header, `demo/Sample.h` or `demo/msg/sample.hpp`."""
+        """Header `demo/Sample.h` or `demo/msg/sample.hpp`."""
         if self.ros == 1:
             return f"{type_.package}/{type_.name}{'Action' if kind == 'action' else ''}.h"
         return f"{type_.package}/{kind}/{_header(type_.name)}.hpp"
@@ -166,7 +166,7 @@ class Cpp:
         return base, f"{base}::Goal", f"{base}::Result", f"{base}::Feedback"
 
     def setting_type(self, type_: Primitive | Array) -> str:
-        """`double`; whole numbers of roscpp are ints, those of rclcpp have 64 bits."""
+        """`double`; integers are `int` in roscpp, and have 64 bits in rclcpp."""
         if isinstance(type_, Array):
             assert isinstance(type_.element, Primitive)
             return f"std::vector<{self.setting_type(type_.element)}>"
@@ -184,21 +184,21 @@ class Cpp:
         return "{}"
 
     def declared(self, type_: Primitive | Array) -> str:
-        """Nothing: the template says the type."""
+        """Empty: the template has the type."""
         return ""
 
     def example(self, type_: Primitive | Array) -> str:
-        """`1.0`, with its type where it would have another."""
+        """`1.0`, with its type where the literal has another type."""
         name = self.setting_type(type_)
         values = {"bool": "true", "std::string": 'std::string("map")', "double": "1.0"}
         return values.get(name, f"{name}{{1}}")
 
     def field(self, name: str) -> str:
-        """The name as it is."""
+        """The name unchanged."""
         return name
 
     def refusal(self, why: str, response: Mapping[str, str]) -> tuple[str, ...]:
-        """False; in rclcpp, what a field `success` can say."""
+        """`return false;`; in rclcpp, a field `success`."""
         if self.ros == 1:
             return (f"ROS_ERROR({_printed(why)});", "return false;")
         lines = [f"RCLCPP_ERROR(get_logger(), {_printed(why)});"]
@@ -210,16 +210,16 @@ class Cpp:
 
 
 def language(name: str, ros: Generation) -> Language:
-    """The language of a name as options have it."""
+    """Return the language of option `language`."""
     return Python(ros) if name == "python" else Cpp(ros)
 
 
 def _printed(text: str) -> str:
-    """A literal for `printf`, and so for the macros of ROS that log."""
+    """Return a literal for `printf`, which the logging macros of ROS use."""
     return json.dumps(text.replace("%", "%%"))
 
 
 def _header(name: str) -> str:
-    """`PoseStamped` becomes `pose_stamped`, as rosidl_cmake calls headers."""
+    """Return the name of a header as in rosidl_cmake: `PoseStamped` is `pose_stamped`."""
     name = re.sub(r"(.)([A-Z][a-z]+)", r"\1_\2", name)
     return re.sub(r"([a-z0-9])([A-Z])", r"\1_\2", name).lower()

@@ -1,4 +1,4 @@
-"""Names for generated code: what Python and C++ both take."""
+"""Names for generated code that are valid in Python and C++."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.codegen import snake_case
 
 TARGET = "skeleton"
 
-# Words of C++20 (ISO/IEC 14882:2020, 5.11).
+# Keywords of C++20 (ISO/IEC 14882:2020, 5.11).
 _CPP_WORDS = """
 alignas alignof and and_eq asm auto bitand bitor bool break case catch char char8_t
 char16_t char32_t class compl concept const consteval constexpr constinit const_cast
@@ -25,7 +25,7 @@ _CPP = frozenset(_CPP_WORDS.split())
 
 
 def identifiers(names: Iterable[str]) -> list[str]:
-    """An identifier for each of the names, in snake case; no two are the same.
+    """Return a unique identifier in snake case for each name.
 
     A topic such as `mavros/state` becomes `mavros_state`.
     """
@@ -40,12 +40,12 @@ def identifiers(names: Iterable[str]) -> list[str]:
 
 
 def is_cpp_word(name: str) -> bool:
-    """Whether C++ takes it for something else than a name."""
+    """Return True for a reserved word of C++."""
     return name in _CPP
 
 
 def python_field(name: str) -> str:
-    """A field's name in Python: generators of ROS append `_` to what Python reserves."""
+    """Return a field's name in Python: generators of ROS append `_` to keywords."""
     return f"{name}_" if keyword.iskeyword(name) or name == "self" else name
 
 

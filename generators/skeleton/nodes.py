@@ -1,4 +1,4 @@
-"""Which nodes a model needs, as plain data that no language or generation of ROS shows in."""
+"""Nodes of a model, as plain data independent of language and ROS version."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .names import TARGET, identifiers, is_cpp_word
 from .options import Options
 from .settings import Setting, settings_of
 
-# A package of such a name would hide what the nodes need, or is no name in their languages.
+# A package with such a name would hide a module of the nodes, or is invalid in a language.
 _TAKEN = frozenset(
     (
         *sys.stdlib_module_names,
@@ -37,7 +37,7 @@ _TAKEN = frozenset(
         "test",
     )
 )
-# What a topic of a bare value carries. ROS has no message of an array that means the same.
+# Messages for topics of primitive types. ROS has no equivalent message for arrays.
 _STANDARD = {
     "bool": "Bool",
     "byte": "Byte",
@@ -56,7 +56,7 @@ _STANDARD = {
 
 @dataclass(frozen=True)
 class Topic:
-    """A topic that a node hears (`in`) or publishes on (`out`), under a name for code."""
+    """A topic that a node subscribes to (`in`) or publishes (`out`), with an identifier."""
 
     name: str
     topic: str
@@ -67,7 +67,7 @@ class Topic:
 
 @dataclass(frozen=True)
 class Server:
-    """An action or service that a node offers; a name that begins with `~` is its own."""
+    """An action or service of a node; a name with `~` is in the namespace of the node."""
 
     method: str
     paradigm: Literal["action", "service"]
@@ -79,7 +79,7 @@ class Server:
 
 @dataclass(frozen=True)
 class Node:
-    """A node in a package of its own; `model` is what the model calls it."""
+    """A node in a package of its own; `model` is its name in the model."""
 
     model: str
     kind: Literal["function", "component"]
@@ -94,17 +94,17 @@ class Node:
 
     @property
     def action(self) -> Server | None:
-        """The action that it offers, if it does."""
+        """The action of the node, if it has one."""
         return next((server for server in self.servers if server.paradigm == "action"), None)
 
     @property
     def services(self) -> tuple[Server, ...]:
-        """The services that it offers."""
+        """The services of the node."""
         return tuple(server for server in self.servers if server.paradigm == "service")
 
     @property
     def uses(self) -> Iterator[tuple[Named, str, Span | None]]:
-        """The interfaces that it uses, as `msg`, `srv` or `action`, and where."""
+        """The interfaces that the node uses, as `msg`, `srv` or `action`, with places."""
         kinds = {"action": "action", "service": "srv"}
         for server in self.servers:
             yield server.type, kinds[server.paradigm], server.origin
@@ -113,12 +113,12 @@ class Node:
 
     @property
     def types(self) -> list[tuple[Named, str]]:
-        """The interfaces that it uses, each once."""
+        """The interfaces that the node uses, each once."""
         return list(dict.fromkeys((type_, kind) for type_, kind, _ in self.uses))
 
 
 def nodes(system: System, options: Options, report: Diagnostics) -> list[Node]:
-    """A node for each function that no library has, and for each component of the model."""
+    """Return a node for each function outside libraries, and for each component."""
     operations = {name for component in system.components for name in component.operations}
     for member in system.members:
         operations |= {name for part in member.parts for name in part.operations}
@@ -142,7 +142,7 @@ def _chosen(found: list[Node], only: str, report: Diagnostics) -> list[Node]:
     known = {node.model: node for node in found}
     for name in wanted:
         if name not in known:
-            fault = f"there is no function or component `{name}` to write"
+            fault = f"unknown function or component `{name}`"
             hint = suggest(name, known, "functions and components")
             report.report("bad-option", target=TARGET, fault=fault, help=hint)
     return [node for node in found if not wanted or node.model in wanted]
@@ -179,7 +179,7 @@ def _of_component(
     functions = [system.function(name) for name in component.operations]
     methods = identifiers(function.communication.name.rpartition("/")[2] for function in functions)
     servers = tuple(
-        # The namespace of a component's operations is the name of its node.
+        # Operations of a component are in the namespace of its node.
         Server(
             method,
             "service",
@@ -211,7 +211,7 @@ def _topics(
     for name, (_, topic, type_, doc, origin) in zip(names, ports, strict=True):
         message = _message(type_)
         if message is None:
-            _unsupported(f"a topic of type `{type_}`, which is no message", origin, report)
+            _unsupported(f"a topic of type `{type_}`, which is not a message", origin, report)
         else:
             yield Topic(name, topic, message, doc, origin)
 
@@ -233,8 +233,8 @@ def _check_packages(found: Iterable[Node], report: Diagnostics) -> None:
             _bad(node.model, "the name of a ROS package", node.origin, report)
         owner = owners.setdefault(node.package, node)
         if owner is not node:
-            related = (Label(owner.origin, "the first is here"),) if owner.origin else ()
-            use = f"a package of two nodes, those of `{owner.model}` and `{node.model}`"
+            related = (Label(owner.origin, "first used here"),) if owner.origin else ()
+            use = f"the package of both `{owner.model}` and `{node.model}`"
             _bad(node.package, use, node.origin, report, related)
 
 

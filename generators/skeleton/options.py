@@ -1,4 +1,4 @@
-"""What a person can choose about the generated packages."""
+"""Options of the generated packages."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ class Options(PackageOptions):
     """The options of the target."""
 
     language: str = option("python", "language of the nodes", choices=("python", "cpp"))
-    ros: int = option(1, "generation of ROS that the nodes run on", choices=("1", "2"))
+    ros: int = option(1, "version of ROS that the nodes run on", choices=("1", "2"))
     only: str = option(
-        "", "names of the functions and components to write, with commas; all when empty"
+        "", "names of functions and components to write, separated by commas; all when empty"
     )
     interfaces: bool = option(
-        True, "write the packages of the model's interfaces; false where another target does"
+        True, "write the packages of the model's interfaces; false if another target writes them"
     )

@@ -1,4 +1,4 @@
-"""The packages of the interfaces that nodes need and that the model describes."""
+"""Packages of the interfaces that nodes need and the model describes."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ from .options import Options
 
 @dataclass(frozen=True)
 class Packages:
-    """The nodes with the interfaces in their packages, and the packages of other interfaces."""
+    """Nodes with the interfaces in their packages, and packages of other interfaces."""
 
     nodes: tuple[tuple[Node, InterfacePackage | None], ...]
     interfaces: tuple[InterfacePackage, ...]
 
 
 def generation(options: Options) -> Generation:
-    """The generation of ROS that was asked for."""
+    """Return the version of ROS that the options select."""
     return cast("Generation", options.ros)
 
 
 def packages(
     system: System, nodes: Iterable[Node], options: Options, report: Diagnostics
 ) -> Packages:
-    """Share the interfaces out.
+    """Assign interfaces to packages.
 
-    Those of the model have packages of their own. An action that the model says to be in the
-    package of a function is described there, as the libraries of CPSwarm do it: nobody else
-    will. In ROS 2 a package of nodes cannot hold interfaces, so that the node gives way.
+    Interfaces of the model have packages of their own. An action that the model puts in the
+    package of a function is described there, as in the libraries of CPSwarm. In ROS 2 a package of
+    nodes cannot contain interfaces, so the node gets another package.
     """
     ros = generation(options)
     interfaces = [interface for interface in system.interfaces if not interface.external]
@@ -73,12 +73,10 @@ def packages(
 
 
 def _check_described(node: Node, system: System, report: Diagnostics) -> None:
-    """What belongs to the node's package must be known: nobody else writes that package."""
+    """Report undescribed interfaces in a node's package, which only this target writes."""
     for type_, kind in node.types:
         if type_.package == node.package and system.interface(type_) is None:
-            construct = (
-                f"`{type_}`, which the model does not describe, in a package that is written"
-            )
+            construct = f"`{type_}`, which the model does not describe, in a package that it writes"
             word = {"msg": "message", "srv": "service"}.get(kind, kind)
             report.report(
                 "unsupported-construct",

@@ -1,4 +1,4 @@
-"""What the README of a package says of its node: what others use of it."""
+"""Tables of the interfaces of a node, for the README of its package."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .view import NodeView
 
 @dataclass(frozen=True)
 class Table:
-    """A table of a README, a row of cells each; there are some."""
+    """A table of a README with at least one row of cells."""
 
     title: str
     head: tuple[str, ...]
@@ -20,7 +20,7 @@ class Table:
 
 
 def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
-    """What others use of a node: servers, topics and ROS parameters."""
+    """Return the tables of servers, topics and ROS parameters of a node."""
     found = (
         Table(
             "Servers that it has",
@@ -54,5 +54,5 @@ def _code(text: str) -> str:
 
 
 def _cell(text: str) -> str:
-    """Text in one cell of a table."""
+    """Return text escaped for a cell of a table."""
     return " ".join(text.split()).replace("|", "\\|")

@@ -1,4 +1,4 @@
-"""From the view to files: which files a package has in each language."""
+"""Render the view: the files of packages in each language."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from .readme import tables
 from .view import NodeView, node_view
 
 _KINDS = {"msg": "message", "srv": "service", "action": "action"}
-# Files of each variant by template: `{}` is the package, `!` at the front marks the user's.
+# Files of each variant by template: `{}` is the package, a leading `!` marks the user's files.
 _FILES = {
     "ros1_python": {
         "CMakeLists.txt": "CMakeLists.txt",
@@ -68,7 +68,7 @@ _SETTINGS = {1: {"param.yaml": "param/{}.yaml"}, 2: {"config.yaml": "config/{}.y
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the packages of nodes, and of those of interfaces."""
+    """Return the files of the packages of nodes and interfaces."""
     found = nodes(system, options, report)
     made = packages(system, found, options, report)
     robots = bringup(system, made, options.ros, report)
@@ -140,7 +140,7 @@ def _node_files(
 
 @dataclass(frozen=True)
 class _Depends:
-    """The packages that a package of a node needs."""
+    """Dependencies of the package of a node."""
 
     view: NodeView
     inside: InterfacePackage | None
@@ -148,7 +148,7 @@ class _Depends:
 
     @property
     def run(self) -> list[str]:
-        """Those of its users and of its nodes."""
+        """Dependencies at run time."""
         python = self.options.language == "python"
         if self.options.ros == 2:
             found = {"rclpy" if python else "rclcpp", *self.view.depends}
@@ -163,7 +163,7 @@ class _Depends:
 
     @property
     def build(self) -> list[str]:
-        """Those that CMake has to find."""
+        """Dependencies that CMake finds."""
         found = set(self.run) - {"message_runtime"}
         return sorted(found | ({"message_generation"} if self.inside is not None else set()))
 
@@ -202,7 +202,7 @@ class _Depends:
 def _interface_files(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
-    """A package of interfaces."""
+    """Yield the files of an interface package."""
     at = package.interfaces[0].origin
     text = _fill(
         f"interfaces/ros{options.ros}",
@@ -241,7 +241,7 @@ def _interface_files(
 
 
 def _by_kind(package: InterfacePackage | None) -> list[tuple[str, list[str]]]:
-    """The files of interfaces in a package, as catkin wants to hear of them."""
+    """Return the interface files of a package by kind, for the macros of catkin."""
     found: dict[str, list[str]] = {}
     for interface in package.interfaces if package is not None else ():
         folder, _, file = interface_path(interface).partition("/")

@@ -1,4 +1,4 @@
-"""Params of functions and components as parameters of ROS, and the values that the model gives."""
+"""Params of functions and components as ROS parameters, with values of the model."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .names import TARGET, identifiers
 
 @dataclass(frozen=True)
 class Setting:
-    """A ROS parameter; `key` is its name in ROS, `default` None where one must be given."""
+    """A ROS parameter; `key` is its name in ROS, `default` None if a value is required."""
 
     name: str
     key: str
@@ -25,7 +25,7 @@ class Setting:
 
 
 def settings_of(params: tuple[Param, ...], ros: int, report: Diagnostics) -> Iterator[Setting]:
-    """The parameters of a node."""
+    """Return the parameters of a node."""
     known = params_by_name(params)
     for param, name in zip(params, identifiers(param.name for param in params), strict=True):
         type_ = param.type
@@ -38,7 +38,7 @@ def settings_of(params: tuple[Param, ...], ros: int, report: Diagnostics) -> Ite
         if param.default is not None:
             value = value_of(param.default, type_, known, ros, report)
             if value is None:
-                _unsupported("a default whose value is not known", param.origin, report)
+                _unsupported("a default that is not constant", param.origin, report)
         yield Setting(name, param.name, type_, value, param.doc, param.origin)
 
 
@@ -49,7 +49,7 @@ def value_of(
     ros: int,
     report: Diagnostics,
 ) -> Value | None:
-    """A value that the model gives, as a parameter holds it; None where it is not known."""
+    """Return a value of the model as a parameter value; None if it is not constant."""
     value = constant(given, known)
     if value is None:
         return None

@@ -1,6 +1,6 @@
-"""From nodes to what the templates print: names, types and values as one language has them.
+"""View of a node for the templates: names, types and values in one language.
 
-Names are `Placed`: a line that one is printed in comes from where the model declares it.
+Names are `Placed`: their lines are traced to the declarations in the model.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .settings import Setting
 
 @dataclass(frozen=True)
 class TopicView:
-    """A topic; `literal` is its name as the language writes it."""
+    """A topic; `literal` is its name as a string literal."""
 
     name: str
     topic: str
@@ -31,10 +31,10 @@ class TopicView:
 
 @dataclass(frozen=True)
 class ServerView:
-    """A server: its types, and what is in them, a field a line.
+    """A server: its types, and their fields, one on a line.
 
-    `local` is its name without the `~` of one in the namespace of the node. `taken` and
-    `given` are the goal and result of an action, or the request and response.
+    `local` is its name without a leading `~`. `taken` and `given` are the goal and result of an
+    action, or the request and response of a service.
     """
 
     method: str
@@ -53,23 +53,23 @@ class ServerView:
 
     @property
     def own(self) -> bool:
-        """Whether its name is one in the namespace of the node."""
+        """True if its name is in the namespace of the node."""
         return self.name.startswith("~")
 
     @property
     def answers(self) -> bool:
-        """Whether what refuses a request fills in a field of the response."""
+        """True if a refusal sets a field of the response."""
         return any(line.startswith("response.") for line in self.refusal)
 
     @property
     def fields(self) -> tuple[str, ...]:
-        """All that is in them, or the word that nothing is."""
+        """The fields of both, or a note that there are none."""
         return (*self.taken, *self.given, *self.feedback) or ("Nothing comes with it.",)
 
 
 @dataclass(frozen=True)
 class SettingView:
-    """A ROS parameter; `type` is that of the language, `default` empty where there is none."""
+    """A ROS parameter; `type` is in the language, `default` is empty if there is none."""
 
     name: str
     key: str
@@ -106,17 +106,17 @@ class NodeView:
 
     @property
     def servers(self) -> tuple[ServerView, ...]:
-        """All that can be asked of it."""
+        """The action and the services."""
         return (*((self.action,) if self.action else ()), *self.services)
 
     @property
     def required(self) -> tuple[SettingView, ...]:
-        """The ROS parameters that must be given."""
+        """The ROS parameters that require a value."""
         return tuple(setting for setting in self.settings if not setting.default)
 
     @property
     def tested(self) -> tuple[str, ...]:
-        """The modules of the types that the hooks of the user's class get."""
+        """Modules of the types in the hooks of the user's class."""
         taken = [service.taken_type for service in self.services]
         taken += (topic.type for topic in self.inputs)
         return tuple(
@@ -131,7 +131,7 @@ class NodeView:
 
     @property
     def standard(self) -> tuple[str, ...]:
-        """The headers of the standard library that the class needs."""
+        """Headers of the standard library that the class needs."""
         found = {"memory", "string"} if self.action else set()
         found |= {"mutex", "vector"} if self.inputs else set()
         found |= {"string", "vector"} if self.settings else set()
@@ -140,7 +140,7 @@ class NodeView:
 
     @property
     def standard2(self) -> tuple[str, ...]:
-        """The same for rclcpp, where a thread works on goals."""
+        """Headers of the standard library for rclcpp, where a thread processes goals."""
         found = (
             {"condition_variable", "memory", "mutex", "string", "thread"} if self.action else set()
         )
@@ -151,7 +151,7 @@ class NodeView:
 
     @property
     def relies(self) -> tuple[str, ...]:
-        """What the user's code builds on, a fact a line."""
+        """Facts that the user's code relies on, one on a line."""
         found = [f"class {self.cls}"]
         for server in self.servers:
             found.append(f"{server.method}: {server.type}")
@@ -160,7 +160,7 @@ class NodeView:
                 ("gives", server.given),
                 ("feedback", server.feedback),
             ):
-                # What is said of a field is for people.
+                # Comments on fields are for people.
                 found += (f"{server.method} {part} {f.partition(' - ')[0]}" for f in fields)
         found += (f"input {topic.name}: {topic.type}" for topic in self.inputs)
         found += (f"output {topic.name}: {topic.type}" for topic in self.outputs)
@@ -169,7 +169,7 @@ class NodeView:
 
 
 def node_view(node: Node, system: System, language: Language) -> NodeView:
-    """All that the templates of a node need."""
+    """Return the view of a node."""
     servers = [_server(server, node, system, language) for server in node.servers]
     action = node.action
     return NodeView(
@@ -195,7 +195,7 @@ def node_view(node: Node, system: System, language: Language) -> NodeView:
 
 
 def _imports(node: Node, language: Language) -> tuple[str, ...]:
-    """The modules or headers, each with the first place in the model that needs it."""
+    """Return the modules or headers, each with the first place in the model that needs it."""
     found: dict[str, TracedStr] = {}
     for type_, kind, origin in node.uses:
         module = language.imported(type_, kind)
@@ -282,7 +282,7 @@ def _setting(setting: Setting, language: Language) -> SettingView:
 
 
 def in_yaml(value: object) -> str:
-    """A value as YAML 1.1 reads it back: a real number has a point."""
+    """Return a value in YAML 1.1, where a real number has a point."""
     if isinstance(value, float):
         text = repr(value)
         return text.replace("e", ".0e") if "e" in text and "." not in text else text

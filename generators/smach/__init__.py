@@ -1,4 +1,4 @@
-"""ROS 1 or 2: a package whose nodes run the state machines with SMACH."""
+"""Target `smach`: a package for ROS 1 or 2 whose nodes run the state machines with SMACH."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The call of a function: an ActionState or a ServiceState."""
+"""Activities: calls of functions as `ActionState` or `ServiceState`."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Keywords = tuple[tuple[str, object], ...]
 
 
 def activity_call(state: State, keywords: Keywords, module: Module) -> Call:
-    """The state that calls the function of `state`; `keywords` say what else it does."""
+    """Return the call that makes a state with an activity; `keywords` are further arguments."""
     activity = state.activity
     assert activity is not None
     call = module.system.function(activity.function).communication
@@ -33,7 +33,7 @@ def activity_call(state: State, keywords: Keywords, module: Module) -> Call:
 def _sent(
     state: State, activity: Activity, call: Communication, word: str, module: Module
 ) -> Keywords:
-    """Where the content of the goal or request comes from."""
+    """Return the argument with the goal or request, or the function that fills it."""
     if activity.goal_callback is not None:
         name = _callback(activity, activity.goal_callback, f"userdata, {word}", module)
         return ((f"{word}_cb", Source(name)),)
@@ -61,9 +61,10 @@ def _sent(
 
 
 def _got(state: State, activity: Activity, word: str, module: Module) -> Keywords:
-    """What becomes of the result or response; it is stored only when the call succeeded.
+    """Return the argument that handles the result or response.
 
-    A model that stores field `success` of a response itself says what follows from it.
+    It is stored only when the call succeeded. If the model stores field `success` of a response,
+    a response with `success` false counts as a success.
     """
     if activity.result_callback is not None:
         status = "status, " if word == "result" else ""
@@ -84,7 +85,7 @@ def _got(state: State, activity: Activity, word: str, module: Module) -> Keyword
 
 
 def _callback(activity: Activity, name: str, parameters: str, module: Module) -> str:
-    """A callback of the user."""
+    """Add a callback of the user; return its qualified name."""
     module.callbacks.append((name, parameters, activity.origin))
     module.imports.name(module.imports.types.package, "callbacks")
     return f"callbacks.{name}"

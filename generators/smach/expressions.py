@@ -28,7 +28,7 @@ USERDATA = "userdata"
 
 
 def python_expression(expression: Expression, imports: Imports) -> str:
-    """The expression in Python; variables and params are userdata."""
+    """Return an expression in Python; variables and params are in userdata."""
     for part in subexpressions(expression):
         if isinstance(part, Literal) and part.type == DURATION:
             imports.module("rospy")
@@ -38,12 +38,12 @@ def python_expression(expression: Expression, imports: Imports) -> str:
 
 
 def field_name(name: str) -> str:
-    """A field's name in Python: genpy appends `_` to what Python reserves."""
+    """Return a field's name in Python: genpy appends `_` to keywords."""
     return f"{name}_" if keyword.iskeyword(name) or name == "self" else name
 
 
 def default_value(type_: Type, imports: Imports) -> str:
-    """The value of a variable that the model gives none."""
+    """Return the initial value of a variable that has none in the model."""
     match type_:
         case Array(element=Primitive(name="uint8" | "char"), size=size, bounded=bounded):
             return "b''" if size is None or bounded else f"bytes({size})"
@@ -66,7 +66,7 @@ def default_value(type_: Type, imports: Imports) -> str:
 
 
 def _for_python(expression: Expression) -> Expression:
-    """The same with names and operands as Python and rospy take them."""
+    """Return an expression with names and operands that Python and rospy accept."""
     match expression:
         case FieldAccess(base=base, field=field):
             return replace(expression, base=_for_python(base), field=field_name(field))
@@ -75,7 +75,7 @@ def _for_python(expression: Expression) -> Expression:
         case Binary(operator="*", left=left, right=right, type=type_) if (
             type_ == DURATION and getattr(right, "type", None) == DURATION
         ):
-            # rospy.Duration can be multiplied by a number, not a number by it
+            # `rospy.Duration * number` works, `number * rospy.Duration` does not.
             return replace(expression, left=_for_python(right), right=_for_python(left))
         case Binary(left=left, right=right):
             return replace(expression, left=_for_python(left), right=_for_python(right))

@@ -1,4 +1,4 @@
-"""The imports of one generated module, and how it calls the types it imports."""
+"""Imports of a generated module, and the names of the imported types."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from swarmdsl.codegen import dataclass
 from swarmdsl.codegen.python import WIDTH
 from swarmdsl.ir import Named
 
-# Names that generated modules use for something else.
+# Names that generated modules use for other things.
 _TAKEN = (
     "AT_ONCE",
     "ActionState",
@@ -47,9 +47,9 @@ _STANDARD = ("copy", "math")
 
 @dataclass(frozen=True)
 class RosTypes:
-    """The package that is generated, and which names of interfaces are not enough in it.
+    """The generated package, and the interface names that are ambiguous in it.
 
-    Such an interface is called by its module.
+    Such an interface is qualified with its module.
     """
 
     package: str
@@ -57,7 +57,7 @@ class RosTypes:
 
 
 def ros_types(package: str, taken: Iterable[str], used: Iterable[tuple[Named, str]]) -> RosTypes:
-    """Find the ambiguous names; a type is used as `msg`, `srv` or `action`."""
+    """Find ambiguous names among types that are used as `msg`, `srv` or `action`."""
     owners = {name: {_TAKEN_MODULE} for name in (*_TAKEN, *taken)}
     for type_, kind in used:
         module = f"{type_.package}.{'srv' if kind == 'srv' else 'msg'}"
@@ -68,7 +68,7 @@ def ros_types(package: str, taken: Iterable[str], used: Iterable[tuple[Named, st
 
 
 class Imports:
-    """Gathers what one module needs."""
+    """Collects the imports of a module."""
 
     def __init__(self, types: RosTypes) -> None:
         self.types = types
@@ -76,16 +76,16 @@ class Imports:
         self._names: dict[str, set[str]] = {}
 
     def module(self, name: str) -> None:
-        """Need a module by its own name."""
+        """Import a module by its own name."""
         self._modules.add(name)
 
     def name(self, module: str, name: str) -> str:
-        """Need a name of a module; return it."""
+        """Import a name from a module; return the name."""
         self._names.setdefault(module, set()).add(name)
         return name
 
     def interface(self, type_: Named, kind: str, suffix: str = "") -> str:
-        """Need a type of `pkg.msg` or `pkg.srv`; return how to write it."""
+        """Import a type of `pkg.msg` or `pkg.srv`; return its name in the module."""
         module, name = f"{type_.package}.{kind}", type_.name + suffix
         if name not in self.types.ambiguous:
             return self.name(module, name)
@@ -93,7 +93,7 @@ class Imports:
         return f"{module}.{name}"
 
     def lines(self) -> list[str]:
-        """The import statements: standard library, ROS, this package; blank lines between."""
+        """Return the import statements: standard library, ROS, this package."""
         groups: dict[int, list[tuple[bool, str, str]]] = {}
         for module in self._modules:
             statement = (False, module, f"import {module}")
@@ -114,7 +114,7 @@ class Imports:
 
 
 def _by_kind(name: str) -> tuple[int, str]:
-    """Constants first, then classes, then functions."""
+    """Return a key that sorts constants first, then classes, then functions."""
     constant = name.isupper() and len(name) > 1
     return (0 if constant else 1 if name[0].isupper() else 2), name
 

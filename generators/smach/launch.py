@@ -1,4 +1,4 @@
-"""Launch files: of a type of robot, of a swarm, of its simulation; and that of the test."""
+"""Launch files of robot types, swarms, simulations and the test."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _SWITCHES = {
 
 
 def robot_launch(robot: Robot, package: str) -> str:
-    """Starts the nodes of one robot in its namespace."""
+    """Return the launch file that starts the nodes of one robot in its namespace."""
     root = Element("launch")
     root.comment(robot.member.doc)
     _arg(root, "name", f"{robot.name}_0", "the namespace of the robot")
     _arg(root, "params", "", "a YAML file with params of this robot")
     _switches(root, [robot])
     if robot.components is not None:
-        # Before the params of this robot, so that these can be for components, too.
+        # Before the params of this robot, which can be for components too.
         file = f"$(find {robot.components.package})/launch/{robot.name}.launch"
         include = root.add("include", {"file": file, "if": "$(arg components)"})
         _pass(include, "name", "$(arg name)")
@@ -47,7 +47,7 @@ def robot_launch(robot: Robot, package: str) -> str:
 
 
 def fleet_launch(fleet: Fleet, package: str) -> str:
-    """Starts all robots of a swarm, each in a namespace of its own."""
+    """Return the launch file that starts the robots of a swarm in their namespaces."""
     root = Element("launch")
     root.comment(fleet.swarm.doc)
     _team_args(root, fleet.teams)
@@ -67,7 +67,7 @@ def fleet_launch(fleet: Fleet, package: str) -> str:
 
 
 def simulation_launch(fleet: Fleet, world: str, package: str) -> str:
-    """Starts Gazebo with the world of a swarm, and the swarm in simulated time."""
+    """Return the launch file that starts Gazebo with the world of a swarm, and the swarm."""
     root = Element("launch")
     _arg(root, "world", f"$(find {package})/world/{world}", "the world to simulate")
     _arg(root, "gui", "true", "whether Gazebo has a window")
@@ -89,13 +89,13 @@ def simulation_launch(fleet: Fleet, world: str, package: str) -> str:
 
 
 def world_file(fleet: Fleet) -> str | None:
-    """The name of the file with the world of a swarm."""
+    """Return the name of the world file of a swarm, or None if it has no environment."""
     world = fleet.environment.world if fleet.environment is not None else None
     return PurePosixPath(world).name or None if world else None
 
 
 def test_launch(robots: Iterable[Robot], package: str) -> str:
-    """Runs the test of each machine with the params of a robot."""
+    """Return the launch file that tests each machine with the params of a robot."""
     root = Element("launch")
     for robot in robots:
         for node in robot.nodes:
@@ -111,7 +111,7 @@ def test_launch(robots: Iterable[Robot], package: str) -> str:
 
 
 def _needed(node: BehaviorNode) -> list[tuple[str, str]]:
-    """The params that a node must have, 0 where the model says nothing that can stand here."""
+    """Return the required params of a node, 0 where the model has no value for them."""
     needed = [
         given
         for given in node.params

@@ -1,4 +1,4 @@
-"""All files that start the nodes: launch files, parameters, worlds, the test."""
+"""Files that start the nodes: launch files, parameters, worlds, the test."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .view import PackageView
 
 
 def launch_files(package: PackageView) -> Iterator[OutputFile]:
-    """The files of a package whose machines are behaviours of members."""
+    """Yield the launch files, parameters and worlds of a package."""
     if not package.robots:
         return
     root, name = package.name, package.name
@@ -52,7 +52,7 @@ def _robot(robot: Robot, package: PackageView) -> Iterator[OutputFile]:
 
 
 def _world(fleet: Fleet) -> str:
-    """A plain world to begin with (SDF 1.6), as Gazebo 11 reads it."""
+    """Return an empty world to start with (SDF 1.6, Gazebo 11)."""
     root = Element("sdf", {"version": "1.6"})
     world = root.add("world", {"name": fleet.name})
     for model in ("sun", "ground_plane"):

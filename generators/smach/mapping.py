@@ -1,6 +1,6 @@
-"""What becomes of each construct of a model, for `swarmc targets smach`.
+"""Mapping of each construct of a model, for `swarmc targets smach`.
 
-What stands between backticks is found in the generated module, or in launch files.
+Text between backticks occurs in the generated module or in launch files.
 """
 
 from __future__ import annotations
@@ -16,10 +16,18 @@ MAPPING = tuple(
         ("state with a service", _EXACT, "state of SMACH, a `ServiceState`"),
         ("state without activity", _EXACT, "state of SMACH, a `State`"),
         ("composite state, submachine", _EXACT, "container `StateMachine`"),
-        ("parallel state", _EXACT, "container `Concurrence`, with a `StateMachine` a region"),
+        (
+            "parallel state",
+            _EXACT,
+            "container `Concurrence`, with a `StateMachine` for each region",
+        ),
         ("final state", _EXACT, "state `Final`; of the machine itself, an outcome of `Machine`"),
         ("transition on an outcome", _EXACT, "outcome, in `transitions=`"),
-        ("transition on an event", _EMULATED, "outcome; the chart hears the event, `On(events.`"),
+        (
+            "transition on an event",
+            _EMULATED,
+            "outcome; the chart receives the event, `On(events.`",
+        ),
         ("transition on a completion", _EMULATED, "outcome; the chart raises `'done.state.`"),
         ("transition on a certain final state", _EMULATED, "outcome; the chart raises `'final.`"),
         (
@@ -27,15 +35,15 @@ MAPPING = tuple(
             _EMULATED,
             "outcome; the chart has a timer for each in `after=`",
         ),
-        ("transition without a trigger", _EMULATED, "outcome; the chart asks `AT_ONCE`"),
+        ("transition without a trigger", _EMULATED, "outcome; the chart tests it `AT_ONCE`"),
         ("choice", _EMULATED, "a `State` that the chart leaves `AT_ONCE`"),
-        ("guard", _EMULATED, "function of userdata, asked by the chart: `guard=`"),
-        ("effect", _EMULATED, "function of userdata, done by the chart: `effect=`"),
+        ("guard", _EMULATED, "function of userdata, evaluated by the chart: `guard=`"),
+        ("effect", _EMULATED, "function of userdata, run by the chart: `effect=`"),
         ("transition with several triggers", _EMULATED, "an `On(` and an outcome for each"),
         ("transition out of states", _EMULATED, "chain of outcomes of the containers: `'to_`"),
         ("transition into a state", _EMULATED, "initial states set by the chart: `into=`"),
         ("initial state inside a state", _EMULATED, "set by the chart: `initial=`"),
-        ("history", _EMULATED, "kept by the chart; a state `History` leads to what it was"),
+        ("history", _EMULATED, "kept by the chart; a state `History` leads to the last state"),
         ("deep history", _EMULATED, "the same, and initial states inside: `deep=True`"),
         ("internal transition", _EMULATED, "outcome of the states inside: `internal=True`"),
         ("transition without a target", _EMULATED, "no outcome: `None`"),
@@ -47,10 +55,14 @@ MAPPING = tuple(
         ("stored result or response", _EXACT, "function of userdata: `store=`"),
         ("variable", _EXACT, "`userdata.`, one for the whole machine"),
         ("param", _EXACT, "ROS parameter, checked at the start: `param(`, and userdata"),
-        ("param that is a message", _EMULATED, "dictionary, made a `message(`"),
+        ("param that is a message", _EMULATED, "dictionary, converted by `message(`"),
         ("sent event", _EXACT, "published: `.send(`"),
         ("connector", _EXACT, "launch files rename topics for the nodes of parts: `<remap from=`"),
-        ("initial state of a machine that is final", _REJECTED, "has nothing to do (SW0903)"),
-        ("name that Python cannot have", _REJECTED, "would be no identifier (SW0905)"),
+        (
+            "initial state of a machine that is final",
+            _REJECTED,
+            "the node would end at once (SW0903)",
+        ),
+        ("name that Python cannot have", _REJECTED, "not a valid identifier (SW0905)"),
     )
 )

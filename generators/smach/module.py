@@ -1,4 +1,4 @@
-"""What gathers while one state machine becomes a Python module."""
+"""The generated module of a state machine under construction."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class Module:
     _names: set[str] = field(default_factory=set)
 
     def held(self, variable: str, path: tuple[str, ...]) -> Type | None:
-        """The type of a variable or of a field of one; None where nothing is known of it."""
+        """Return the type of a variable or of its field; None if it is unknown."""
         types = {each.name: each.type for each in self.machine.variables}
         return field_type(types.get(variable), path, self.system)
 
     def function_name(self, *words: str) -> str:
-        """A name for a private function, unlike those given before."""
+        """Return an unused name for a private function."""
         name = fresh("_" + "_".join(filter(None, map(snake_case, words))), self._names)
         self._names.add(name)
         return name
@@ -83,21 +83,21 @@ class Module:
         return name
 
     def own(self, module: str, name: str) -> str:
-        """Need a name of a module of the generated package; return it."""
+        """Import a name from a module of the generated package; return the name."""
         return self.imports.name(f"{self.imports.types.package}.{module}", name)
 
     def reserve(self) -> int:
-        """Keep a place for a container before those that are inside it."""
+        """Reserve the index of a container before the containers inside it."""
         self.containers.append(Container("", "", "", "", ()))
         return len(self.containers) - 1
 
     def event(self, name: str) -> str:
-        """How the module writes an event; needs its import."""
+        """Import an event; return its name in the module."""
         self.imports.name(self.imports.types.package, "events")
         return f"events.{self.events[name]}"
 
     def unsupported(self, construct: str, at: Span | None, hint: str | None = None) -> None:
-        """Report what this target cannot express."""
+        """Report a construct that the target does not support."""
         self.report.report(
             "unsupported-construct", at, target=TARGET, construct=construct, help=hint
         )

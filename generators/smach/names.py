@@ -1,4 +1,4 @@
-"""Names that Python, SMACH or ROS cannot take."""
+"""Names that are invalid in Python, SMACH or ROS."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from swarmdsl.ir import Action, Event, Param, StateMachine, Variable
 
 from .module import TARGET
 
-# What smach.UserData has as methods cannot be read as a value.
+# Methods of smach.UserData cannot be read as values.
 _USERDATA = ("extract", "keys", "merge", "update")
-# The ROS parameters of every node.
+# ROS parameters that every node has.
 _OF_NODES = ("introspection", "timeouts")
 _MODULES = (
     *("actions", "callbacks", "chart", "containers", "engine", "events", "node", "services"),
     "states",
 )
-# A package of such a name would hide what the nodes import.
+# A package with such a name would hide a module that the nodes import.
 _IMPORTED = (
     *("collections", "copy", "dataclasses", "enum", "heapq", "itertools", "math", "sys"),
     *("threading", "traceback", "typing"),
@@ -43,13 +43,16 @@ def check_machine(machine: StateMachine, report: Diagnostics) -> None:
     for param in machine.params:
         if param.name in _OF_NODES:
             NAMES.bad(
-                report, param.name, "a ROS parameter: all nodes have one of that name", param.origin
+                report,
+                param.name,
+                "a ROS parameter: every node already has one with this name",
+                param.origin,
             )
     NAMES.check_callbacks(machine, report)
 
 
 def check_keys(machine: StateMachine, report: Diagnostics) -> None:
-    """Check that names that Python takes are also those of userdata."""
+    """Check names of params and variables that userdata rejects."""
     keys: list[Param | Variable] = [*machine.params, *machine.variables]
     for named in keys:
         if not _is_key(named.name):
@@ -63,7 +66,7 @@ def _is_key(name: str) -> bool:
 def event_constants(
     events: Iterable[Event], taken: Iterable[str], report: Diagnostics
 ) -> dict[str, str]:
-    """The Python constant of each event."""
+    """Return the Python constant of each event."""
     names: dict[str, str] = {}
     used = set(taken)
     for event in events:

@@ -1,4 +1,4 @@
-"""What a person can choose about the generated package."""
+"""Options of the generated package."""
 
 from __future__ import annotations
 
@@ -9,39 +9,39 @@ from .names import NAMES
 
 
 def _package_fault(name: str) -> str | None:
-    # For both, whatever `ros` is: a check of an option sees no other one, and only what it finds is
-    # shown where the option stands. A name that passes stays when a package moves to ROS 2.
+    # Checked for ROS 1 and 2, because the check of an option does not see option `ros`. So a valid
+    # name stays valid when a package moves to ROS 2.
     from ..ros2.names import NAMES as OF_ROS_2
 
     return NAMES.option_fault(name) or OF_ROS_2.option_fault(name)
 
 
 def _seconds_fault(value: int) -> str | None:
-    return None if value > 0 else f"`{value}` is no time to wait: at least 1 (second)"
+    return None if value > 0 else f"`{value}` is not a valid timeout: use at least 1 (second)"
 
 
 @dataclass(frozen=True)
 class Options(PackageOptions):
     """The options of the target."""
 
-    ros: int = option(1, "generation of ROS that the nodes run on", choices=("1", "2"))
+    ros: int = option(1, "version of ROS that the nodes run on", choices=("1", "2"))
     package: str = option(
-        "", "name of the package; made from the model's name when empty", check=_package_fault
+        "", "name of the package; from the name of the model when empty", check=_package_fault
     )
     interfaces: str = option(
         "",
-        "packages of others to write too, with commas, from what the model says of them",
+        "third-party packages to write from the model, separated by commas",
         check=packages_fault,
     )
     simulation: bool = option(
         False,
-        "whether to write launch files for Gazebo, with the worlds of the environments",
+        "write launch files for Gazebo, with the worlds of the environments",
         only="ros=1",
     )
     components: bool = option(
         False,
-        "whether launch files start the components, too, by the package that target skeleton "
-        "writes; true where that is built with it",
+        "start components in launch files too, with the package that target skeleton "
+        "writes; true if it is built as well",
         beside="skeleton.ros=1",
         only="ros=1",
     )
@@ -53,7 +53,7 @@ class Options(PackageOptions):
     )
     dead_server: int = option(
         5,
-        "seconds without a sign of life until a goal counts as aborted",
+        "seconds without status of a goal until it counts as aborted",
         check=_seconds_fault,
         only="ros=1",
     )
@@ -63,7 +63,7 @@ class Options(PackageOptions):
 
     copyright: str = option(
         "",
-        "year and holder of the copyright, for the head of each file",
+        "year and holder of the copyright, for the header of each file",
         check=copyright_fault,
         only="ros=2",
     )
@@ -73,7 +73,7 @@ class Options(PackageOptions):
 
     @property
     def timeouts(self) -> dict[str, int]:
-        """How long nodes wait, in seconds, by the names of their ROS parameters."""
+        """Timeouts of nodes in seconds, by the names of their ROS parameters."""
         return {
             "missing_server": self.missing_server,
             "dead_server": self.dead_server,

@@ -1,4 +1,4 @@
-"""What machines use, and the packages that they need."""
+"""Events, functions and interfaces that machines use, and the packages they need."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swarmdsl.ir import EventTrigger, Named, Send, StateMachine, System
 
 
 def used_items(machine: StateMachine) -> Iterator[EventTrigger | Send]:
-    """What waits for an event or sends one."""
+    """Yield the triggers and effects of machines that use an event."""
     for state in machine.walk():
         triggers = (t for transition in state.transitions for t in transition.triggers)
         effects = (e for transition in state.transitions for e in transition.effects)
@@ -19,12 +19,12 @@ def used_items(machine: StateMachine) -> Iterator[EventTrigger | Send]:
 
 
 def used_events(machines: Iterable[StateMachine]) -> list[str]:
-    """The names of the events that the machines wait for or send, each once."""
+    """Return the names of the events that the machines receive or send, each once."""
     return list(dict.fromkeys(i.event for machine in machines for i in used_items(machine)))
 
 
 def used_types(system: System, machines: Iterable[StateMachine]) -> list[tuple[Named, str]]:
-    """The interfaces that the machines use, as `msg`, `srv` or `action`."""
+    """Return the interfaces that the machines use, as `msg`, `srv` or `action`."""
     found: list[tuple[Named, str]] = []
     for machine in machines:
         types = [item.type for item in machine.params] + [item.type for item in machine.variables]
@@ -39,7 +39,7 @@ def used_types(system: System, machines: Iterable[StateMachine]) -> list[tuple[N
 
 
 def dependencies(used: Iterable[tuple[Named, str]]) -> list[str]:
-    """The packages that the nodes need."""
+    """Return the packages that the nodes depend on."""
     packages = {"genpy", "rospy", "smach", "smach_ros"}
     for type_, kind in used:
         packages |= {type_.package, *(("actionlib", "actionlib_msgs") if kind == "action" else ())}
@@ -47,7 +47,7 @@ def dependencies(used: Iterable[tuple[Named, str]]) -> list[str]:
 
 
 def activity_modules(used: Iterable[tuple[Named, str]]) -> list[str]:
-    """The modules of the package with the states that call functions."""
+    """Return the modules with the states that call functions."""
     kinds = {kind for _, kind in used}
     return [
         module for module, kind in (("actions", "action"), ("services", "srv")) if kind in kinds

@@ -1,4 +1,4 @@
-"""Files of ROS parameters: of a type of robot, as the model has them, and of each robot."""
+"""Parameter files: the values of the model for robot types, and a file for each robot."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .robots import Fleet, Robot
 
 
 def robot_params(robot: Robot, header: str) -> str:
-    """What the model gives the nodes of a type of robot."""
+    """Return the parameter file of a robot type, with the values of the model."""
     lines = [f"# {header}", f"# Params of every {robot.member.name}, by node."]
     for node in robot.nodes:
         lines += ["", f"{node.name}:" if node.params else f"# {node.name} has none."]
@@ -24,7 +24,7 @@ def robot_params(robot: Robot, header: str) -> str:
 
 
 def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
-    """The params of one robot of a swarm: the user's file, with what can stand in it."""
+    """Return the user's parameter file of one robot, with commented examples."""
     lines = [
         f"# Params of {name} in swarm {fleet.swarm.name}; they go before those of its type.",
         "# This file is yours, once you have written in it.",
@@ -43,7 +43,7 @@ def _line(given: ParamValue) -> str:
 
 
 def _text(value: Value | None) -> str:
-    """The value in YAML 1.1, where a number with an exponent needs a point."""
+    """Return a value in YAML 1.1, where a number with an exponent needs a point."""
     text = json.dumps(value) if value is not None else "..."
     number, exponent, power = text.partition("e")
     if isinstance(value, float) and exponent and "." not in number:

@@ -1,4 +1,4 @@
-"""What the README of a package says of a machine: which of ROS it uses."""
+"""Tables of the ROS interfaces of a machine, for the README of its package."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Rows = tuple[tuple[str, str], ...]
 
 
 def uses(system: System, machine: StateMachine) -> tuple[tuple[str, Rows], ...]:
-    """Params, servers and topics, a table each; what there is none of is left out."""
+    """Return the tables of params, servers and topics that are not empty."""
     heard: dict[str, str] = {}
     sent: dict[str, str] = {}
     for item in used_items(machine):

@@ -1,4 +1,4 @@
-"""From the view to files: each template fills in one kind of file of a package."""
+"""Render the view: the files of the packages."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _RUNTIME = Path(__file__).parent / "runtime"
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the package with the behaviour, and of those with the interfaces."""
+    """Return the files of the package with the behaviour, and of interface packages."""
     if options.ros == 2:
-        from .ros2 import render as ros2  # which who builds for ROS 1 need not wait for
+        from .ros2 import render as ros2  # not needed for ROS 1
 
         return ros2.emit(system, options, report)
     package = package_view(system, options, report)
@@ -36,7 +36,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFi
 def _interfaces(
     package: InterfacePackage, options: Options, report: Diagnostics
 ) -> Iterator[OutputFile]:
-    """A package of interfaces."""
+    """Yield the files of an interface package."""
     by_kind: dict[str, list[str]] = {}
     for interface in package.interfaces:
         folder, _, file = interface_path(interface).partition("/")
@@ -89,7 +89,7 @@ def _files(package: PackageView) -> Iterator[OutputFile]:
 
 
 def _runtime(package: PackageView, path: str) -> str:
-    """The source of a module of the folder `runtime`."""
+    """Return the source of a module in the folder `runtime`."""
     timeouts: dict[str, object] = {
         f"_{name.upper()}": seconds for name, seconds in package.timeouts.items()
     }
@@ -103,7 +103,7 @@ def _runtime(package: PackageView, path: str) -> str:
 
 
 def _engine(folder: str, header: str) -> Iterator[OutputFile]:
-    """The engine that charts run on."""
+    """Yield the modules of the engine."""
     for file in sorted(engine_folder().glob("*.py")):
         text = f"# {header}\n{file.read_text(encoding='utf-8')}"
         yield OutputFile(f"{folder}/{file.name}", text)

@@ -1,4 +1,4 @@
-"""The members that are robots with nodes, and the swarms that they are in."""
+"""Robots with nodes, and their swarms."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from swarmdsl.ir import Environment, Member, Role, Swarm, System
 
 from .module import TARGET
 
-# As many robots as one launch file starts.
+# Limit for the robots that one launch file starts.
 MOST_ROBOTS = 100
 
 
 @dataclass(frozen=True)
 class Components:
-    """The package that starts the nodes of components, and whether launch files do so unasked."""
+    """The package that starts components; launch files do so by default if `unasked`."""
 
     package: str
     unasked: bool
@@ -33,9 +33,9 @@ class Components:
 
 @dataclass(frozen=True)
 class Robot:
-    """A type of robot with its nodes; `bridge` is the configuration of swarmros for it.
+    """A robot type with its nodes; `bridge` is its configuration of swarmros.
 
-    `components` is None where no part needs a node besides that of its behaviour.
+    `components` is None if no part needs a node other than for its behaviour.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Robot:
 
 @dataclass(frozen=True)
 class Team:
-    """Robots of one type in a swarm: `fewest` are started where nothing else is said."""
+    """Robots of one type in a swarm, of which `fewest` are started by default."""
 
     role: Role
     robot: Robot
@@ -57,7 +57,7 @@ class Team:
 
 @dataclass(frozen=True)
 class Fleet:
-    """A swarm as it is launched."""
+    """A swarm with its teams, for launch files."""
 
     name: str
     swarm: Swarm
@@ -68,7 +68,7 @@ class Fleet:
 def robots(
     system: System, machines: Collection[str], unasked: bool, report: Diagnostics
 ) -> list[Robot]:
-    """The members that run one of these machines, with their components started `unasked`."""
+    """Return the robots that run one of these machines; `unasked` is for their components."""
     bridges = _bridges(system)
     nodes_of = {component.name: has_node(component) for component in system.components}
     components = Components(bringup_package(system), unasked)
@@ -89,7 +89,7 @@ def robots(
 
 
 def fleets(system: System, made: Collection[Robot]) -> list[Fleet]:
-    """The swarms with robots that have nodes."""
+    """Return the swarms that have robots with nodes."""
     by_member = {robot.member.name: robot for robot in made}
     environments = {environment.name: environment for environment in system.environments}
     found = []
@@ -108,7 +108,7 @@ def _team(role: Role, robot: Robot) -> Team:
 
 
 def _bridges(system: System) -> dict[str, str]:
-    """The configurations of swarmros; what cannot cross the bridge is said in a comment."""
+    """Return the configurations of swarmros by member; comments in them list unsupported events."""
     report = Diagnostics()
     files = list(bridge_files(system, report))
     notes = "".join(f"# {found.message}\n" for found in report)

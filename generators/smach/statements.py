@@ -1,4 +1,4 @@
-"""Effects and results as Python statements, one string a line."""
+"""Effects and results as lines of Python statements."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ STEP = "    "
 
 
 def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[str]:
-    """The effects in their order."""
+    """Return the statements of effects, in order."""
     lines: list[str] = []
     for effect in effects:
         match effect:
@@ -28,12 +28,12 @@ def effect_lines(effects: Iterable[Effect], depth: int, module: Module) -> list[
 
 
 def kept(value: Expression, wanted: Type | None, module: Module) -> str:
-    """A value for what is of the type `wanted`, if that is known: a whole number has to fit."""
+    """Return an expression for a value of a type; integers are checked against its range."""
     return within(python_expression(value, module.imports), bound_of(value, wanted), module)
 
 
 def within(text: str, bound: str | None, module: Module) -> str:
-    """The value if it fits into the type of whole numbers, where one has to."""
+    """Return an expression with a check against the range of an integer type, if there is one."""
     if bound is None:
         return text
     bounded = module.imports.name(f"{module.imports.types.package}.engine", "bounded")
@@ -43,16 +43,16 @@ def within(text: str, bound: str | None, module: Module) -> str:
 def assign(
     variable: str, path: tuple[str, ...], value: str, depth: int, module: Module
 ) -> list[str]:
-    """Store a value in a variable or in a field of one.
+    """Return the statements that store a value in a variable or its field.
 
-    A message is never changed in place: another state may be reading it.
+    A message is never changed in place, because another state may read it.
     """
     indent = STEP * depth
     if not path:
         return [f"{indent}{USERDATA}.{variable} = {value}"]
     module.imports.module("copy")
     fields = ".".join(map(field_name, path))
-    # A local name must not hide what the value may read.
+    # A local name must not hide a name that the value reads.
     local = f"new_{variable}"
     return [
         f"{indent}{local} = copy.deepcopy({USERDATA}.{variable})",

@@ -43,7 +43,7 @@ class _Structure:
             self.module.unsupported(
                 "an initial state that is final",
                 machine.origin,
-                "a machine that ends as soon as it begins needs no node",
+                "start in a state that is not final, or remove the machine",
             )
         slot = self.module.reserve()
         for state in machine.states:

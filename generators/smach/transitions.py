@@ -1,4 +1,4 @@
-"""The transitions of a state as `On(...)` calls, its delays, and where its outcomes lead."""
+"""Transitions of a state as `On(...)` calls, with its delays and targets of outcomes."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ class TransitionMaker:
         self.domains = TransitionDomains(module.machine)
 
     def of(self, state: State, taken_names: Iterable[str]) -> Transitions:
-        """Return the transitions of a state, with outcomes other than the names given."""
-        # A region looks at the transitions of the parallel state around it first.
+        """Return the transitions of a state; outcomes avoid the names given."""
+        # A region tries the transitions of the parallel state around it first.
         routes = sorted(self.domains.routes(state), key=lambda route: not route.inherited)
         calls = [each for route in routes for each in self._calls(route)]
         outcomes = outcome_names(((each.word, each.route.target) for each in calls), taken_names)
@@ -91,7 +91,7 @@ class TransitionMaker:
     def _calls(self, route: OutcomeRoute) -> Iterator[_On]:
         """Yield the calls of `On` for a route, one for each trigger."""
         for trigger, event in route.triggers:
-            # The event of `preempted` can trigger `aborted` too; the state itself cares for that.
+            # `aborted` may also stand for the event of `preempted`; in SMACH one `On` covers both.
             if isinstance(trigger, OutcomeTrigger) and not event.endswith(f".{trigger.outcome}"):
                 continue
             yield _On(self._trigger(trigger, event, route), _word(trigger, route), route)

@@ -1,4 +1,4 @@
-"""ROS 2 with YASMIN: an ament_python package whose nodes run the state machines as its own."""
+"""Target `yasmin`: an ament_python package whose nodes run the state machines in YASMIN."""
 
 from __future__ import annotations
 

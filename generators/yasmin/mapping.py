@@ -1,4 +1,4 @@
-"""What becomes of each construct of a model, for `swarmc targets yasmin`."""
+"""Mapping of each construct of a model, for `swarmc targets yasmin`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from swarmdsl.codegen import Mapped, Support
 
 from ..ros2_outcomes.mapping import mapping
 
-_CANCELED = "machines end with that outcome (SW0905)"
+_CANCELED = "the outcome of stopped machines (SW0905)"
 
 MAPPING = mapping(
     "set_start_state('Deep')",

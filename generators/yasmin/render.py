@@ -1,4 +1,4 @@
-"""From the view to files: those of target `ros2`, and what YASMIN has besides."""
+"""Render the view: the files of target `ros2`, and further files for YASMIN."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .view import FsmView, fsm_view
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the package with the behaviour, and of those with the interfaces."""
+    """Return the files of the package with the behaviour, and of interface packages."""
 
     def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:
         machines = {machine.name: machine for machine in system.machines}

@@ -1,7 +1,6 @@
-"""A state machine as XML of `yasmin_factory`, of 4.0.0 and later; parallel states of 5.0.0.
+"""State machines as XML for `yasmin_factory` 4.0.0 or later; parallel states need 5.0.0.
 
-The states are the classes of the generated module; the XML binds their outcomes as the module
-does.
+The states are the classes of the generated module. The XML binds their outcomes like the module.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from .library import YASMIN
 
 
 def document(root: Node, machine: StateMachine, module: str) -> str:
-    """The text of the file of a machine whose states are in the module."""
+    """Return the XML of a machine whose states are in the module."""
     element = etree.Element("StateMachine", _head(root))
     keys = [(each.name, each.doc) for each in machine.params]
     keys += [(each.name, each.doc) for each in machine.variables]
@@ -35,7 +34,7 @@ def _head(node: Node) -> dict[str, str]:
 
 
 def _element(node: Node, module: str) -> etree._Element:
-    """A state with what is inside it and where its outcomes lead."""
+    """Return the element of a state, with the states inside and its transitions."""
     if node.kind is Kind.MACHINE:
         element = etree.Element("StateMachine", _head(node))
     elif node.kind is Kind.CONCURRENCE:

@@ -1,4 +1,4 @@
-"""From the IR to what the templates print: for each machine its states and containers in YASMIN."""
+"""View of each machine for the templates: its states and containers in YASMIN."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _CONTAINERS = (Kind.CONCURRENCE, Kind.MACHINE)
 
 @dataclass(frozen=True)
 class StateView:
-    """A class of a state: what it extends, and the lines of its body."""
+    """The class of a state: its base class, docstring and attributes."""
 
     name: str
     base: str
@@ -56,7 +56,7 @@ class FsmView:
 def fsm_view(
     machine: StateMachine, chart: str, package: str, system: System, report: Diagnostics
 ) -> FsmView:
-    """What is printed of a machine whose chart is in the module `chart`."""
+    """Return the view of a machine whose chart is in the module `chart`."""
     structure = Structure(machine, YASMIN, report)
     module = f"{chart}{YASMIN.suffix}"
     imports = imports_of(chart)
@@ -89,7 +89,7 @@ def _state(node: Node, system: System) -> StateView:
 
 
 def _lines(node: Node) -> Iterator[Statement]:
-    """The statements that build a container."""
+    """Yield the statements that build a container."""
     if node.kind is Kind.CONCURRENCE:
         yield Statement(_concurrence(node))
         return
@@ -105,7 +105,10 @@ def _lines(node: Node) -> Iterator[Statement]:
 
 
 def _outcomes(node: Node) -> str:
-    """The construction with a set of outcomes: with a list, some versions handle signals."""
+    """Return the construction with a set of outcomes.
+
+    With a list, some versions of YASMIN handle signals.
+    """
     names = list(map(repr, node.outcomes))
     flat = f"StateMachine({{{', '.join(names)}}})"
     if len(flat) + 14 <= WIDTH:

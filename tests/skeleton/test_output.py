@@ -197,7 +197,7 @@ def test_only_what_is_asked_for(emit: Emit) -> None:
     files, complaints = emit(only="bep")
     assert files == {}
     assert [found.message for found in complaints] == [
-        "target `skeleton`: there is no function or component `bep` to write"
+        "target `skeleton`: unknown function or component `bep`"
     ]
 
 
@@ -245,11 +245,11 @@ def test_a_package_of_interfaces_with_the_name_of_a_function_keeps_it(emit: Emit
     [
         (
             'function go : abstraction { action "g" : go/Go }',
-            CANNOT + "`go/Go`, which the model does not describe, in a package that is written",
+            CANNOT + "`go/Go`, which the model does not describe, in a package that it writes",
         ),
         (
             "sensor Cam { out o : float64[] }",
-            CANNOT + "a topic of type `float64[]`, which is no message",
+            CANNOT + "a topic of type `float64[]`, which is not a message",
         ),
         (
             ACTION + 'function go : abstraction { action "g" : a/A  param t : time }',
@@ -265,7 +265,7 @@ def test_a_package_of_interfaces_with_the_name_of_a_function_keeps_it(emit: Emit
         ),
         (
             ACTION + 'function cam : abstraction { action "g" : a/A } sensor Cam { out o : bool }',
-            NO_NAME + "`cam` as a package of two nodes, those of `cam` and `Cam`",
+            NO_NAME + "`cam` as the package of both `cam` and `Cam`",
         ),
     ],
 )

@@ -26,4 +26,4 @@ def test_a_package_of_interfaces_that_would_hide_yasmin(reported: Reported) -> N
     machine = "statemachine Work { initial A state A { on Go -> End } final End }"
     model = HEADER.replace("package lab", "package yasmin_ros") + machine
     ((code, message, _),) = reported(model, package="lab")
-    assert (code, "YASMIN has it" in message) == ("bad-identifier", True)
+    assert (code, "YASMIN has a package" in message) == ("bad-identifier", True)

@@ -1,1 +1,1 @@
-"""ROS 2: the package of target `ros2`, whose nodes run the state machines with SMACH."""
+"""SMACH on ROS 2: the package of target `ros2`, with nodes that run SMACH."""

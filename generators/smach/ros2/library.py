@@ -1,4 +1,4 @@
-"""What SMACH is called, and what its packages have besides those of target `ros2`."""
+"""Properties of SMACH as a library on ROS 2."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What becomes of each construct of a model on ROS 2, for `swarmc targets smach`."""
+"""Mapping of each construct of a model to SMACH on ROS 2, for `swarmc targets smach`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from swarmdsl.codegen import Mapped, Support
 
 from ...ros2_outcomes.mapping import mapping
 
-_KEYS = "would be no key: `keys`, `_n` (SW0905)"
+_KEYS = "not a valid key: `keys`, `_n` (SW0905)"
 
 MAPPING = mapping(
     "set_initial_state(['Deep'])",

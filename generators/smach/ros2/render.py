@@ -1,4 +1,4 @@
-"""From the view to files: those of target `ros2`, and what SMACH has besides."""
+"""Render the view: the files of target `ros2`, and further files for SMACH."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .view import SmachView, smach_view
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> list[OutputFile]:
-    """The files of the package with the behaviour, and of those with the interfaces."""
+    """Return the files of the package with the behaviour, and of interface packages."""
     chosen = RosOptions(**{name: getattr(options, name) for name in fields_of(RosOptions)})
 
     def behavior(package: PackageView, report: Diagnostics) -> Iterator[OutputFile]:

@@ -1,4 +1,4 @@
-"""From the IR to what the templates print: for each machine its states and containers in SMACH."""
+"""View of each machine for the templates: its states and containers in SMACH."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class SmachView:
 
 
 def smach_view(machine: StateMachine, chart: str, system: System, report: Diagnostics) -> SmachView:
-    """What is printed of a machine whose chart is in the module `chart`."""
+    """Return the view of a machine whose chart is in the module `chart`."""
     structure = Structure(machine, SMACH, report)
     imports = imports_of(chart)
     imports.own("states", "Machine")
@@ -59,7 +59,7 @@ def smach_view(machine: StateMachine, chart: str, system: System, report: Diagno
 
 
 def _lines(node: Node, system: System) -> Iterator[Statement]:
-    """The statements that build a container."""
+    """Yield the statements that build a container."""
     variable = "concurrence" if node.kind is Kind.CONCURRENCE else "machine"
     yield Statement(layout(_container(node), 1, f"{STEP}{variable} = ", "", WIDTH))
     yield Statement(f"{STEP}with {variable}:")
@@ -87,7 +87,7 @@ def _container(node: Node) -> Call:
 
 
 def _added(node: Node, system: System) -> tuple[tuple[object, ...], tuple[tuple[str, object], ...]]:
-    """What is added to a container; a region in a concurrence is bound by the map of that."""
+    """Return the arguments that add a node to a container; the outcome map binds regions."""
     if node.kind in (Kind.MACHINE, Kind.CONCURRENCE):
         state = Call(node.python_name)
     else:
@@ -98,7 +98,7 @@ def _added(node: Node, system: System) -> tuple[tuple[object, ...], tuple[tuple[
 
 
 def _comments(node: Node, system: System) -> Iterable[str]:
-    """Where a state stands in the model, and what is said there that no function says."""
+    """Return the place and documentation of a state, where no function has them."""
     if node.state is None:
         return (class_of(node, system)[1],)
     if node.kind in (Kind.MACHINE, Kind.CONCURRENCE):

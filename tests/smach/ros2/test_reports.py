@@ -78,7 +78,7 @@ def test_a_machine_called_like_that_of_another_one(reported: Reported) -> None:
 def test_a_package_of_interfaces_that_would_hide_smach(reported: Reported) -> None:
     model = HEADER.replace("package lab", "package smach") + MACHINE
     ((code, message, _),) = reported(model, package="lab")
-    assert (code, "SMACH has it" in message) == ("bad-identifier", True)
+    assert (code, "SMACH has a package" in message) == ("bad-identifier", True)
 
 
 def test_keys_of_userdata(reported: Reported) -> None:
