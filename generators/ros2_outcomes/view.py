@@ -83,10 +83,10 @@ def class_of(node: Node, system: System) -> tuple[str, str]:
         base = "ActionState" if call.paradigm == "action" else "ServiceState"
         return base, f"Calls {call.paradigm} {call.name}."
     words = {
-        StateKind.FINAL: "Waits until the state around, which is complete, is left.",
-        StateKind.CHOICE: "Is left at once, to where its guards say.",
+        StateKind.FINAL: "Waits until the complete state around it is left.",
+        StateKind.CHOICE: "Ends at once, with the outcome of its guards.",
     }
-    return "State", words.get(node.state.kind, "Waits for what leads on.")
+    return "State", words.get(node.state.kind, "Waits for a transition.")
 
 
 def containers(node: Node, lines: Callable[[Node], Iterable[Statement]]) -> Iterator[ContainerView]:

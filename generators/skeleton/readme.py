@@ -23,15 +23,15 @@ def tables(node: Node, view: NodeView) -> tuple[Table, ...]:
     """Return the tables of servers, topics and ROS parameters of a node."""
     found = (
         Table(
-            "Servers that it has",
+            "Servers",
             ("name", "type", ""),
             tuple(
                 (_code(each.name), _code(f"{each.type} ({each.paradigm})"), _cell(each.doc))
                 for each in node.servers
             ),
         ),
-        Table("Topics that it hears", ("name", "type", ""), tuple(_topics(node.inputs))),
-        Table("Topics that it sends on", ("name", "type", ""), tuple(_topics(node.outputs))),
+        Table("Subscribed topics", ("name", "type", ""), tuple(_topics(node.inputs))),
+        Table("Published topics", ("name", "type", ""), tuple(_topics(node.outputs))),
         Table(
             "ROS parameters",
             ("name", "type", "default", ""),

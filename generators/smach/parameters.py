@@ -14,7 +14,7 @@ def robot_params(robot: Robot, header: str) -> str:
     """Return the parameter file of a robot type, with the values of the model."""
     lines = [f"# {header}", f"# Params of every {robot.member.name}, by node."]
     for node in robot.nodes:
-        lines += ["", f"{node.name}:" if node.params else f"# {node.name} has none."]
+        lines += ["", f"{node.name}:" if node.params else f"# {node.name} has no params."]
         for given in node.params:
             lines += [f"  # {line}".rstrip() for line in comment_lines(given.param.doc)]
             lines.append(_line(given))
@@ -26,8 +26,8 @@ def robot_params(robot: Robot, header: str) -> str:
 def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
     """Return the user's parameter file of one robot, with commented examples."""
     lines = [
-        f"# Params of {name} in swarm {fleet.swarm.name}; they go before those of its type.",
-        "# This file is yours, once you have written in it.",
+        f"# Params of {name} in swarm {fleet.swarm.name}; they override the params of its type.",
+        "# Once you have edited this file, it is yours.",
     ]
     for node in robot.nodes:
         lines += ["#", f"# {node.name}:"]
@@ -38,7 +38,7 @@ def own_params(robot: Robot, fleet: Fleet, name: str) -> str:
 
 def _line(given: ParamValue) -> str:
     if given.value is None:
-        return f"  # {given.param.name}: needs a value of type {given.param.type}"
+        return f"  # {given.param.name}: requires a value of type {given.param.type}"
     return f"  {given.param.name}: {_text(given.value)}"
 
 

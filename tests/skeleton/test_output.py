@@ -159,7 +159,7 @@ def test_params_are_documented_and_have_their_defaults(emit: Emit, variant: dict
         dict,
     )
     assert "# How near is near, in metres." in text
-    assert "# frame: a string that must be given" in text
+    assert "# frame: string, required" in text
 
 
 def python_files(emit: Emit, ros: str) -> dict[str, str]:

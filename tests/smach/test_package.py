@@ -104,7 +104,7 @@ def test_params_of_a_robot(generate: Generate) -> None:
         "left": {"wait": 0.5, "small": 1e-07, "loud": True},
     }
     assert "  # How long it looks.\n  wait: 1.5\n" in text
-    assert "  # name: needs a value of type string\n" in text
+    assert "  # name: requires a value of type string\n" in text
 
 
 def test_params_of_one_robot_say_what_can_stand_there(generate: Generate) -> None:
@@ -177,7 +177,7 @@ event Part : part_msgs/Note
 event Unknown : unknown_msgs/Note
 statemachine M { initial A  state A { on Known, Part, Unknown -> B }  final B }
 """
-    needs = "which its interfaces are: `known_msgs`, `part_msgs`, `unknown_msgs`."
+    needs = "packages with its interfaces: `known_msgs`, `part_msgs`, `unknown_msgs`."
     text = generate(model)["README.md"].text
     assert needs in text
     assert "option `smach.interfaces=known_msgs` of swarmc" in text

@@ -1,17 +1,17 @@
-"""Things to do later, by a clock of ROS: one timer for whatever comes first."""
+"""Delayed calls by a clock of ROS, with one timer for the earliest."""
 
 import heapq
 from itertools import count
 
 _LONGEST = 86_400_000_000_000
-"""For how many nanoseconds a timer is set at most: ROS adds them to the time in 64 bits."""
+"""Maximum period of a timer in nanoseconds: ROS adds it to the time in 64 bits."""
 
 
 class Alarms:
     """
-    Calls functions after so many nanoseconds, those of one moment in the order of their making.
+    Calls functions after delays in nanoseconds; functions due together run in order of creation.
 
-    `post` runs a function when no other one is in the middle of something.
+    `post` runs a function when no other function is running.
     """
 
     def __init__(self, node, clock, group, post):
@@ -29,7 +29,7 @@ class Alarms:
         return self._clock.now().nanoseconds
 
     def schedule(self, delay, action):
-        """Call the action once; return what `unschedule` takes."""
+        """Call the action once after a delay; return a handle for `unschedule`."""
         alarm = [self.now + delay, next(self._numbers), action]
         heapq.heappush(self._waiting, alarm)
         if self._waiting[0] is alarm:
@@ -37,20 +37,20 @@ class Alarms:
         return alarm
 
     def unschedule(self, alarm):
-        """Do not call it any more."""
+        """Cancel a delayed call."""
         alarm[2] = None
         if self._waiting and self._waiting[0] is alarm:
             self._set()
 
     def clear(self):
-        """Forget all of them, and the timer."""
+        """Cancel all calls, and destroy the timer."""
         self._waiting.clear()
         if self._timer is not None:
             self._node.destroy_timer(self._timer)
             self._timer = None
 
     def _set(self):
-        """Let the timer go off when the first one is due."""
+        """Set the timer to the first call."""
         while self._waiting and self._waiting[0][2] is None:
             heapq.heappop(self._waiting)
         if not self._waiting:
@@ -70,7 +70,7 @@ class Alarms:
         self._post(self._call_due)
 
     def _call_due(self):
-        """Call what is due, also what becomes so on the way."""
+        """Call all actions that are due, including those that become due meanwhile."""
         now = self.now
         while self._waiting and self._waiting[0][0] <= now:
             action = heapq.heappop(self._waiting)[2]

@@ -1,4 +1,4 @@
-"""How the node is, on `/diagnostics`, for the tools that watch a robot."""
+"""Status of the node on `/diagnostics`, for tools that monitor a robot."""
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
@@ -7,10 +7,10 @@ _DEPTH = 10
 
 class Diagnostics:
     """
-    Tells how a machine is, and what its calls of functions wait for.
+    Publishes the status of a machine and its calls of functions.
 
-    A warning is told once, in the next message, as is that a server is missing; what has failed
-    is an error from then on.
+    Each message has the warnings since the last one, and the missing servers; after a failure, the
+    status stays an error.
     """
 
     def __init__(self, node, machine, member):
@@ -22,15 +22,15 @@ class Diagnostics:
         self._failure = ''
 
     def warn(self, what):
-        """Take note of what has gone wrong, to be told in the next message."""
+        """Add a warning to the next message."""
         self._warnings.append(what)
 
     def fail(self, what):
-        """Take note of what has ended the machine."""
+        """Note the failure that has ended the machine."""
         self._failure = what.strip().rpartition('\n')[2]
 
     def tell(self, states, running, calls):
-        """Publish a message about the machine in these states, and its calls."""
+        """Publish a message with the states of the machine and its calls."""
         waiting = [call for call in calls if call.is_waiting]
         warnings = [*self._warnings, *(f'{call} has no server yet' for call in waiting)]
         self._warnings.clear()
@@ -54,5 +54,5 @@ class Diagnostics:
         self._publisher.publish(message)
 
     def release(self):
-        """Let go of the topic."""
+        """Destroy the publisher."""
         self._node.destroy_publisher(self._publisher)

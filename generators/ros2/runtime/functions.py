@@ -1,4 +1,4 @@
-"""The functions of the robot: calls of action and service servers, none of which blocks."""
+"""Functions of the robot: non-blocking calls of action and service servers."""
 
 from typing import Any, NamedTuple
 
@@ -8,9 +8,9 @@ from rclpy.action import ActionClient
 from .values import SECOND
 
 _LOOK = SECOND // 10
-"""How often it is looked for a server that is not there, in nanoseconds."""
+"""Interval of checks for a missing server, in nanoseconds."""
 _WATCH = SECOND // 2
-"""How often it is looked after one that works."""
+"""Interval of checks that a working server is still there, in nanoseconds."""
 _OUTCOMES = {
     GoalStatus.STATUS_SUCCEEDED: 'succeeded',
     GoalStatus.STATUS_CANCELED: 'preempted',
@@ -18,40 +18,40 @@ _OUTCOMES = {
 
 
 class Action(NamedTuple):
-    """A function that an action server offers."""
+    """A function of an action server."""
 
     interface: Any
     name: str
 
     def client(self, node, group):
-        """Make a client of the server."""
+        """Create a client of the server."""
         return ActionClient(node, self.interface, self.name, callback_group=group)
 
     def call(self, host, client, run):
-        """Make a call; it has not begun."""
+        """Create a call without sending it."""
         return _ActionCall(host, client, run, self.interface.Goal())
 
 
 class Service(NamedTuple):
-    """A function that a service server offers."""
+    """A function of a service server."""
 
     interface: Any
     name: str
 
     def client(self, node, group):
-        """Make a client of the server."""
+        """Create a client of the server."""
         return node.create_client(self.interface, self.name, callback_group=group)
 
     def call(self, host, client, run):
-        """Make a call; it has not begun."""
+        """Create a call without sending it."""
         return _ServiceCall(host, client, run, self.interface.Request())
 
 
 class _Call:
     """
-    One run of an activity, from looking for its server until this is free again.
+    One run of an activity, from the search for its server until the server is free again.
 
-    `host` has the clock, the timeouts and the log, and lets nothing else happen meanwhile.
+    `host` has the clock, the timeouts and the log, and runs the steps of all calls one by one.
     """
 
     def __init__(self, host, client, run, empty):
@@ -65,24 +65,24 @@ class _Call:
         self._missing_since = None
 
     def __str__(self):
-        """Return which function it calls, and where."""
+        """Return the function and the name of its server."""
         activity = self._run.activity
         return f'{activity.name} on {activity.server}'
 
     @property
     def is_waiting(self):
-        """Whether its server is not there."""
+        """True while the server is missing."""
         return self._missing_since is not None
 
     @property
     def progress(self):
-        """How far it is, for people."""
+        """Progress of the call, for people."""
         if self._cancelled:
             return 'is cancelled'
         return 'works' if self._sent else 'waits for its server'
 
     def begin(self):
-        """Send it, as soon as there is a server."""
+        """Send the goal or request as soon as there is a server."""
         if self._over:
             return
         if self._is_ready():
@@ -94,7 +94,7 @@ class _Call:
             self._host.later(_LOOK, self.begin)
 
     def cancel(self):
-        """Ask the server to stop, and wait until it has, but not for ever."""
+        """Ask the server to stop, and wait for it up to a timeout."""
         self._cancelled = True
         if not self._sent:
             self._end('preempted')
@@ -103,11 +103,11 @@ class _Call:
         self._stop()
 
     def drop(self):
-        """Forget it: its answer counts no more."""
+        """Ignore the answer of the server."""
         self._over = True
 
     def _watch(self):
-        """Notice that the server has gone."""
+        """Check that the server is still there."""
         if self._over:
             return
         if self._is_ready():
@@ -117,7 +117,7 @@ class _Call:
         self._host.later(_WATCH, self._watch)
 
     def _is_missing_for_long(self):
-        """Abort the call of a server that is missing for longer than it may."""
+        """Abort the call after the server timeout; return True if it is aborted."""
         now = self._host.now
         if self._missing_since is None:
             self._missing_since = now
@@ -133,11 +133,11 @@ class _Call:
             self._end('preempted')
 
     def _then(self, future, action):
-        """Go on with what comes of a future, unless the call is over by then."""
+        """Post an action with a future when it is done."""
         future.add_done_callback(lambda done: self._host.post(lambda: action(done)))
 
     def _answer(self, future):
-        """Return what a future has; None where it failed, which has been told."""
+        """Return the result of a future; warn, abort and return None if it failed."""
         if future.exception() is not None:
             self._warn(f'failed: {future.exception()}')
             self._end('aborted')
@@ -156,7 +156,7 @@ class _Call:
 
 
 class _ActionCall(_Call):
-    """A goal."""
+    """A call of an action server."""
 
     _handle = None
 
@@ -168,7 +168,7 @@ class _ActionCall(_Call):
         self._host.later(self._host.server_timeout, self._look_whether_accepted)
 
     def _look_whether_accepted(self):
-        """Abort a goal of which the server says nothing, not even that it rejects it."""
+        """Abort a goal that the server neither accepts nor rejects."""
         if self._handle is None and not self._over:
             self._warn('does not answer')
             self._end('aborted')
@@ -176,7 +176,7 @@ class _ActionCall(_Call):
     def _accepted(self, future):
         handle = None if future.exception() is not None else future.result()
         if self._over:
-            # Its server came to itself too late.
+            # The server has answered too late.
             if handle is not None and handle.accepted:
                 handle.cancel_goal_async()
             return
@@ -205,7 +205,7 @@ class _ActionCall(_Call):
 
 
 class _ServiceCall(_Call):
-    """A request, which cannot be taken back: what stops it is its response."""
+    """A call of a service, which cannot be cancelled: it ends with the response."""
 
     def _is_ready(self):
         return self._client.service_is_ready()
@@ -228,7 +228,7 @@ class _ServiceCall(_Call):
         self._end(outcome, response)
 
     def _stop(self):
-        """Do nothing: there is no way to."""
+        """Do nothing, because a request cannot be cancelled."""
 
     def _give_up(self):
         self._client.remove_pending_request(self._future)

@@ -1,4 +1,4 @@
-"""Runs a state machine in a node: what the engine asks of the world around it is here."""
+"""Runs a state machine in a node: the world of the engine, in terms of ROS."""
 
 from collections import deque
 import json
@@ -22,7 +22,7 @@ from .topics import Topics
 from .tracing import as_json, Trace
 from .values import from_json
 
-# What a robot knows of an interface may differ from what the model says of it.
+# Interfaces on a robot may differ from their descriptions in the model.
 engine.FAILURES = (*engine.FAILURES, AttributeError, TypeError)
 
 _SETTINGS = (
@@ -40,7 +40,7 @@ _HISTORY = QoSProfile(depth=_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Behavior(NamedTuple):
-    """A state machine of the model, and what of ROS it uses; `data` makes what it remembers."""
+    """A state machine and the ROS interfaces it uses; `data` creates its variables."""
 
     machine: Machine
     data: Any
@@ -51,7 +51,7 @@ class Behavior(NamedTuple):
 
 
 def tree(*states):
-    """Put states into each other: their ids are paths."""
+    """Nest a flat list of states by their ids, which are paths."""
     inside = {}
     for state in reversed(states):
         whole = state._replace(states=tuple(reversed(inside.pop(state.id, []))))
@@ -60,12 +60,12 @@ def tree(*states):
 
 
 def outcomes(state):
-    """Return the events of how the activity of a state can end."""
+    """Return the event of each outcome of a state's activity."""
     return {each: f'do.{state}.{each}' for each in ('succeeded', 'aborted', 'preempted')}
 
 
 def by_user(callback, data, message):
-    """Let a callback of the user fill a message or read one, and return the message."""
+    """Call a callback of the user with a message, and return the message."""
     try:
         returned = callback(data, message)
     except Exception as error:
@@ -78,8 +78,8 @@ class Host:
     """
     The machine of a node with its clients, topics and timers.
 
-    Whatever reaches it waits for its turn in a queue, so that any executor will do and nothing
-    blocks: `configure`, `begin`, `end` and `release` it in this order.
+    Everything that reaches it waits in a queue, so it works with any executor and never blocks.
+    Call `configure`, `begin`, `end` and `release` in this order.
     """
 
     def __init__(self, node, behavior, on_end=lambda failed: None):
@@ -98,10 +98,10 @@ class Host:
         self.cancel_timeout = self.server_timeout = 0
         parameters.declare(node, (*_SETTINGS, *behavior.parameters))
 
-    # ---- what a node calls
+    # ---- called by nodes
 
     def configure(self):
-        """Make all clients and topics; raise StartError where the node is not fit for it."""
+        """Create all clients and topics; raise StartError if the node cannot start."""
         node, behavior = self._node, self._behavior
         if behavior.missing_callbacks:
             missing = ', '.join(behavior.missing_callbacks)
@@ -112,7 +112,7 @@ class Host:
         self.cancel_timeout = settings['timeouts.cancel']
         self._member = settings['member'] or None
         self._delays = Alarms(node, node.get_clock(), self._group, self.post)
-        # Servers do not wait for a simulated clock.
+        # Timeouts of servers do not depend on a simulated clock.
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self._alarms = Alarms(node, steady, self._group, self.post)
         self._state = node.create_publisher(String, '~/state', _LATCHED)
@@ -158,7 +158,7 @@ class Host:
         self.post(lambda: self._end(then))
 
     def release(self):
-        """Give back what `configure` has made, if it has."""
+        """Destroy everything that `configure` has created."""
         if not self._is_configured:
             return
         self._is_configured = False
@@ -179,24 +179,24 @@ class Host:
             self._file.close()
             self._file = None
 
-    # ---- what calls of functions use
+    # ---- used by calls of functions
 
     @property
     def now(self):
-        """The nanoseconds of a clock that runs steadily."""
+        """The time of a steady clock, in nanoseconds."""
         return self._alarms.now
 
     def later(self, delay, action):
-        """Call an action in so many nanoseconds of that clock."""
+        """Call an action after a delay in nanoseconds of the steady clock."""
         self._alarms.schedule(delay, action)
 
     def warn(self, what):
-        """Say what has gone wrong while the machine goes on."""
+        """Log a problem with which the machine can continue, and add it to the diagnostics."""
         self.logger.warning(what)
         self._diagnostics.warn(what)
 
     def post(self, action):
-        """Run an action now or, where another one is in the middle of something, after it."""
+        """Run an action now or, if another action is running, after it."""
         self._inbox.append(action)
         while self._inbox and self._turn.acquire(blocking=False):
             try:
@@ -206,18 +206,18 @@ class Host:
                 self._turn.release()
 
     def forget(self, run):
-        """Take note that a call is over."""
+        """Remove a call that has ended."""
         self._calls.pop(run, None)
         self._look_whether_idle()
 
-    # ---- what the engine asks of the world
+    # ---- world of the engine
 
     def schedule(self, delay, action):
-        """Call something later, in the time of the node."""
+        """Call an action after a delay in the time of the node."""
         return self._delays.schedule(delay, action)
 
     def unschedule(self, handle):
-        """Do not call it."""
+        """Cancel a delayed call."""
         self._delays.unschedule(handle)
 
     def start(self, run):
@@ -236,14 +236,14 @@ class Host:
         self._topics.send(event)
 
     def observer(self):
-        """Return who is told what the engine does."""
+        """Return the observer of the engine."""
         return self._trace
 
     def failed(self, instance, error):
-        """Say that a guard, an effect or a goal has no value."""
+        """Log a guard, an effect or a goal that could not be evaluated."""
         self.warn(f'no value: {error}')
 
-    # ---- inside
+    # ---- internal
 
     def _begin(self):
         data = self._behavior.data(self._values)
@@ -268,14 +268,14 @@ class Host:
         self._look_whether_idle()
 
     def _look_whether_idle(self):
-        """Tell all who have ended the machine that all servers have stopped."""
+        """Call the waiting functions when all servers have stopped."""
         if not self._calls:
             waiting, self._waiting = self._waiting, []
             for then in waiting:
                 then()
 
     def _run(self, action):
-        """Run an action to its end; whatever goes wrong in it ends the machine, not the node."""
+        """Run an action; an exception in it ends the machine, not the node."""
         was_running = self._instance is not None and self._instance.running
         try:
             action()
@@ -291,7 +291,7 @@ class Host:
             self._on_end(False)
 
     def _fail(self, what):
-        """Stop what is going on, as far as that is still possible."""
+        """Stop the machine and cancel its calls."""
         self.logger.fatal(what)
         if self._instance is not None:
             self._instance.running = False
@@ -320,7 +320,7 @@ class Host:
             self._instance.receive(event)
 
     def _inject(self, message):
-        """Take an event as `swarmc simulate --events` has it: a line of JSON."""
+        """Process an event in the format of `swarmc simulate --events`: a line of JSON."""
         try:
             line = json.loads(message.data)
             name, fields = line['event'], line.get('data', {})
@@ -331,7 +331,7 @@ class Host:
         self._receive(event)
 
     def _tell(self, line, taken):
-        """Say what an event led to: on the topics, in the log, and in the file."""
+        """Write the effects of an event to the topics, the log and the trace file."""
         text = as_json(line)
         self._transitions.publish(String(data=text))
         if self._file is not None:
@@ -348,6 +348,6 @@ class Host:
         places = ', '.join(each.origin for each in taken if each.origin)
         where = ', '.join(line['configuration'])
         what = line['event'] or 'start'
-        # Not `info`: rclpy looks who has called, frame by frame, longer than all of this takes.
+        # Not `info`: rclpy inspects the frames of its callers, which takes longer than the rest.
         said = f'{what} -> {where} ({places})' if places else f'{what} -> {where}'
         self.logger.log(said, LoggingSeverity.INFO)

@@ -1,4 +1,4 @@
-"""Parameters of the machine as ROS has them, with types, ranges and documentation."""
+"""ROS parameters of the machine, with types, ranges and documentation."""
 
 from math import isfinite
 from typing import Any, NamedTuple
@@ -13,12 +13,12 @@ _LONGEST = 2**63
 
 
 class StartError(Exception):
-    """The machine cannot be started as it is configured."""
+    """The configuration does not allow the machine to start."""
 
 
 class Parameter(NamedTuple):
     """
-    A param of the machine; without a default it must be given a value.
+    A param of the machine; without a default, it requires a value.
 
     A param of type `duration` is in seconds in ROS, and in nanoseconds in the machine.
     """
@@ -30,7 +30,7 @@ class Parameter(NamedTuple):
 
 
 def declare(node, parameters):
-    """Declare them; raise StartError for a value of another type."""
+    """Declare parameters; raise StartError for a value of another type."""
     for each in parameters:
         given = each.default if each.default is not None else _type(each.kind)
         try:
@@ -40,7 +40,7 @@ def declare(node, parameters):
 
 
 def values(node, parameters):
-    """Return their values by name; raise StartError where one has none."""
+    """Return the values of parameters by name; raise StartError for a missing value."""
     found = {}
     for each in parameters:
         try:
@@ -71,7 +71,7 @@ def _type(name):
 
 
 def _descriptor(parameter):
-    """Describe it; a whole number has the range of its type."""
+    """Return the descriptor of a parameter; integers have the range of their type."""
     type_ = _type(parameter.kind)
     descriptor = ParameterDescriptor(
         name=parameter.name,

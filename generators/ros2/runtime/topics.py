@@ -1,4 +1,4 @@
-"""The events of the machine on topics: those of the robot, and those of the swarm."""
+"""Events of the machine on topics of the robot and of the swarm."""
 
 from typing import Any, NamedTuple
 
@@ -12,16 +12,16 @@ from .values import SECOND, to_json
 _DEPTH = 10
 _OF_ROS, _OF_BRIDGE = 'std_msgs/Header', 'swarmros/EventHeader'
 _ECHO = 2 * SECOND
-"""How long an event of the node itself is waited for on its topic, in nanoseconds."""
+"""Time in which an event of the node itself may arrive on its topic, in nanoseconds."""
 
 
 class Topic(NamedTuple):
     """
     An event and its topic.
 
-    That of a swarm event is in the namespace of the swarm; `local` is one of the robot on which
-    it is sent as well. `reliable` events are sent again until they arrive; what is published
-    by sensors is heard whether it is reliable or not.
+    The topic of a swarm event is in the namespace of the swarm; `local` is a topic of the robot on
+    which it is sent too. `reliable` events are sent again until they arrive; subscriptions to
+    sensors are best effort and match any publisher.
     """
 
     event: str
@@ -69,7 +69,7 @@ class Topics:
                 )
 
     def send(self, event):
-        """Publish an event; when that is and who does so is filled in where nothing is said."""
+        """Publish an event, with its time and sender in empty headers."""
         self._sign(event.data, event.name)
         if event.name in self._echoes:
             self._echoes[event.name].append((to_json(event.data), self._clock() + _ECHO))
@@ -86,7 +86,7 @@ class Topics:
                 header.stamp = self._node.get_clock().now().to_msg()
 
     def release(self):
-        """Let go of all topics."""
+        """Destroy all publishers and subscriptions."""
         for each in self._subscriptions:
             self._node.destroy_subscription(each)
         for publishers in self._publishers.values():
@@ -110,7 +110,7 @@ class Topics:
         return listen
 
     def _is_echo(self, event, message):
-        """Find out whether the node has sent that itself: a swarm event reaches the others."""
+        """Return True for an event that the node has sent itself; swarm events are for others."""
         waited = self._echoes.get(event)
         if not waited:
             return False
@@ -124,7 +124,7 @@ class Topics:
 
 
 def _headers(interface):
-    """Return the fields of a message in which is said when it was sent and by whom."""
+    """Return the header fields of a message, which have its time or its sender."""
     fields = interface.get_fields_and_field_types().items()
     return [(field, kind) for field, kind in fields if kind in (_OF_ROS, _OF_BRIDGE)]
 

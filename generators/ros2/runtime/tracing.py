@@ -1,4 +1,4 @@
-"""What the machine does, a line of JSON a macrostep, as `swarmc simulate --trace json` has it."""
+"""Trace of the machine: a line for each macrostep, as in `swarmc simulate --trace json`."""
 
 import json
 
@@ -7,7 +7,7 @@ from .values import to_json
 
 
 class Trace(Observer):
-    """Makes the lines, and hands each to a listener with the transitions that were taken."""
+    """Passes each line to a listener, with the transitions that were taken."""
 
     def __init__(self, member, clock, listener):
         self._member = member
@@ -18,7 +18,7 @@ class Trace(Observer):
         self._instance = None
 
     def begin(self, instance, event):
-        """Begin the line of an event from outside; None stands for the start."""
+        """Begin the line of an external event, None for the start."""
         self.flush()
         self._instance = instance
         self._taken = []
@@ -39,7 +39,7 @@ class Trace(Observer):
             self._line['data'] = data
 
     def flush(self):
-        """Hand out the line that is complete, if there is one."""
+        """Pass the complete line to the listener, if there is one."""
         line, self._line = self._line, None
         if line is None:
             return
@@ -48,37 +48,37 @@ class Trace(Observer):
         self._listener(line, self._taken)
 
     def received(self, instance, event):
-        """Begin a line for a delay or an activity; others have begun theirs already."""
+        """Begin a line for a delay or an activity; `begin` does so for other events."""
         if event.origin is not None:
             self.begin(instance, event)
 
     def entered(self, instance, state):
-        """Note it."""
+        """Note an entered state."""
         self._note('entered', state.id)
 
     def exited(self, instance, state):
-        """Note it, but for the final state in which the machine ended."""
+        """Note an exited state, except the final state in which the machine ended."""
         if instance.final is None:
             self._note('exited', state.id)
 
     def taken(self, instance, transition):
-        """Note it."""
+        """Note a taken transition."""
         self._taken.append(transition)
         name = instance.machine.called(transition)
-        # Several regions may take one of the state around them.
+        # Several regions may take the same transition of the state around them.
         if self._line is not None and name not in self._line['taken']:
             self._line['taken'].append(name)
 
     def started(self, instance, run):
-        """Note it."""
+        """Note a started activity."""
         self._note('started', run.activity.name)
 
     def cancelled(self, instance, run):
-        """Note it."""
+        """Note a cancelled activity."""
         self._note('cancelled', run.activity.name)
 
     def sent(self, instance, event):
-        """Note it."""
+        """Note a sent event."""
         self._note('sent', event.name)
 
     def _note(self, key, name):
@@ -87,4 +87,4 @@ class Trace(Observer):
 
 
 as_json = json.JSONEncoder(ensure_ascii=False).encode
-"""Return a line for programs."""
+"""Return a line as JSON."""

@@ -1,4 +1,4 @@
-"""Values of the model in messages of ROS: durations and times are whole nanoseconds."""
+"""Conversion between values of the model and messages of ROS; times are in nanoseconds."""
 
 from array import array
 from copy import deepcopy
@@ -21,7 +21,7 @@ _GREATEST_FLOAT = 3.4028234663852886e38
 
 
 def get(message, field):
-    """Return a field of a message as the model has it."""
+    """Return a field of a message as a value of the model."""
     try:
         value = getattr(message, field)
     except AttributeError:
@@ -34,7 +34,7 @@ def get(message, field):
 
 
 def put(message, field, value):
-    """Store a value in a field; raise ExecutionError where ROS cannot hold it there."""
+    """Store a value in a field; raise ExecutionError if it does not fit the type."""
     try:
         type_ = message.get_fields_and_field_types()[field]
     except (AttributeError, KeyError):
@@ -43,14 +43,14 @@ def put(message, field, value):
 
 
 def filled(message, **fields):
-    """Store values in fields of a new message, and return it."""
+    """Store values in fields of a message, and return the message."""
     for field, value in fields.items():
         put(message, field, value)
     return message
 
 
 def fitted(type_, value):
-    """Return the value as a field of that type takes it: a copy, as ROS has it."""
+    """Return a copy of a value for a field of a type; raise ExecutionError if it does not fit."""
     if type_ in _TIMES:
         return _time(_TIMES[type_], value)
     if type_ in ('double', 'float'):
@@ -82,7 +82,7 @@ def fitted(type_, value):
 
 
 def from_json(message, fields):
-    """Fill a message from the values of JSON, and return it."""
+    """Fill a message from JSON values, and return the message."""
     types = message.get_fields_and_field_types()
     for field, value in fields.items():
         if field not in types:
@@ -92,7 +92,7 @@ def from_json(message, fields):
 
 
 def to_json(value):
-    """Return what is in a message as plain data."""
+    """Return the content of a message as plain data."""
     if isinstance(value, (Duration, Time)):
         return value.sec * SECOND + value.nanosec
     fields = getattr(value, 'get_fields_and_field_types', None)
@@ -110,7 +110,7 @@ def to_json(value):
 
 
 def _of_json(held, type_, value):
-    """Make messages of objects, in lists as well."""
+    """Convert JSON objects to messages, also in lists."""
     if isinstance(value, dict):
         return from_json(held, value)
     many = _SEQUENCE.fullmatch(type_) or _ARRAY.fullmatch(type_)
@@ -137,7 +137,7 @@ def _whole(type_, value, lowest, end):
 
 
 def _many(type_, parts, value):
-    """Return an array; what comes from a message of ROS has its own class, and fits."""
+    """Return an array; values from messages of ROS have their own classes, and fit."""
     is_list = isinstance(value, (list, tuple))
     if not is_list and not isinstance(value, (array, bytes)) and not hasattr(value, 'dtype'):
         raise _misfit(type_, value)

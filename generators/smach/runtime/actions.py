@@ -1,7 +1,7 @@
-"""Actions as states that end whatever becomes of their servers.
+"""Actions as states that end even if their servers fail.
 
-A `smach_ros.SimpleActionState` waits for ever when its server dies, does not cancel a goal when it
-is preempted while it sends it, and hangs the next time when a callback of it has failed.
+A `smach_ros.SimpleActionState` waits forever when its server dies, does not cancel a goal when it
+is preempted while sending it, and hangs the next time after a callback has failed.
 """
 
 import threading
@@ -13,10 +13,10 @@ from actionlib_msgs.msg import GoalStatus
 from .states import Activity
 
 # Defaults of timeouts in seconds, from the options of swarmc.
-_MISSING_SERVER = 60
-_DEAD_SERVER = 60
-_CANCEL = 60
-# How goals end; in other ways they are aborted.
+_MISSING_SERVER = 10
+_DEAD_SERVER = 5
+_CANCEL = 5
+# Outcomes of goals by status; others are aborted.
 _OUTCOMES = {
     GoalStatus.SUCCEEDED: 'succeeded',
     GoalStatus.PREEMPTED: 'preempted',
@@ -28,15 +28,15 @@ class ActionState(Activity):
     """Sends a goal and waits for its result.
 
     `goal_cb(userdata, goal)` fills the goal or returns another one; `result_cb(userdata, status,
-    result)` takes what is needed from the result, and may return the outcome. Otherwise the state
-    succeeds when the server says so, and is preempted when the server preempts the goal. It is
-    aborted when the server says something else or nothing any more, when there is none, and when
-    a callback fails or returns what is no outcome.
+    result)` reads the result, and may return the outcome. Otherwise the state succeeds when the
+    goal succeeds, and is preempted when the server preempts the goal. It is aborted when the goal
+    ends otherwise, when the server is missing or silent, and when a callback fails or returns an
+    invalid outcome.
 
-    Left, it cancels the goal, waits until the server has given it up, and drops its result.
-    ROS parameters say how many seconds of ROS time it is patient: `~timeouts/missing_server`
-    until there is a server, `~timeouts/dead_server` for a sign of life of the goal, and
-    `~timeouts/cancel` for the end of a cancelled one.
+    When the state is left, it cancels the goal, waits until the goal has ended, and ignores the
+    result. ROS parameters set timeouts in seconds of ROS time: `~timeouts/missing_server` for a
+    server, `~timeouts/dead_server` for a status of the goal, and `~timeouts/cancel` for the end of
+    a cancelled goal.
     """
 
     def __init__(self, name, spec, goal=None, goal_cb=None, result_cb=None, **keywords):
@@ -51,7 +51,7 @@ class ActionState(Activity):
         self._cancel = _timeout('cancel', _CANCEL)
 
     def call(self):
-        """Reach the goal, or give up."""
+        """Return the outcome and the result of the goal."""
         goal = self._spec().action_goal.goal if self._goal is None else self._goal
         goal = self.ask(self._goal_cb, goal) or goal
         handle = self._reach(goal) if self._has_server() else None
@@ -62,7 +62,7 @@ class ActionState(Activity):
         return outcome, result
 
     def _has_server(self):
-        """Wait for the server; whether there is one."""
+        """Wait for the server; return True if there is one."""
         since = rospy.get_rostime()
         while not self._is_connected():
             self._pause(0.02)
@@ -76,10 +76,10 @@ class ActionState(Activity):
     def _is_connected(self):
         if rospy.get_rostime().is_zero():  # simulated time has not begun
             return False
-        return self._client.wait_for_server(rospy.Duration(nsecs=-1))  # looks once
+        return self._client.wait_for_server(rospy.Duration(nsecs=-1))  # checks once
 
     def _reach(self, goal):
-        """Send the goal and follow it to its end: its handle; None where it was given up."""
+        """Send the goal and wait for its end; return its handle, None after a timeout."""
         ended = threading.Event()
 
         def look(handle):
@@ -110,7 +110,7 @@ class ActionState(Activity):
         return handle if ended.is_set() else None
 
     def _pause(self, seconds):
-        """Wait, until something happens at most."""
+        """Wait for some seconds, or until the next change."""
         self._wake.wait(seconds)
         self._wake.clear()
 
@@ -120,6 +120,6 @@ def _timeout(name, default):
 
 
 def _is_known(handle, status):
-    """Whether a server's list of goals has this one."""
+    """Return True if a goal is in the status list of its server."""
     known = handle.comm_state_machine.action_goal.goal_id.id
     return any(each.goal_id.id == known for each in status.status_list)

@@ -1,10 +1,10 @@
-"""Decides what a machine does; its SMACH states and containers follow.
+"""Chart of a machine: runs the engine, which SMACH states and containers follow.
 
-An event, the end of an activity or a time that has passed is run to its end, as in SCXML: the
-transitions that it enables are taken, with all their effects in order, before anything else is
-looked at. What comes meanwhile waits: nothing is lost. Each state that is entered is noted, and
-the outcome with which it is left. SMACH goes the same way, from state to state by the outcomes to
-which they are bound; it runs the activities, and shows where the machine is.
+Each event, end of an activity or timeout runs to completion, as in SCXML: the enabled transitions
+are taken, with all their effects in order, before the next one is processed. Later events wait in
+a queue. The chart notes each state that is entered, and the outcome with which it is left. SMACH
+takes the same route from state to state by the outcomes; it runs the activities, and shows the
+active states.
 """
 
 import heapq
@@ -20,8 +20,8 @@ from . import engine
 class Activation:
     """One time that a state is active, from its entry to its exit.
 
-    `outcome` is that of the transition of the state that ended it, `entered` has the labels of the
-    states entered inside, in order, `run` is the run of its activity.
+    `outcome` is the outcome of the transition that ended it, `entered` has the labels of the
+    states entered inside, in order, and `run` is the run of its activity.
     """
 
     def __init__(self):
@@ -48,7 +48,7 @@ class Chart(engine.Observer):
         self._place(root)
         table = engine.Machine('machine', root.tables(), root.initial_path())
         self._instance = engine.Instance(table, self, data=root.userdata, observer=self)
-        # The last: from here on threads of rospy call.
+        # Last, because threads of rospy call the chart from here on.
         for event in dict.fromkeys(event for state in self._states for event in state.heard()):
             event.listen(self.receive)
 
@@ -65,7 +65,7 @@ class Chart(engine.Observer):
             else:
                 self._states.append(child)
 
-    # ---- what states and containers call
+    # ---- called by states and containers
 
     def enter(self):
         """Enter the machine."""
@@ -79,12 +79,12 @@ class Chart(engine.Observer):
             self._do(self._instance.stop)
 
     def receive(self, name, data=None):
-        """Run an event to its end."""
+        """Run an event to completion."""
         with self.changed:
             self._do(lambda: self._instance.receive(engine.Event(name, data)))
 
     def ended(self, activation, outcome, result):
-        """Run the end of an activity to its end."""
+        """Run the end of an activity to completion."""
         with self.changed:
             activation.is_called = False
             self._do(lambda: activation.run.end(outcome, result))
@@ -107,15 +107,15 @@ class Chart(engine.Observer):
             self._root.end()
         self.changed.notify_all()
 
-    # ---- what the engine tells: which states are entered and left
+    # ---- observer of the engine
 
     def entered(self, instance, state):
         """Note that a state is active."""
-        if state.origin is not None:  # a final state of the machine itself is no SMACH state
+        if state.origin is not None:  # final states of the machine itself are outcomes in SMACH
             state.origin.add_activation(Activation())
 
     def exited(self, instance, state):
-        """Note that it is left."""
+        """Note that a state has been left."""
         if not self._is_leaving:
             self._is_leaving = True
             self._left = []
@@ -124,7 +124,7 @@ class Chart(engine.Observer):
             self._left.append(state.origin)
 
     def taken(self, instance, transition):
-        """Note the outcome; that of an internal transition is one of the state inside."""
+        """Note the outcome of a transition; an internal one ends the state inside."""
         self._is_leaving = False
         if transition.origin is None or not transition.targets:
             return
@@ -133,14 +133,14 @@ class Chart(engine.Observer):
             if (left.container if on.internal else left) is state:
                 left.current.outcome = on.outcome
 
-    # ---- what the engine asks for
+    # ---- world of the engine
 
     def start(self, run):
-        """Let a state begin its activity, as soon as SMACH has come to it."""
+        """Let a state begin its activity as soon as SMACH executes it."""
         _state_of(run).current.run = run
 
     def cancel(self, run):
-        """Let it stop that."""
+        """Stop an activity."""
         state = _state_of(run)
         if state.current.is_called:
             state.request_preempt()
@@ -148,11 +148,11 @@ class Chart(engine.Observer):
             run.end('preempted')
 
     def failed(self, instance, error):
-        """Say that a guard or an effect has no value; the machine goes on."""
+        """Log a guard or an effect that could not be evaluated; the machine continues."""
         rospy.logerr('%s', error)
 
     def schedule(self, delay, action):
-        """Do something in so many nanoseconds of ROS time."""
+        """Call an action after a delay in nanoseconds of ROS time."""
         timer = (rospy.Time.now() + rospy.Duration(delay / 1e9), next(self._count), action)
         heapq.heappush(self._timers, timer)
         if self._clock is None:
@@ -162,7 +162,7 @@ class Chart(engine.Observer):
         return timer
 
     def unschedule(self, timer):
-        """Do it no more."""
+        """Cancel a delayed call."""
         if timer in self._timers:
             self._timers.remove(timer)
             heapq.heapify(self._timers)

@@ -1,7 +1,7 @@
-"""Containers that go where the chart of their machine says.
+"""Containers that follow the chart of their machine.
 
-All of a machine share one userdata: a value that one state stores is there for every other at
-once, and no container copies an old one over it when it ends.
+All containers of a machine share one userdata: a value that one state stores is visible to all
+others at once, and no container overwrites it with an old one when it ends.
 """
 
 import threading
@@ -17,9 +17,9 @@ from .states import Charted, joined
 class StateMachine(Charted, smach.StateMachine):
     """A state with states inside, one of which is active at a time.
 
-    `on` has its transitions; `outcomes` are those of states inside that lead out of it, and of
-    internal transitions of the states around. `initial` is the state entered first, by its path
-    in this one; the one added first, where it is not given.
+    `on` has its transitions; `outcomes` are further outcomes: of states inside that leave it, and
+    of internal transitions of the states around. `initial` is the path of its initial state, by
+    default the state that is added first.
     """
 
     def __init__(self, on=(), outcomes=(), initial=None, after=None, on_entry=None, on_exit=None):
@@ -28,20 +28,20 @@ class StateMachine(Charted, smach.StateMachine):
         self._initial = initial
 
     def tables(self):
-        """The states inside as the engine knows them."""
+        """Return the tables of the states inside for the engine."""
         return [child.table() for child in self.get_children().values()]
 
     def initial_path(self):
-        """The path of the state inside that is entered first."""
+        """Return the path of the initial state."""
         return (joined(self.path, self._initial or self.get_initial_states()[0]),)
 
     def next_label(self):
-        """The label of the state that SMACH comes to next."""
+        """Return the label of the next state in SMACH."""
         with self.chart.changed:
             return self.following.entered[0]
 
     def execute(self, parent_ud=None):
-        """Go from state to state as the chart has, beginning where it has begun."""
+        """Follow the chart from state to state until this one is left."""
         activation = self.follow()
         self.set_initial_state([self.next_label()])
         outcome = smach.StateMachine.execute(self, parent_ud)
@@ -58,19 +58,19 @@ class Machine(StateMachine):
         self._finals = outcomes
 
     def __exit__(self, *failure):
-        """Make the chart when all states are there."""
+        """Create the chart after all states have been added."""
         result = super().__exit__(*failure)
         if failure == (None, None, None):
             self.chart = Chart(self)
         return result
 
     def tables(self):
-        """The states inside as the engine knows them, and the final ones."""
+        """Return the tables of the states inside, and of the final states."""
         finals = [engine.State(name, engine.Kind.FINAL) for name in self._finals]
         return [*super().tables(), *finals]
 
     def request_preempt(self):
-        """Leave all states; those that call a server end when it has stopped."""
+        """Leave all states; states that call a server end when it has stopped."""
         self.chart.leave()
 
     def execute(self, parent_ud=None):
@@ -85,8 +85,8 @@ class Machine(StateMachine):
 class Concurrence(Charted, smach.Concurrence):
     """A state with regions, all of which are active while it is.
 
-    `on` has its transitions; `outcome_map` says which outcome of which region leads out of it by
-    which outcome, `outcomes` are those of internal transitions of the states around.
+    `on` has its transitions; `outcome_map` has the outcomes of regions that cause each outcome;
+    `outcomes` are outcomes of internal transitions of the states around.
     """
 
     kind = engine.Kind.PARALLEL
@@ -104,11 +104,11 @@ class Concurrence(Charted, smach.Concurrence):
         )
 
     def tables(self):
-        """The regions as the engine knows them."""
+        """Return the tables of the regions for the engine."""
         return [region.table() for region in self.get_children().values()]
 
     def execute(self, parent_ud=None):
-        """Let all regions run until the state is left."""
+        """Run all regions until the state is left."""
         activation = self.follow()
         self.check_consistency()
         self._child_outcomes = dict.fromkeys(self._states)

@@ -1,4 +1,4 @@
-"""Runs a state machine as a ROS node."""
+"""Run a state machine as a ROS node."""
 
 import queue
 import signal
@@ -12,19 +12,19 @@ import smach_ros
 
 from .states import StartError
 
-# How long a machine has to end when ROS shuts down, in seconds.
+# Time in which a machine has to end when ROS shuts down, in seconds.
 GRACE = 1.5
-# How long its last messages have to leave: rospy drops what is still in its queues.
+# Time for the last messages in seconds: rospy drops those that are still in its queues.
 LAST_WORDS = 0.1
-# How long the node has to take its leave of others, in seconds.
+# Time in which the node has to unregister, in seconds.
 LEAVE = 10
 
 
 def run(name, behavior, params=()):
-    """Run the machine that a module builds, to its end or until ROS shuts down; then exit.
+    """Run the machine that a module builds until it ends or ROS shuts down, then exit.
 
-    `params` are those of the machine that must have a value. With `~introspection`, smach_viewer
-    shows the machine. The exit code is 1 where the machine could not begin or go on.
+    `params` are the params of the machine that require a value. With `~introspection`, smach_viewer
+    shows the machine. The exit code is 1 if the machine could not start or has failed.
     """
     ending = _Ending()
     failed = False
@@ -46,7 +46,7 @@ def run(name, behavior, params=()):
         rospy.logfatal('%s', error)
         sys.exit(1)
     except Exception:
-        # What ends before it has begun cannot begin.
+        # A shutdown during the start raises exceptions.
         if not rospy.is_shutdown():
             raise
     finally:
@@ -57,8 +57,8 @@ def run(name, behavior, params=()):
 class _Ending(threading.Thread):
     """Ends the node when a signal comes.
 
-    What a signal interrupts in the main thread may hold a lock of rospy, and a handler that shuts
-    down there would wait for it for ever.
+    Code that a signal interrupts in the main thread may hold a lock of rospy. A handler that shuts
+    down there would wait for the lock forever.
     """
 
     def __init__(self):
@@ -75,13 +75,13 @@ class _Ending(threading.Thread):
             rospy.signal_shutdown('signal {}'.format(number))
 
     def wait(self):
-        """Return when others have been told that the node ends."""
+        """Return when the node has unregistered."""
         self._signals.put(None)
         self.join(LEAVE)
 
 
 class _Runner(threading.Thread):
-    """The machine in a thread of its own: in the main one it would not let signals through."""
+    """Runs the machine in its own thread: in the main thread it would block signals."""
 
     def __init__(self, machine):
         super().__init__(name='state machine', daemon=True)
@@ -90,7 +90,7 @@ class _Runner(threading.Thread):
         self._ended = threading.Event()
 
     def run(self):
-        """Run the machine; without it the node has nothing left to do."""
+        """Run the machine; when it ends, the node ends."""
         outcome = None
         try:
             outcome = self.machine.execute()
@@ -101,7 +101,7 @@ class _Runner(threading.Thread):
         rospy.signal_shutdown('state machine ended: {}'.format(outcome))
 
     def stop(self):
-        """Preempt the machine and let it cancel what runs, while ROS still lets it."""
+        """Preempt the machine, and wait until it has cancelled its activities."""
         self.machine.request_preempt()
         self._ended.wait(GRACE)
         time.sleep(LAST_WORDS)

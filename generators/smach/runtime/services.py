@@ -1,7 +1,7 @@
-"""Services as states that can be left while they are called.
+"""Services as states that can be left during the call.
 
-A `smach_ros.ServiceState` waits for ever for a service that is not there, and cannot be preempted
-while it waits for an answer.
+A `smach_ros.ServiceState` waits forever for a missing service, and cannot be preempted while it
+waits for a response.
 """
 
 import threading
@@ -11,17 +11,17 @@ import rospy
 from .states import Activity
 
 # Default of a timeout in seconds, from the options of swarmc.
-_MISSING_SERVER = 60
+_MISSING_SERVER = 10
 
 
 class ServiceState(Activity):
-    """Calls a service and waits for its answer.
+    """Calls a service and waits for its response.
 
     `request_cb(userdata, request)` fills the request or returns another one;
-    `response_cb(userdata, response)` takes what is needed from the answer. The state is aborted
-    when there is no service within `~timeouts/missing_server` seconds, when the call fails, as it
-    does where the server dies, and when a callback fails. It ends with `refused` when a field
-    `success` of the answer is false. Left, it ends at once: an answer that comes later is dropped.
+    `response_cb(userdata, response)` reads the response. The state is aborted when there is no
+    service within `~timeouts/missing_server` seconds, when the call fails, for example because the
+    server dies, and when a callback fails. It ends with `refused` when field `success` of the
+    response is false. When the state is left, it ends at once and ignores a later response.
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class ServiceState(Activity):
         self._missing = rospy.get_param('~timeouts/missing_server', _MISSING_SERVER)
 
     def call(self):
-        """Get the answer, or give up."""
+        """Return the outcome and the response."""
         request = self._spec._request_class() if self._request is None else self._request
         request = self.ask(self._request_cb, request) or request
         call = _Call(self.name, self._spec, request, self._missing, self._wake)
@@ -70,7 +70,7 @@ class ServiceState(Activity):
 
 
 class _Call(threading.Thread):
-    """One call, in a thread that can be left alone with it; `is_left` says that it is."""
+    """One call in a thread of its own; `is_left` says that nobody waits for it."""
 
     def __init__(self, name, spec, request, patience, wake):
         super().__init__(name='service ' + name, daemon=True)
@@ -95,7 +95,7 @@ class _Call(threading.Thread):
             self._wake.set()
 
     def answer(self):
-        """The response; raises what went wrong."""
+        """Return the response, or raise the error of the call."""
         if self._error is not None:
             raise self._error
         return self._response

@@ -1,4 +1,4 @@
-"""States of a machine, each of which is active until its chart says that it is left."""
+"""States of a machine, each active until its chart has left it."""
 
 import threading
 import traceback
@@ -10,14 +10,14 @@ import smach
 
 from . import engine
 
-# The trigger of a transition that waits for nothing.
+# Trigger of a transition without a trigger.
 AT_ONCE = ''
 _SAME = object()
 _OUTCOMES = ('succeeded', 'aborted', 'preempted')
 
 
 class Event:
-    """Something that happens, known by a message on a topic."""
+    """An event, received and sent as a message on a topic."""
 
     def __init__(self, name, message_type, heard_on, sent_on):
         self.name = name
@@ -31,12 +31,12 @@ class Event:
         rospy.Subscriber(self.heard_on, self.message_type, lambda m: receive(self.name, m))
 
     def advertise(self):
-        """Make ready to send, once."""
+        """Create the publisher, once."""
         if self._publisher is None:
             self._publisher = rospy.Publisher(self.sent_on, self.message_type, queue_size=10)
 
     def send(self, message):
-        """Publish a message, its header stamped and its swarmros header named."""
+        """Publish a message, with the time in its header and the name in its swarmros header."""
         fields = message.__slots__
         if 'header' in fields and hasattr(message.header, 'stamp') and not message.header.stamp:
             message.header.stamp = rospy.Time.now()
@@ -45,20 +45,20 @@ class Event:
         try:
             self._publisher.publish(message)
         except rospy.ROSException:
-            if not rospy.is_shutdown():  # nobody hears what is sent on the way out
+            if not rospy.is_shutdown():  # messages are lost during a shutdown
                 raise
 
 
 class On:
-    """A transition of a state, tried in the order in which they are given.
+    """A transition of a state; transitions are tried in order.
 
-    `trigger` is an Event, an outcome of the activity, a delay by its name in `after`, AT_ONCE, or
+    `trigger` is an Event, an outcome of the activity, the name of a delay in `after`, AT_ONCE, or
     an event that the machine itself raises: `final.Mission.Found` when that final state is
-    entered, `done.state.Mission` when a state is done. `outcome` is what the state ends with, which
-    the container binds to a state; it is called like the trigger where it is not given, and with
-    None the state stays. `into` is the state inside of that one that is entered, where it is not
-    the initial one. `guard(userdata, event)` and `effect(userdata, event)` get the message of the
-    event. An `internal` transition does not leave the state; the one inside ends with `outcome`.
+    entered, `done.state.Mission` when a state is complete. The state ends with `outcome`, which
+    the container binds to the target; by default it has the name of the trigger, and with None the
+    state stays. `into` is the path of the state that is entered inside the target, if it is not
+    the initial state. `guard(userdata, event)` and `effect(userdata, event)` get the message of the
+    event. An `internal` transition does not leave the state; the state inside ends with `outcome`.
     """
 
     def __init__(self, trigger, outcome=_SAME, guard=None, effect=None, into='', internal=False):
@@ -71,10 +71,10 @@ class On:
 
 
 class Charted:
-    """What the states and the containers of a machine have in common.
+    """Base class of the states and containers of a machine.
 
-    `after` has the delays that are waited for while the state is active, functions of userdata,
-    by name; `on_entry(userdata)` and `on_exit(userdata)` are its effects.
+    `after` has the delays of transitions by name, as functions of userdata; `on_entry(userdata)`
+    and `on_exit(userdata)` are effects.
     """
 
     kind = engine.Kind.STATE
@@ -84,7 +84,7 @@ class Charted:
     path = ''
 
     def describe(self, on, after, on_entry, on_exit):
-        """Keep what the chart needs; return the outcomes of the transitions."""
+        """Store the data for the chart; return the outcomes of the transitions."""
         self.on = on
         self.after = after or {}
         self.on_entry = on_entry
@@ -96,7 +96,7 @@ class Charted:
         return list(dict.fromkeys(outcomes))
 
     def place(self, label, container, chart):
-        """Tell the state where in the machine it is."""
+        """Set the place of the state in the machine."""
         self.label = label
         self.container = container
         self.chart = chart
@@ -110,12 +110,12 @@ class Charted:
             self.container.current.entered.append(self.label)
 
     def end(self):
-        """Note that it has been left."""
+        """Note that the state has been left."""
         if self.current is not None:
             self.current.is_over = True
 
     def follow(self):
-        """The activation that SMACH has come to."""
+        """Return the next activation for SMACH."""
         with self.chart.changed:
             self.following = self._activations.popleft()
             if self.container is not None:
@@ -127,18 +127,18 @@ class Charted:
         with self.chart.changed:
             self.chart.changed.wait_for(lambda: activation.is_over)
 
-    # ---- for the chart
+    # ---- called by the chart
 
     def heard(self):
-        """The events that the state waits for."""
+        """Return the events that trigger transitions of the state."""
         return [on.trigger for on in self.on if isinstance(on.trigger, Event)]
 
     def tables(self):
-        """The states inside as the engine knows them."""
+        """Return the tables of the states inside for the engine."""
         return ()
 
     def table(self):
-        """The state as the engine knows it."""
+        """Return the table of the state for the engine."""
         entry = [_effect(self.on_entry)] if self.on_entry else []
         leave = [_effect(self.on_exit)] if self.on_exit else []
         for name, delay in self.after.items():
@@ -156,7 +156,7 @@ class Charted:
         )
 
     def initial_path(self):
-        """The path of the state inside that is entered first."""
+        """Return the path of the initial state."""
         return ()
 
     def _transition(self, on):
@@ -177,7 +177,7 @@ class Charted:
         return joined('do', self.path, trigger) if trigger in _OUTCOMES else trigger
 
     def _target(self, on):
-        """Where SMACH goes with the outcome of the transition, out of container after container."""
+        """Return the path of the state that SMACH reaches with the outcome of a transition."""
         if on.internal:
             container = self
             to = next(to for (_, outcome), to in self.edges.items() if outcome == on.outcome)
@@ -191,9 +191,9 @@ class Charted:
 
 
 class State(Charted, smach.State):
-    """A state that does nothing itself.
+    """A state without an activity.
 
-    `outcomes` are further ones, for internal transitions of the states around.
+    `outcomes` are outcomes of internal transitions of the states around.
     """
 
     def __init__(self, on=(), outcomes=(), after=None, on_entry=None, on_exit=None):
@@ -201,32 +201,32 @@ class State(Charted, smach.State):
         smach.State.__init__(self, [*own, *outcomes, 'preempted'])
 
     def execute(self, userdata):
-        """Be active until the chart says that the state is left."""
+        """Wait until the chart has left the state; return the outcome."""
         activation = self.follow()
         self.perform(activation)
         self.wait(activation)
         return activation.outcome or 'preempted'
 
     def perform(self, activation):
-        """Do what the state does."""
+        """Perform the activity of the state."""
 
 
 class Final(State):
-    """A state in which the state around it is done."""
+    """A final state, in which the state around is complete."""
 
     kind = engine.Kind.FINAL
 
     def table(self):
-        """Also raises the event that says which final state it is."""
+        """Return the table, with an entry action that raises the event of the final state."""
         done = engine.Event(joined('final', self.path))
         table = super().table()
         return table._replace(entry=(lambda instance, event: instance.raise_event(done),))
 
 
 class History(State):
-    """Leads to the state that was active when the container was left last, at first to `default`.
+    """Leads to the last active state of the container, at first to `default`.
 
-    `outcomes` are the labels of the states that this can be; `deep`: the states inside it too.
+    `outcomes` are the labels of these states; `deep` restores the states inside as well.
     """
 
     def __init__(self, default, outcomes, deep=False):
@@ -235,19 +235,19 @@ class History(State):
         self._default = default
 
     def table(self):
-        """A history has one transition, to its default."""
+        """Return the table, with one transition to the default."""
         default = engine.Transition(targets=(joined(self.container.path, self._default),))
         return engine.State(self.path, self.kind, transitions=(default,))
 
     def execute(self, userdata):
-        """Lead to what the chart has entered."""
+        """Return the label of the state that the chart has entered."""
         return self.container.next_label()
 
 
 class Activity(State):
-    """A state that has a server do something while it is active.
+    """A state that calls a server while it is active.
 
-    `name` is that of the server; `store(userdata, result)` puts what comes of a success into
+    `name` is the name of the server; `store(userdata, result)` stores the result of a success in
     userdata.
     """
 
@@ -258,7 +258,7 @@ class Activity(State):
         self._wake = threading.Event()
 
     def table(self):
-        """Also says which server works, and which events the outcomes are."""
+        """Return the table, with the server and the events of its outcomes."""
         events = {outcome: self._event(outcome) for outcome in _OUTCOMES}
         if 'preempted' not in [each.trigger for each in self.on]:
             events['preempted'] = events['aborted']
@@ -267,14 +267,14 @@ class Activity(State):
         return super().table()._replace(activity=activity)
 
     def request_preempt(self):
-        """Make the call end."""
+        """End the call."""
         super().request_preempt()
         self._wake.set()
 
     def perform(self, activation):
-        """Call, unless the state has been left already."""
+        """Call the server, unless the state has been left already."""
         with self.chart.changed:
-            # A server that still stops for another state is waited for.
+            # Wait for a server that is still stopping for another state.
             self.chart.changed.wait_for(lambda: activation.run or activation.is_over)
             if activation.is_over:
                 return
@@ -291,11 +291,11 @@ class Activity(State):
         self.chart.ended(activation, outcome, result)
 
     def call(self):
-        """Have it done: the outcome and the result."""
+        """Call the server; return the outcome and the result."""
         raise NotImplementedError
 
     def ask(self, callback, *arguments):
-        """What a callback returns, during which nothing else happens in the machine."""
+        """Call a callback while the machine is locked; return its result."""
         with self.chart.changed:
             if callback is not None and not self.preempt_requested():
                 return callback(self.container.userdata, *arguments)
@@ -303,20 +303,20 @@ class Activity(State):
 
 
 def message(message_type, fields):
-    """A message with these values in its fields."""
+    """Return a message with values in its fields."""
     made = message_type()
     genpy.message.fill_message_args(made, [fields])
     return made
 
 
 class StartError(Exception):
-    """The machine cannot begin as it is set up."""
+    """The configuration does not allow the machine to start."""
 
 
 def param(name, kind, *default):
-    """The value of a ROS parameter, of a type or, with a list of one type, a list of such.
+    """Return the value of a ROS parameter; `kind` is its type, or a list with the type of elements.
 
-    Raises StartError where the value is something else; whole numbers are floats as well.
+    Raises StartError for a value of another type; integers are valid floats.
     """
     value = rospy.get_param(name, *default)
     if not _is(value, kind):
@@ -327,14 +327,14 @@ def param(name, kind, *default):
 
 
 def require(callbacks, signatures):
-    """Stop before anything moves when the user's file lacks what the model has come to use."""
+    """Raise StartError if the user's module lacks callbacks of the model."""
     missing = [text for text in signatures if not hasattr(callbacks, text.partition('(')[0])]
     if missing:
         raise StartError('callbacks.py lacks {}'.format(', '.join(missing)))
 
 
 def joined(*parts):
-    """A path of those parts that there are."""
+    """Return a path of the parts that are not empty."""
     return '.'.join(filter(None, parts))
 
 
@@ -345,7 +345,7 @@ def _is(value, kind):
 
 
 def _guard(function):
-    """The guard as the engine calls it: one that has no value does not hold."""
+    """Return a guard for the engine; a guard that raises an exception is false."""
 
     def call(instance, event):
         try:
@@ -362,7 +362,7 @@ def _effect(function):
 
 
 def _with_event(function, named=None):
-    """The function as the engine calls it; what goes wrong in it does not stop the machine."""
+    """Return a function for the engine, with exceptions as ExecutionError."""
 
     def call(instance, event):
         try:

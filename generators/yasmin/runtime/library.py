@@ -1,4 +1,4 @@
-"""What a node asks of YASMIN: to make its machine, and to run it."""
+"""Interface of a node to YASMIN: make a machine, and run it."""
 
 import yasmin
 from yasmin_ros import set_ros_loggers
@@ -11,7 +11,7 @@ SHOWN = Parameter('viewer.publish', 'bool', True, 'Whether yasmin_viewer is told
 
 
 def make(fsm, node, is_shown):
-    """Return the machine of a node, which is complete; yasmin_viewer may be told of its states."""
+    """Return the valid machine of a node; yasmin_viewer shows it if `is_shown`."""
     set_ros_loggers(node)
     machine = fsm.build()
     machine.validate()

@@ -8,9 +8,9 @@ STOPPED = 'canceled'
 
 class State(yasmin.State):
     """
-    A state of a chart: it is over when the engine has left it.
+    A state of a chart, which ends when the engine has left it.
 
-    Subclasses say its id in the `chart` as `path`, and with which `outcomes` it can end.
+    Subclasses define its `path`, which is its id in the `chart`, and its `outcomes`.
     """
 
     chart = None
@@ -23,17 +23,17 @@ class State(yasmin.State):
             self.set_description(self.__doc__)
 
     def execute(self, blackboard):
-        """Be active as long as the engine says."""
+        """Wait until the engine has left the state; return the outcome."""
         return self.chart.visit(self.path, blackboard)
 
     def cancel_state(self):
-        """Let the whole machine end."""
+        """End the whole machine."""
         super().cancel_state()
         self.chart.cancel()
 
 
 class ActionState(State):
-    """A state that has an action server work while it is active."""
+    """A state that calls an action server while it is active."""
 
 
 class ServiceState(State):
@@ -41,4 +41,4 @@ class ServiceState(State):
 
 
 class Junction(State):
-    """A state that leads to the one that the engine has entered; it is over at once."""
+    """A state that leads to the state that the engine has entered, and ends at once."""

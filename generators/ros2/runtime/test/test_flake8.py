@@ -1,4 +1,4 @@
-"""The linter flake8, with the rules of ROS 2."""
+"""Test with flake8 and the rules of ROS 2."""
 
 from ament_flake8.main import main_with_errors
 import pytest
@@ -7,6 +7,6 @@ import pytest
 @pytest.mark.flake8
 @pytest.mark.linter
 def test_flake8():
-    """Find nothing wrong."""
+    """Expect no findings."""
     code, errors = main_with_errors(argv=[])
     assert code == 0, '\n'.join(errors)

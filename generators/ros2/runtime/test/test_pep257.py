@@ -1,4 +1,4 @@
-"""The style of docstrings, with the rules of ROS 2."""
+"""Test with pydocstyle and the rules of ROS 2."""
 
 from ament_pep257.main import main
 import pytest
@@ -7,5 +7,5 @@ import pytest
 @pytest.mark.linter
 @pytest.mark.pep257
 def test_pep257():
-    """Find nothing wrong."""
+    """Expect no findings."""
     assert main(argv=['.', 'test']) == 0

@@ -1,4 +1,4 @@
-"""What a node asks of SMACH: to make its machine, and to run it."""
+"""Interface of a node to SMACH: make a machine, and run it."""
 
 from smach_ros import IntrospectionServer
 
@@ -10,7 +10,7 @@ SHOWN = Parameter('introspection.publish', 'bool', False, 'Whether SMACH tells i
 
 
 def make(fsm, node, is_shown):
-    """Return the machine of a node, which is complete; its states may be told."""
+    """Return the checked machine of a node; smach_viewer can show it if `is_shown`."""
     machine = fsm.build()
     check(machine)
     if is_shown:

@@ -8,9 +8,9 @@ STOPPED = 'preempted'
 
 class State(smach.State):
     """
-    A state of a chart: it is over when the engine has left it.
+    A state of a chart, which ends when the engine has left it.
 
-    `path` is its id in the chart; it can end with these `outcomes`.
+    `path` is its id in the chart.
     """
 
     def __init__(self, chart, path, outcomes):
@@ -19,16 +19,16 @@ class State(smach.State):
         self._path = path
 
     def execute(self, userdata):
-        """Be active as long as the engine says."""
+        """Wait until the engine has left the state; return the outcome."""
         return self._chart.visit(self._path, self._chart.memory)
 
     def request_preempt(self):
-        """Let the whole machine end."""
+        """End the whole machine."""
         _stop(self._chart)
 
 
 class ActionState(State):
-    """A state that has an action server work while it is active."""
+    """A state that calls an action server while it is active."""
 
 
 class ServiceState(State):
@@ -36,15 +36,15 @@ class ServiceState(State):
 
 
 class Junction(State):
-    """A state that leads to the one that the engine has entered; it is over at once."""
+    """A state that leads to the state that the engine has entered, and ends at once."""
 
 
 class Machine(smach.StateMachine):
     """
-    The whole machine of a chart, with these `outcomes`.
+    The whole machine of a chart.
 
-    Its userdata, which all containers inside share, have the params and variables. Preempted, it
-    ends as soon as no server works for it any more; before it has begun, it ends when it does.
+    Its userdata, which all containers inside share, has the params and variables. When preempted,
+    it ends as soon as no server works for it any more; if it has not begun, it ends at the start.
     """
 
     def __init__(self, chart, outcomes):
@@ -61,16 +61,16 @@ class Machine(smach.StateMachine):
             self.recall_preempt()
 
     def request_preempt(self):
-        """Let the engine leave all states."""
+        """Make the engine leave all states."""
         _stop(self._chart)
 
     def recall_preempt(self):
-        """Let the machine run when it is executed."""
+        """Allow the machine to run when it is executed."""
         self._chart.is_closed = False
 
 
 def check(container):
-    """Have SMACH check that a container and those inside are complete; raise what it finds."""
+    """Check a container and all containers inside for consistency; raise errors of SMACH."""
     container.check_consistency()
     for child in container.get_children().values():
         if hasattr(child, 'get_children'):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""A rostest of one state machine, without the servers that it needs.
+"""Rostest of one state machine, without its servers.
 
-It is complete for SMACH, runs, and ends soon after it is stopped. `~machine` names its module.
+It checks that the machine is consistent, runs, and ends soon after it is stopped. `~machine` is
+the name of its module.
 """
 
 import importlib
@@ -12,7 +13,7 @@ import unittest
 import rospy
 import rostest
 
-# The package that is tested, from swarmc.
+# Package under test, from swarmc.
 PACKAGE = ''
 
 
@@ -25,7 +26,7 @@ class TestMachine(unittest.TestCase):
         self.machine = importlib.import_module(PACKAGE + '.' + name).build()
 
     def test_it_is_complete(self):
-        """Each outcome of each state leads somewhere."""
+        """Each outcome of each state is bound."""
         check(self.machine)
 
     def test_it_stops(self):
@@ -41,7 +42,7 @@ class TestMachine(unittest.TestCase):
 
 
 def check(container):
-    """Have SMACH check a container and those inside it."""
+    """Check a container and all containers inside for consistency."""
     container.check_consistency()
     for child in container.get_children().values():
         if hasattr(child, 'get_children'):

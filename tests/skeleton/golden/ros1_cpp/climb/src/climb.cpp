@@ -1,6 +1,6 @@
 // Send the take-off command. Says "when" \ it is there.
 //
-// This file is yours: it was written once. See climb_base.h for what it can use.
+// This file is yours: it was written once. See climb_base.h for the base class.
 // swarmc:fits f0e09b42
 #include <climb/climb.h>
 
@@ -11,7 +11,7 @@ Climb::Outcome Climb::execute(const Goal& /*goal*/, Result& /*result*/, std::str
 {
   while (!cancelled())
   {
-    // Work on it here, with wait(0.1) between two steps, and return Outcome::succeeded at its end.
+    // Process it here, with wait(0.1) between two steps, and return Outcome::succeeded at its end.
     text = "climb is not implemented";
     return Outcome::aborted;
   }

@@ -9,7 +9,7 @@ namespace climb
 
 namespace
 {
-/// The value of a ROS parameter, where it has one of this type; `fallback` is enough otherwise.
+/// Read a ROS parameter; returns `fallback` if it has no value, false for another type.
 template <typename T>
 bool read(const ros::NodeHandle& node, const std::string& name, T& value, bool fallback)
 {
@@ -61,7 +61,7 @@ void ClimbBase::stop()
 {
   if (server_)
   {
-    server_->shutdown();  // waits for the goal that runs
+    server_->shutdown();  // waits for the running goal
   }
   subscribers_.clear();
 }

@@ -9,7 +9,7 @@ int main(int argc, char** argv)
   {
     return 1;
   }
-  // Two threads: messages come while a request is answered.
+  // Two threads: messages are processed during a request.
   ros::AsyncSpinner spinner(2);
   spinner.start();
   ros::waitForShutdown();

@@ -11,7 +11,7 @@ TEST(Climb, AGoalEnds)
   Climb node;
   Climb::Result result;
   std::string text;
-  // Until it is implemented; without ROS, a goal is to end at once.
+  // Until it is implemented; without ROS, goals end at once.
   EXPECT_NE(Climb::Outcome::succeeded, node.execute({}, result, text));
 }
 

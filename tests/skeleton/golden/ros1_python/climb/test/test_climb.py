@@ -10,7 +10,7 @@ from climb.implementation import Climb
 
 
 class TestClimb(unittest.TestCase):
-    """What the node does, without a ROS master."""
+    """Tests of the node without a ROS master."""
 
     def test_a_goal_ends(self):
         outcome = Climb().execute(Climb.Goal())

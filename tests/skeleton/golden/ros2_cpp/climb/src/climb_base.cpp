@@ -36,7 +36,7 @@ ClimbBase::ClimbBase(const rclcpp::NodeOptions & options)
     "frame", described("Must be given."));
   outputs_.pos_goal_position = create_publisher<demo::msg::Sample>(
     "pos/goal_position", 10);
-  // Messages come while something else is worked on.
+  // Messages are processed while other callbacks run.
   inputs_group_ = create_callback_group(rclcpp::CallbackGroupType::MutuallyExclusive);
   rclcpp::SubscriptionOptions heard;
   heard.callback_group = inputs_group_;
@@ -177,7 +177,7 @@ void ClimbBase::end(
   const std::shared_ptr<Result> & result)
 {
   try {
-    // A goal that has not begun can end in no way but this.
+    // A goal must have begun before it can end.
     if (!goal->is_executing() && !goal->is_canceling()) {
       goal->execute();
     }
@@ -185,11 +185,11 @@ void ClimbBase::end(
       goal->succeed(result);
     } else if (outcome == Outcome::preempted && goal->is_canceling()) {
       goal->canceled(result);
-    } else {  // ROS 2 has no state for a goal that gives way to another
+    } else {  // ROS 2 has no state for a replaced goal
       goal->abort(result);
     }
   } catch (const std::exception & error) {
-    // ROS is shut down: nobody hears of the end.
+    // ROS is shut down, so clients are not informed.
     RCLCPP_ERROR(get_logger(), "the end of a goal: %s", error.what());
   }
 }

@@ -11,12 +11,12 @@ int main(int argc, char ** argv)
   std::shared_ptr<climb::Climb> node;
   try {
     node = std::make_shared<climb::Climb>();
-  } catch (const std::exception & error) {  // a parameter is missing, or of another type
+  } catch (const std::exception & error) {  // a parameter is missing or of another type
     std::fprintf(stderr, "%s\n", error.what());
     rclcpp::shutdown();
     return 1;
   }
-  // Two threads: messages come while a request is answered.
+  // Two threads: messages are processed during a request.
   rclcpp::executors::MultiThreadedExecutor executor(rclcpp::ExecutorOptions(), 2);
   executor.add_node(node);
   executor.spin();

@@ -12,7 +12,7 @@ from climb.implementation import Climb
 
 @pytest.fixture
 def node():
-    """The node, in a ROS of this process."""
+    """The node with ROS in this process."""
     rclpy.init()
     needed = [
         Parameter('frame', value='map'),
@@ -24,10 +24,10 @@ def node():
 
 
 def test_a_goal_ends(node):
-    """Until it is implemented, a goal is aborted."""
+    """Expect that a goal is aborted, until it is implemented."""
     assert node.execute(node.Goal()).status == 'aborted'
 
 
 def test_on_state(node):
-    """A message is taken."""
+    """Expect that a message is processed."""
     node.on_state(demo.msg.Sample())

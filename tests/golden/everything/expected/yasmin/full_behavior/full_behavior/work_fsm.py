@@ -48,7 +48,7 @@ class MainAGo(ActionState):
 
 class MainAPick(State):
     # model.swarm:66
-    """Is left at once, to where its guards say."""
+    """Ends at once, with the outcome of its guards."""
 
     chart = CHART
     path = 'Main.A.Pick'
@@ -57,7 +57,7 @@ class MainAPick(State):
 
 class MainAEnd(State):
     # model.swarm:73
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Main.A.End'
@@ -66,7 +66,7 @@ class MainAEnd(State):
 
 class MainBOk(State):
     # model.swarm:78
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'Main.B.Ok'
@@ -75,7 +75,7 @@ class MainBOk(State):
 
 class MainBLo(State):
     # model.swarm:79
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Main.B.Lo'
@@ -93,7 +93,7 @@ class LandingDown(ServiceState):
 
 class LandingOk(State):
     # model.swarm:44
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Landing.Ok'
@@ -102,7 +102,7 @@ class LandingOk(State):
 
 class LandingBad(State):
     # model.swarm:45
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Landing.Bad'

@@ -46,7 +46,7 @@ class AA(ActionState):
 
 class AD(State):
     # model.swarm:54
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'A.D'
@@ -63,7 +63,7 @@ class DEntry(Junction):
 
 class DIn(State):
     # model.swarm:73
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'D.In'

@@ -12,10 +12,10 @@ from .topics import Topic
 
 
 class Data:
-    """What the machine remembers: params, fixed when it starts, and variables."""
+    """Data of the machine: params, which are constant after its start, and variables."""
 
     def __init__(self, parameters):
-        """Remember nothing."""
+        """Create no variables."""
 
 
 STATES = tree(

@@ -92,7 +92,7 @@ class PrepareMeasure(ServiceState):
 
 class PrepareDone(State):
     # model.swarm:35
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Prepare.Done'

@@ -32,7 +32,7 @@ CHART = Chart(
 
 class Idle(State):
     # behaviours.swarm:78
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'Idle'
@@ -41,7 +41,7 @@ class Idle(State):
 
 class MissionRescueReady(State):
     # behaviours.swarm:85
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'Mission.Rescue.Ready'
@@ -68,7 +68,7 @@ class MissionRescueDrive(ActionState):
 
 class MissionRescueStuck(State):
     # behaviours.swarm:99
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Mission.Rescue.Stuck'
@@ -77,7 +77,7 @@ class MissionRescueStuck(State):
 
 class MissionWatchWatching(State):
     # behaviours.swarm:103
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'Mission.Watch.Watching'
@@ -86,7 +86,7 @@ class MissionWatchWatching(State):
 
 class MissionWatchAborted(State):
     # behaviours.swarm:106
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Mission.Watch.Aborted'

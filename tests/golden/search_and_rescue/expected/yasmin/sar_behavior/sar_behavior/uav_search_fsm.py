@@ -38,7 +38,7 @@ CHART = Chart(
 
 class MissionIdle(State):
     # behaviours.swarm:23
-    """Waits for what leads on."""
+    """Waits for a transition."""
 
     chart = CHART
     path = 'Mission.Idle'
@@ -101,7 +101,7 @@ class AbortLand(ServiceState):
 
 class AbortLanded(State):
     # behaviours.swarm:65
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Abort.Landed'

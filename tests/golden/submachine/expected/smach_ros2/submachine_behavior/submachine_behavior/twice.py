@@ -9,7 +9,7 @@ from .host import Behavior, outcomes, tree
 
 
 class Data:
-    """What the machine remembers: params, fixed when it starts, and variables."""
+    """Data of the machine: params, which are constant after its start, and variables."""
 
     def __init__(self, parameters):
         # model.swarm:26

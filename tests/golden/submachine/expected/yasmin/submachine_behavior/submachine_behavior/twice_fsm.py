@@ -41,7 +41,7 @@ class FirstTry(ServiceState):
 
 class FirstOk(State):
     # model.swarm:21
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'First.Ok'
@@ -50,7 +50,7 @@ class FirstOk(State):
 
 class FirstFailed(State):
     # model.swarm:22
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'First.Failed'
@@ -68,7 +68,7 @@ class SecondTry(ServiceState):
 
 class SecondOk(State):
     # model.swarm:21
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Second.Ok'
@@ -77,7 +77,7 @@ class SecondOk(State):
 
 class SecondFailed(State):
     # model.swarm:22
-    """Waits until the state around, which is complete, is left."""
+    """Waits until the complete state around it is left."""
 
     chart = CHART
     path = 'Second.Failed'

@@ -1,6 +1,6 @@
 // Send the take-off command. Says "when" \ it is there.
 //
-// This file is yours: it was written once. See climb_base.h for what it can use.
+// This file is yours: it was written once. See climb_base.h for the base class.
 // swarmc:fits f0e09b42
 #ifndef CLIMB_CLIMB_H
 #define CLIMB_CLIMB_H

@@ -24,7 +24,7 @@ public:
   using Result = demo::ClimbResult;
   using Feedback = demo::ClimbFeedback;
 
-  /// How a goal ends.
+  /// Outcome of a goal.
   enum class Outcome
   {
     succeeded,
@@ -32,7 +32,7 @@ public:
     preempted
   };
 
-  /// ROS parameters of the node, as they are at its start.
+  /// ROS parameters of the node, read at its start.
   struct Parameters
   {
     /// model.swarm:34
@@ -52,14 +52,14 @@ public:
     std::string frame = {};
   };
 
-  /// The latest message on each topic that the node hears; null until one has come.
+  /// The last message of each subscription of the node; null before the first.
   struct Inputs
   {
     /// model.swarm:30
     demo::Sample::ConstPtr state;
   };
 
-  /// A publisher for each topic that the node publishes on.
+  /// The publishers of the node.
   struct Outputs
   {
     /// model.swarm:32
@@ -72,27 +72,27 @@ public:
   ClimbBase& operator=(const ClimbBase&) = delete;
   virtual ~ClimbBase() = default;
 
-  /// Begin: read the parameters, and open what others see of the node.
-  /// Returns false where a parameter is missing or of another type; ROS's log says which.
+  /// Start: read the parameters, and create publishers, subscriptions and servers.
+  /// Returns false if a parameter is missing or of another type, which is logged.
   bool start();
 
-  /// End what runs. To be called before the object is destroyed.
+  /// End the running goal. Call it before the object is destroyed.
   void stop();
 
-  /// Reach a goal; what is returned is how it ends. `text` says why, to who sent the goal.
+  /// Process a goal; returns its outcome. `text` is sent to the client.
   virtual Outcome execute(const Goal& goal, Result& result, std::string& text) = 0;
 
-  /// Called with each message on state.
+  /// Process a message on state.
   virtual void on_state(const demo::Sample& message) = 0;
 
 protected:
-  /// Whether the goal is to end: it was cancelled, a newer one came, or the node ends.
+  /// True if the goal is cancelled, replaced by a newer goal, or the node ends.
   bool cancelled();
 
-  /// Wait, and return whether to go on: false as soon as the goal is to end.
+  /// Wait; returns false as soon as the goal is cancelled, else true.
   bool wait(double seconds);
 
-  /// Tell who sent the goal how far it is.
+  /// Publish the progress of the goal to its client.
   void publish_feedback(const Feedback& feedback);
 
   const Parameters& parameters() const
@@ -100,7 +100,7 @@ protected:
     return parameters_;
   }
 
-  /// A copy: messages come while others are worked on.
+  /// A copy, because messages arrive while others are processed.
   Inputs inputs() const;
 
   Outputs& outputs()

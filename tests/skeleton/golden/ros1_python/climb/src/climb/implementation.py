@@ -1,7 +1,7 @@
 """Send the take-off command.
 Says \"when\" \\ it is there.
 
-This file is yours: it was written once. See base.py for what it can use.
+This file is yours: it was written once. See base.py for the base class.
 swarmc:fits d3397568
 """
 
@@ -13,17 +13,17 @@ class Climb(ClimbBase):
     Says \"when\" \\ it is there."""
 
     def execute(self, goal):
-        """Reach a goal: end with `succeeded`, `aborted` or `preempted`.
+        """Process a goal: return `succeeded`, `aborted` or `preempted`.
 
         goal.height : float64 - How high, in metres.
         result.reached : float64
         feedback.now : float64
         """
         while not self.cancelled():
-            # Work on it here, with self.wait(0.1) between two steps, and return
+            # Process it here, with self.wait(0.1) between two steps, and return
             # self.succeeded(self.Result(...)) at its end.
             return self.aborted('climb is not implemented')
         return self.preempted()
 
     def on_state(self, message):
-        """state: demo.msg.Sample; self.inputs.state is it by now."""
+        """state: demo.msg.Sample; also in self.inputs.state."""

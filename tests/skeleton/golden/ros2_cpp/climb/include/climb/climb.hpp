@@ -1,6 +1,6 @@
 // Send the take-off command. Says "when" \ it is there.
 //
-// This file is yours: it was written once. See climb_base.hpp for what it can use.
+// This file is yours: it was written once. See climb_base.hpp for the base class.
 // swarmc:fits 0b32bd73
 #ifndef CLIMB_CLIMB_HPP_
 #define CLIMB_CLIMB_HPP_

@@ -29,7 +29,7 @@ public:
   using Feedback = Action::Feedback;
   using GoalHandle = rclcpp_action::ServerGoalHandle<Action>;
 
-  /// How a goal ends.
+  /// Outcome of a goal.
   enum class Outcome
   {
     succeeded,
@@ -37,7 +37,7 @@ public:
     preempted
   };
 
-  /// ROS parameters of the node, as they are at its start.
+  /// ROS parameters of the node, read at its start.
   struct Parameters
   {
     /// model.swarm:34
@@ -57,14 +57,14 @@ public:
     std::string frame = {};
   };
 
-  /// The latest message on each topic that the node hears; null until one has come.
+  /// The last message of each subscription of the node; null before the first.
   struct Inputs
   {
     /// model.swarm:30
     demo::msg::Sample::ConstSharedPtr state;
   };
 
-  /// A publisher for each topic that the node publishes on.
+  /// The publishers of the node.
   struct Outputs
   {
     /// model.swarm:32
@@ -72,35 +72,35 @@ public:
     rclcpp::Publisher<demo::msg::Sample>::SharedPtr pos_goal_position;
   };
 
-  /// Read the parameters, and open what others see of the node.
-  /// A parameter that is missing or of another type is an exception of rclcpp.
+  /// Read the parameters, and create publishers, subscriptions and servers.
+  /// rclcpp throws an exception for a parameter that is missing or of another type.
   explicit ClimbBase(
     const rclcpp::NodeOptions & options = rclcpp::NodeOptions());
 
   ~ClimbBase() override;
 
-  /// End what runs. To be called before the object is destroyed.
+  /// End the running goal. Call it before the object is destroyed.
   void stop();
 
-  /// Reach a goal; what is returned is how it ends. `text` says why, to the log.
+  /// Process a goal; returns its outcome. `text` is logged.
   virtual Outcome execute(const Goal & goal, Result & result, std::string & text) = 0;
 
-  /// Called with each message on state.
+  /// Process a message on state.
   virtual void on_state(const demo::msg::Sample & message) = 0;
 
 protected:
-  /// Whether the goal is to end: it was cancelled, a newer one came, or the node ends.
+  /// True if the goal is cancelled, replaced by a newer goal, or the node ends.
   bool cancelled();
 
-  /// Wait, and return whether to go on: false as soon as the goal is to end.
+  /// Wait; returns false as soon as the goal is cancelled, else true.
   bool wait(double seconds);
 
-  /// Tell who sent the goal how far it is.
+  /// Publish the progress of the goal to its client.
   void publish_feedback(const Feedback & feedback);
 
   const Parameters & parameters() const {return parameters_;}
 
-  /// A copy: messages come while others are worked on.
+  /// A copy, because messages arrive while others are processed.
   Inputs inputs() const;
 
   Outputs & outputs() {return outputs_;}
@@ -115,8 +115,8 @@ private:
   rclcpp_action::Server<Action>::SharedPtr server_;
   std::mutex goals_mutex_;
   std::condition_variable goals_changed_;
-  std::shared_ptr<GoalHandle> current_;  // the goal that is worked on
-  std::shared_ptr<GoalHandle> next_;  // the one that is to take its place
+  std::shared_ptr<GoalHandle> current_;  // the running goal
+  std::shared_ptr<GoalHandle> next_;  // the goal that replaces it
   bool stopping_ = false;
   std::thread worker_;
   Parameters parameters_;

@@ -40,7 +40,7 @@ def build():
 
 
 def initial_userdata():
-    """Params as ROS has them, and the first values of variables."""
+    """Return userdata with params from ROS, and the initial values of variables."""
     userdata = smach.UserData()
     # model.swarm:22
     userdata.speed = param('~speed', float, 2.0)

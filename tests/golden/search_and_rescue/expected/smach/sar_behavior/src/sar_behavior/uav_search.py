@@ -41,7 +41,7 @@ def build():
 
 
 def initial_userdata():
-    """Params as ROS has them, and the first values of variables."""
+    """Return userdata with params from ROS, and the initial values of variables."""
     userdata = smach.UserData()
     # behaviours.swarm:13
     userdata.altitude = param('~altitude', float, 2.5)

@@ -43,7 +43,7 @@ def build():
 
 
 def initial_userdata():
-    """Params as ROS has them, and the first values of variables."""
+    """Return userdata with params from ROS, and the initial values of variables."""
     userdata = smach.UserData()
     # model.swarm:10
     userdata.limit = param('~limit', int, 3)
