@@ -1,1 +1,1 @@
-"""Two versions of a file that come from one, merged declaration by declaration: `swarmc merge`."""
+"""Merge `.swarm` files by declarations and statements: `swarmc merge`."""

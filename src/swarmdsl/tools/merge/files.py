@@ -1,4 +1,4 @@
-"""Three files to one: by what they declare, or line by line where one has syntax errors."""
+"""Merge three files by declarations, or by lines if one has syntax errors."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ _LINE_END = re.compile(rb"\r\n|\n|\r")
 
 @dataclass(frozen=True)
 class Result:
-    """The content, and in how many places the two sides do not agree.
+    """Merged content and the number of conflicts.
 
-    `by_lines` says that git has merged lines, since a file has syntax errors.
+    `by_lines` is True if git merged lines because a file has syntax errors.
     """
 
     content: bytes
@@ -30,9 +30,9 @@ class Result:
 
 
 def merge_files(base: Path, ours: Path, theirs: Path, report: Diagnostics) -> Result | None:
-    """Merge what two sides have made of a file; None where a file cannot be read.
+    """Merge two versions of a file; None if a file cannot be read.
 
-    Line ends and byte order mark are those of `ours`.
+    Line ends and byte order mark are taken from `ours`.
     """
     paths = (base, ours, theirs)
     contents = [read_bytes(path, None, report) for path in paths]
@@ -43,10 +43,10 @@ def merge_files(base: Path, ours: Path, theirs: Path, report: Diagnostics) -> Re
     before, here, there = outlines
     if before is not None and here is not None and there is not None:
         merged = merge(before, here, there)
-        return Result(_as_in(contents[1] or b"", merged.text), merged.conflicts)
+        return Result(_with_line_ends(contents[1] or b"", merged.text), merged.conflicts)
     if any(found.name in ("not-text", "file-not-found", "unreadable-file") for found in report):
         return None
-    return _by_lines(*paths) if None not in contents else None
+    return _merge_lines(*paths) if None not in contents else None
 
 
 def _outline(path: Path, content: bytes, report: Diagnostics) -> Item | None:
@@ -59,20 +59,20 @@ def _outline(path: Path, content: bytes, report: Diagnostics) -> Item | None:
     return None if found.has_errors else outline(source, parsed.model)
 
 
-def _as_in(content: bytes, text: str) -> bytes:
-    made = text.encode()
+def _with_line_ends(content: bytes, text: str) -> bytes:
+    encoded = text.encode()
     first = _LINE_END.search(content)
     if first is not None and first[0] == b"\r\n":
-        made = made.replace(b"\n", b"\r\n")
-    return _BOM + made if content.startswith(_BOM) else made
+        encoded = encoded.replace(b"\n", b"\r\n")
+    return _BOM + encoded if content.startswith(_BOM) else encoded
 
 
-def _by_lines(base: Path, ours: Path, theirs: Path) -> Result | None:
+def _merge_lines(base: Path, ours: Path, theirs: Path) -> Result | None:
     names = ("-L", "ours", "-L", "base", "-L", "theirs")
     command = ["git", "merge-file", "--stdout", "--quiet", *names, str(ours), str(base)]
     try:
         done = subprocess.run([*command, str(theirs)], capture_output=True, check=False)
     except FileNotFoundError:
         return None
-    # The exit code is the number of conflicts; more is said of what went wrong.
+    # The exit code is the number of conflicts, at most 127; larger codes are errors.
     return Result(done.stdout, done.returncode, by_lines=True) if done.returncode < 128 else None

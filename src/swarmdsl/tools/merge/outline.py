@@ -1,4 +1,4 @@
-"""A file as a tree of declarations and statements that together are all of its text."""
+"""Tree of the declarations and statements of a file that covers all of its text."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from swarmdsl.syntax.ast import (
 )
 
 Key = tuple[str, ...]
-"""By what something is known again: its kind, and its name or what it is for."""
+"""Identifies an item across versions by kind and name, or by kind and text."""
 
 _COMMENT = re.compile(r"//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/")
 _REST_OF_LINE = re.compile(r"[ \t]*(?:/\*(?:[^*\n]|\*(?!/))*\*/[ \t]*)*(?://[^\n]*)?\n?")
@@ -38,10 +38,10 @@ _REST_OF_LINE = re.compile(r"[ \t]*(?:/\*(?:[^*\n]|\*(?!/))*\*/[ \t]*)*(?://[^\n
 
 @dataclass(frozen=True)
 class Item:
-    """A declaration or statement with all before it that belongs to nothing else.
+    """Declaration or statement with the text before it that belongs to no other item.
 
-    `lead` are the comments and blank lines above, `head` is the rest or, of a block, what is
-    before its `inner` items; `tail` is what is behind these.
+    `lead` is the comments and blank lines above. `head` is the rest; for a block, the text before
+    its `inner` items, and `tail` the text after them.
     """
 
     key: Key
@@ -52,22 +52,23 @@ class Item:
 
     @property
     def text(self) -> str:
-        """All of it."""
+        """Text of the item."""
         return "".join((self.lead, self.head, *(each.text for each in self.inner), self.tail))
 
 
 def outline(source: Source, model: Model) -> Item:
-    """The items of a file without syntax errors; their text is that of the file."""
+    """Outline of a file without syntax errors."""
     text = source.text
-    found = _cut(text, model, 0)
-    inner, end = found if found is not None else ((), 0)
+    split = _split(text, model, 0)
+    inner, end = split if split is not None else ((), 0)
     return Item((), "", "", inner, text[end:])
 
 
-def _cut(text: str, node: Node, start: int) -> tuple[tuple[Item, ...], int] | None:
-    """The items in a block that begins at an offset, and where the last of them ends.
+def _split(text: str, node: Node, start: int) -> tuple[tuple[Item, ...], int] | None:
+    """Items of a block that begins at `start`, and the end of the last one.
 
-    None where it cannot be cut between them: several are on a line, or sections are around them.
+    None if the text cannot be split between them: several share a line, or other text is in
+    between.
     """
     nodes = sorted(
         (child for child in children(node) if isinstance(child, Documented)),
@@ -82,7 +83,7 @@ def _cut(text: str, node: Node, start: int) -> tuple[tuple[Item, ...], int] | No
         if child.span.start < at or not _is_blank(text[at : child.span.start]):
             return None
         rest = _REST_OF_LINE.match(text, child.span.end)
-        assert rest is not None  # it matches even nothing
+        assert rest is not None  # the pattern matches the empty string
         end = rest.end()
         if end < len(text) and text[end - 1] != "\n":
             return None
@@ -100,7 +101,7 @@ def _item(text: str, node: Documented, key: Key, start: int, end: int) -> Item:
     if opening >= 0:
         rest = _REST_OF_LINE.match(text, opening + 1)
         assert rest is not None
-        found = _cut(text, node, rest.end()) if text[rest.end() - 1] == "\n" else None
+        found = _split(text, node, rest.end()) if text[rest.end() - 1] == "\n" else None
         if found is not None and _is_blank(text[found[1] : node.span.end - 1]):
             inner, at = found
             return Item(key, lead, text[own : rest.end()], inner, text[at:end])
@@ -119,19 +120,19 @@ def _key(node: Documented) -> Key:
         case EnvironmentUse() | FitnessUse():
             return (kind,)
         case Transition(triggers=triggers):
-            return kind, *(_words(each) for each in triggers)
+            return kind, *(_normalized(each) for each in triggers)
         case Branch(guard=guard):
-            return kind, _words(guard) if guard is not None else ""
+            return kind, _normalized(guard) if guard is not None else ""
         case Connector() | ImportFile() | ImportLibrary() | ImportRos():
-            return kind, _words(node)
+            return kind, _normalized(node)
     name = getattr(node, "name", None)
-    return (kind, str(name)) if name else (kind, _words(node))
+    return (kind, str(name)) if name else (kind, _normalized(node))
 
 
-def _words(node: Node) -> str:
+def _normalized(node: Node) -> str:
     return " ".join(node.span.text.split())
 
 
 def keys(items: Sequence[Item]) -> list[Key]:
-    """The keys of items, in their order."""
+    """Keys of items in order."""
     return [item.key for item in items]

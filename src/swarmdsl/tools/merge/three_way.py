@@ -1,4 +1,7 @@
-"""Three-way merge of outlines: what one side changed is taken, what both did is a conflict."""
+"""Three-way merge of outlines.
+
+A change on one side is taken; different changes on both sides are a conflict.
+"""
 
 from __future__ import annotations
 
@@ -8,24 +11,24 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.tools.merge.outline import Item, Key, keys
 
 OURS, THEIRS = "<<<<<<< ours\n", ">>>>>>> theirs\n"
-BETWEEN = "=======\n"
+SEPARATOR = "=======\n"
 
 
 @dataclass(frozen=True)
 class Merged:
-    """The text of both, and in how many places the two do not agree."""
+    """Merged text and the number of conflicts."""
 
     text: str
     conflicts: int
 
 
 def merge(base: Item, ours: Item, theirs: Item) -> Merged:
-    """Merge three files."""
+    """Merge the outlines of three files."""
     return _merge_block(base, ours, theirs)
 
 
 def _merge_block(base: Item, ours: Item, theirs: Item) -> Merged:
-    """Merge what a block has around its items, and each of these."""
+    """Merge the items of a block and the text around them."""
     parts = [
         _merge_text(base.lead, ours.lead, theirs.lead),
         _merge_text(base.head, ours.head, theirs.head),
@@ -34,7 +37,7 @@ def _merge_block(base: Item, ours: Item, theirs: Item) -> Merged:
     ]
     text = ""
     for part in parts:
-        # Only at its end a file may lack the end of a line.
+        # The last line of a file can lack a line end.
         text += "\n" if text and part.text and not text.endswith("\n") else ""
         text += part.text
     return Merged(text, sum(part.conflicts for part in parts))
@@ -46,20 +49,20 @@ def _merge_items(
     before, here, there = ({item.key: item for item in items} for items in (base, ours, theirs))
     merged = (
         _merge_item(before.get(key), here.get(key), there.get(key))
-        for key in _order(keys(base), keys(ours), keys(theirs))
+        for key in _merged_order(keys(base), keys(ours), keys(theirs))
     )
     return [each for each in merged if each is not None]
 
 
 def _merge_item(base: Item | None, ours: Item | None, theirs: Item | None) -> Merged | None:
-    """Merge one item; None where it is gone."""
+    """Merge one item; None if it is removed."""
     if ours is None or theirs is None:
-        left = ours or theirs
-        if left is None:
+        remaining = ours or theirs
+        if remaining is None:
             return None
         if base is None:
-            return Merged(left.text, 0)
-        if base.text == left.text:
+            return Merged(remaining.text, 0)
+        if base.text == remaining.text:
             return None
         return _conflict(ours.text if ours else "", theirs.text if theirs else "")
     if ours.text == theirs.text:
@@ -82,28 +85,28 @@ def _merge_text(base: str, ours: str, theirs: str) -> Merged:
 
 
 def _conflict(ours: str, theirs: str) -> Merged:
-    return Merged("".join((OURS, _whole(ours), BETWEEN, _whole(theirs), THEIRS)), 1)
+    return Merged("".join((OURS, _terminated(ours), SEPARATOR, _terminated(theirs), THEIRS)), 1)
 
 
-def _whole(text: str) -> str:
+def _terminated(text: str) -> str:
     return text if text.endswith("\n") or not text else f"{text}\n"
 
 
-def _order(base: list[Key], ours: list[Key], theirs: list[Key]) -> list[Key]:
+def _merged_order(base: list[Key], ours: list[Key], theirs: list[Key]) -> list[Key]:
     """All keys in the order of the side that changed it.
 
-    What only the other side has comes behind what it is behind there.
+    Keys of the other side only follow the key that precedes them there.
     """
     common = set(base) & set(ours) & set(theirs)
     was, now = ([key for key in side if key in common] for side in (base, ours))
     first, second = (theirs, ours) if was == now else (ours, theirs)
-    made = list(first)
+    merged = list(first)
     known = set(first)
-    place = 0
+    index = 0
     for key in second:
         if key in known:
-            place = made.index(key) + 1
+            index = merged.index(key) + 1
         else:
-            made.insert(place, key)
-            place += 1
-    return made
+            merged.insert(index, key)
+            index += 1
+    return merged
