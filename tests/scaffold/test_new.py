@@ -108,24 +108,33 @@ def test_a_dry_run_writes_nothing(swarmc, folder) -> None:
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["Rescue"], ["`Rescue` cannot be the name of a project: call it `rescue`"]),
-        (["on"], ["`on` cannot be the name of a project: write it `like_this`"]),
-        (["2fast"], ["`2fast` cannot be the name of a project: write it `like_this`"]),
-        (["../up"], ["`../up` cannot be the name of a project: call it `up`"]),
-        (["members"], ["`members` cannot be the name of a project: what is made has"]),
+        (["Rescue"], ["`Rescue` cannot be the name of a project: use `rescue`"]),
+        (["on"], ["`on` cannot be the name of a project: write it in `snake_case`"]),
+        (["2fast"], ["`2fast` cannot be the name of a project: write it in `snake_case`"]),
+        (["../up"], ["`../up` cannot be the name of a project: use `up`"]),
+        (["members"], ["`members` cannot be the name of a project: the template uses this name"]),
         (["example"], ["`example` cannot be the name of a project: ROS has a package `example_"]),
         (
             ["x", "--member", "uav=0", "--sensor", "State", "--actuator", "Pilot"],
             [
-                "`uav` cannot be the name of a member: call it `Uav`",
-                "`0` cannot be the number of `uav`: write `3`",
-                "`State` cannot be the name of a sensor: `state` is a word of the language",
-                "`Pilot` cannot be the name of 2 things: each member",
+                "`uav` cannot be the name of a member: use `Uav`",
+                "`0` cannot be the number of `uav`: write a multiplicity of at least one: `3`",
+                "`State` cannot be the name of a sensor: `state` is a keyword",
+                "`Pilot` cannot be the name of 2 elements: give each member",
             ],
         ),
-        (["x", "--member", "Uav=5..1"], ["`5..1` cannot be the number of `Uav`: write `3`"]),
-        (["x", "--swarm", "Field"], ["`Field` cannot be the name of a swarm: what is made has"]),
-        (["x", "--sensor", "Speed"], ["`Speed` cannot be the name of a sensor: what is made"]),
+        (
+            ["x", "--member", "Uav=5..1"],
+            ["`5..1` cannot be the number of `Uav`: write a multiplicity of at least one: `3`"],
+        ),
+        (
+            ["x", "--swarm", "Field"],
+            ["`Field` cannot be the name of a swarm: the template uses this name"],
+        ),
+        (
+            ["x", "--sensor", "Speed"],
+            ["`Speed` cannot be the name of a sensor: the template uses this name"],
+        ),
     ],
 )
 def test_names_that_no_model_can_have(arguments, said, swarmc, folder) -> None:
@@ -215,9 +224,9 @@ def test_on_a_terminal_one_is_asked(terminal, folder, swarmc, monkeypatch) -> No
     code, shown = terminal(["new"], "".join(f"{each}\n" for each in answers))
 
     assert code == 0, shown
-    assert "call it `rescue`" in shown
-    assert shown.index("`taken` is there already") < shown.index("What it is for")
-    assert "call it `Uav`" in shown
+    assert "use `rescue`" in shown
+    assert shown.index("`taken` already exists") < shown.index("Description")
+    assert "use `Uav`" in shown
     main = (folder / "rescue" / "models" / "rescue.swarm").read_text()
     assert "/// Finds people.\n" in main
     assert "  uav   : Uav[2]\n  rover : Rover[1..5]\n" in main
@@ -237,7 +246,7 @@ def test_where_no_project_can_go_one_is_asked_no_more_than_its_name(terminal, fo
     code, shown = terminal(["new", "-i", "--folder", "file"], "rescue\n")
 
     assert code == 1
-    assert "What it is for" not in shown
+    assert "Description" not in shown
     assert "SW1502" in shown
 
 

@@ -1,1 +1,1 @@
-"""New projects: `swarmc new`."""
+"""Create projects: `swarmc new`."""

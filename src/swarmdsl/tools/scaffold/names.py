@@ -1,4 +1,4 @@
-"""Names that somebody gives on the command line: whether a model can have them."""
+"""Check names given on the command line."""
 
 from __future__ import annotations
 
@@ -14,39 +14,39 @@ _SNAKE = re.compile(r"[a-z][a-z0-9_]*")
 
 
 def command_line_span(text: str) -> Span:
-    """The place of what stands on the command line, to show it as it is written."""
+    """Span of a command-line argument, to quote it in a diagnostic."""
     source = Source(COMMAND_LINE, text)
     return Span(source, 0, len(text))
 
 
 def check_type_name(name: str, kind: str, report: Diagnostics) -> None:
-    """Report a name that is no `LikeThis`: of a swarm, a member or a component.
+    """Report a name of a swarm, member or component that is not in CamelCase.
 
-    In the model that begins with it, a role or part is called the same in lower case.
+    The template uses the name in snake_case for a role or part, so that must not be a keyword.
     """
-    better = camel_case(name)
-    small = snake_case(name)
+    camel = camel_case(name)
+    snake = snake_case(name)
     if not _CAMEL.fullmatch(name) or name in RESERVED:
-        usable = _CAMEL.fullmatch(better) is not None
-        _report(name, kind, f"call it `{better}`" if usable else "write it `LikeThis`", report)
-    elif small in RESERVED:
-        _report(name, kind, f"`{small}` is a word of the language: say more", report)
+        usable = _CAMEL.fullmatch(camel) is not None
+        _report(name, kind, f"use `{camel}`" if usable else "write it in `CamelCase`", report)
+    elif snake in RESERVED:
+        _report(name, kind, f"`{snake}` is a keyword: choose another name", report)
 
 
 def check_project_name(name: str, report: Diagnostics) -> None:
-    """Report a name that neither a package of the model nor one of ROS can have."""
+    """Report a name that is no valid name of a `.swarm` package or of a ROS package."""
     package = snake_case(name)
     if name != package and name != package.replace("_", "-"):
         usable = _SNAKE.fullmatch(package) is not None and package not in RESERVED
-        _report(name, "a project", f"call it `{package}`" if usable else _HOW, report)
+        _report(name, "a project", f"use `{package}`" if usable else _SNAKE_CASE_HINT, report)
     elif not _SNAKE.fullmatch(package) or package in RESERVED:
-        _report(name, "a project", _HOW, report)
+        _report(name, "a project", _SNAKE_CASE_HINT, report)
 
 
-_HOW = "write it `like_this`, with letters first, and no word of the language"
+_SNAKE_CASE_HINT = "write it in `snake_case`, beginning with a letter; keywords are reserved"
 
 
-def _report(name: str, kind: str, way: str, report: Diagnostics) -> None:
+def _report(name: str, kind: str, hint: str, report: Diagnostics) -> None:
     report.report(
-        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=way
+        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=hint
     )

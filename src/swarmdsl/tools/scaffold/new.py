@@ -1,4 +1,4 @@
-"""`swarmc new`: a project from a plan to files on disk."""
+"""Create the files of a project: `swarmc new`."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from swarmdsl.tools.scaffold.project import project_files
 
 
 @dataclass(frozen=True)
-class Created:
-    """What came of it: the folder, and the files in it that were written."""
+class Creation:
+    """Result of `create`: the project folder and the files written to it."""
 
     report: Diagnostics
     folder: Path
     written: tuple[Path, ...] = ()
 
 
-def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Created:
-    """Write a project to a folder that is new or empty; nothing where the plan has mistakes."""
+def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Creation:
+    """Write a project to a new or empty folder; write nothing if the plan has errors."""
     report = Diagnostics()
     check_plan(plan, report)
     if is_taken(folder):
-        way = "choose another name, or another folder with `--folder`"
-        report.report("already-there", path=folder.as_posix(), help=way)
+        hint = "choose another name, or another folder with `--folder`"
+        report.report("already-there", path=folder.as_posix(), help=hint)
     if report.has_errors:
-        return Created(report, folder)
+        return Creation(report, folder)
     files = {folder / path: text.encode() for path, text in project_files(plan)}
     if not dry_run:
         try:
@@ -41,17 +41,17 @@ def create(plan: Plan, folder: Path, *, dry_run: bool = False) -> Created:
         except OSError as error:
             reason = (error.strerror or str(error)).lower()
             report.report("cannot-write", path=error.filename or str(folder), reason=reason)
-            return Created(report, folder)
-    return Created(report, folder, tuple(files))
+            return Creation(report, folder)
+    return Creation(report, folder, tuple(files))
 
 
 def is_taken(folder: Path) -> bool:
-    """Whether no project can go there: something is in the way that is no empty folder."""
+    """Return True if something other than an empty folder exists there."""
     return os.path.lexists(folder) and not _is_empty_folder(folder)
 
 
 def _is_empty_folder(path: Path) -> bool:
     try:
-        return path.is_dir() and not os.listdir(path)  # noqa: PTH208 - the first is enough
+        return path.is_dir() and not os.listdir(path)  # noqa: PTH208 - one entry is enough
     except OSError:
         return False

@@ -1,4 +1,4 @@
-"""What a new project is to have."""
+"""Plan of a new project."""
 
 from __future__ import annotations
 
@@ -10,38 +10,39 @@ from swarmdsl.base.naming import camel_case, snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.tools.scaffold.names import check_project_name, check_type_name, command_line_span
 
-# One of them: packages of both generations of ROS have the same names.
+# A project has one of them: packages for ROS 1 and ROS 2 have the same names.
 TARGETS = ("ros2", "smach")
-# What the template itself has: files, declarations, and a param of each robot.
-_FILES = ("behaviour", "members", "interfaces", "cpswarm")
-# Projects whose package of interfaces would hide one that ROS comes with.
-_OF_ROS = ("builtin", "composition", "example", "rcl", "test")
-_DECLARED = ("Explore", "Field", "Finds", "Speed")
-_COUNT = re.compile(r"\*|([0-9]+)(?:\.\.(\*|[0-9]+))?")
+# Names of files in the template.
+_TEMPLATE_FILES = ("behaviour", "members", "interfaces", "cpswarm")
+# Projects whose `*_interfaces` package would hide one of ROS.
+_ROS_PROJECTS = ("builtin", "composition", "example", "rcl", "test")
+# Names that the template declares; `Speed` would clash with a param.
+_TEMPLATE_NAMES = ("Explore", "Field", "Finds", "Speed")
+_MULTIPLICITY = re.compile(r"\*|([0-9]+)(?:\.\.(\*|[0-9]+))?")
 
 
 @dataclass(frozen=True)
 class Robots:
-    """A type of member of the swarm, and how many of them there are: `3`, `1..5`, `2..*`, `*`."""
+    """A member type and its multiplicity in the swarm: `3`, `1..5`, `2..*` or `*`."""
 
     member: str
     count: str = "3"
 
     @property
     def role(self) -> str:
-        """What they are called in the swarm."""
+        """Name of the role."""
         return snake_case(self.member)
 
     @property
-    def least(self) -> int:
-        """How many there are at least: so many run in a simulation."""
+    def minimum(self) -> int:
+        """Minimum number of robots, which is the number in a simulation."""
         lowest = self.count.partition("..")[0]
         return int(lowest) if lowest.isdecimal() else 1
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A project: its name, its robots, and what they are made of."""
+    """Names and other settings of a new project."""
 
     name: str
     description: str = ""
@@ -54,12 +55,12 @@ class Plan:
 
     @property
     def package(self) -> str:
-        """The package of the model."""
+        """Package name of the model."""
         return snake_case(self.name)
 
     @property
     def swarm_name(self) -> str:
-        """The name of the swarm: that given, else that of the project."""
+        """Name of the swarm, by default derived from the project name."""
         if self.swarm:
             return self.swarm
         name = camel_case(self.name)
@@ -68,28 +69,28 @@ class Plan:
 
     @property
     def launch(self) -> str:
-        """What the launch file of the swarm is called."""
+        """Name of the swarm's launch file."""
         return snake_case(self.swarm_name)
 
     @property
     def components(self) -> tuple[str, str, str]:
-        """What each robot has: a sensor, a controller and an actuator."""
+        """Components of each robot: a sensor, a controller and an actuator."""
         return self.sensor, self.controller, self.actuator
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """What these are called in a robot."""
+        """Names of the components' parts in a robot."""
         return tuple(map(snake_case, self.components))
 
 
 def check_plan(plan: Plan, report: Diagnostics) -> None:
-    """Report names and numbers that a model cannot have."""
+    """Report invalid names and multiplicities."""
     check_project_name(plan.name, report)
-    if plan.package in _FILES:
+    if plan.package in _TEMPLATE_FILES:
         _report_taken(plan.name, "a project", report)
-    if plan.package in _OF_ROS:
+    if plan.package in _ROS_PROJECTS:
         package = f"`{plan.package}_interfaces`"
-        _report_taken(plan.name, "a project", report, f"ROS has a package {package} already")
+        _report_taken(plan.name, "a project", report, f"ROS has a package {package}")
     kinds = ("a sensor", "a controller", "an actuator")
     names = [(robots.member, "a member") for robots in plan.robots]
     names += zip(plan.components, kinds, strict=True)
@@ -97,19 +98,19 @@ def check_plan(plan: Plan, report: Diagnostics) -> None:
         names.append((plan.swarm, "a swarm"))
     for name, kind in names:
         check_type_name(name, kind, report)
-        if name in _DECLARED:
+        if name in _TEMPLATE_NAMES:
             _report_taken(name, kind, report)
     for name, times in Counter(name for name, _ in names).items():
         if times > 1:
-            way = "each member and component has a name of its own"
-            what = f"the name of {times} things"
-            report.report("bad-name", command_line_span(name), name=name, what=what, help=way)
+            hint = "give each member and component a different name"
+            what = f"the name of {times} elements"
+            report.report("bad-name", command_line_span(name), name=name, what=what, help=hint)
     for robots in plan.robots:
-        if not _is_count(robots.count):
-            way = "write `3`, `1..5`, `2..*` or `*`, for at least one"
+        if not _is_multiplicity(robots.count):
+            hint = "write a multiplicity of at least one: `3`, `1..5`, `2..*` or `*`"
             what = f"the number of `{robots.member}`"
             report.report(
-                "bad-name", command_line_span(robots.count), name=robots.count, what=what, help=way
+                "bad-name", command_line_span(robots.count), name=robots.count, what=what, help=hint
             )
 
 
@@ -117,16 +118,16 @@ def _report_taken(
     name: str,
     kind: str,
     report: Diagnostics,
-    why: str = "what is made has something of this name already",
+    reason: str = "the template uses this name",
 ) -> None:
-    way = f"{why}: choose another one"
+    hint = f"{reason}: choose another name"
     report.report(
-        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=way
+        "bad-name", command_line_span(name), name=name, what=f"the name of {kind}", help=hint
     )
 
 
-def _is_count(text: str) -> bool:
-    found = _COUNT.fullmatch(text)
+def _is_multiplicity(text: str) -> bool:
+    found = _MULTIPLICITY.fullmatch(text)
     if found is None:
         return False
     lowest, highest = found.groups()

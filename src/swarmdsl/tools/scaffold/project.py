@@ -1,4 +1,4 @@
-"""The files of a new project, from a template."""
+"""Fill the template of a new project."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.syntax.formatter import formatted
 from swarmdsl.tools.scaffold.plan import Plan
 
 _FOLDER = Path(__file__).resolve().parent / "template"
-# Where each file of the template goes.
+# Template files and their paths in the project.
 _FILES: Mapping[str, str] = {
     "swarm.toml": "swarm.toml",
     "README.md": "README.md",
@@ -27,15 +27,15 @@ _FILES: Mapping[str, str] = {
 
 
 def project_files(plan: Plan) -> Iterator[tuple[str, str]]:
-    """The paths of the files, from the folder of the project, and their texts."""
+    """Yield the paths and texts of the project files."""
     templates = Templates(_FOLDER)
-    for name, place in _FILES.items():
+    for name, pattern in _FILES.items():
         text = str(templates.fill(f"{name}.jinja", plan=plan))
-        path = place.format(package=plan.package)
-        yield path, _laid_out(path, text) if path.endswith(".swarm") else text
+        path = pattern.format(package=plan.package)
+        yield path, _formatted(path, text) if path.endswith(".swarm") else text
 
 
-def _laid_out(path: str, text: str) -> str:
-    made = formatted(Source(path, text), Diagnostics())
-    assert made is not None, path  # names are checked before
-    return made
+def _formatted(path: str, text: str) -> str:
+    result = formatted(Source(path, text), Diagnostics())
+    assert result is not None, path  # the names were checked
+    return result
