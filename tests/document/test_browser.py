@@ -110,7 +110,7 @@ def test_search_with_the_keyboard(visit: Visit) -> None:
     field.fill("uuid of the cps")  # words of the documentation
     playwright.expect(options.first).to_contain_text("cpswarm_msgs/TaskAllocat")
     field.fill("nothing is called so")
-    playwright.expect(page.get_by_role("status")).to_have_text("nothing found")
+    playwright.expect(page.get_by_role("status")).to_have_text("no results")
     page.keyboard.press("Escape")
     playwright.expect(page.get_by_role("status")).to_have_text("")
 

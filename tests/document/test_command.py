@@ -68,8 +68,8 @@ def test_what_is_not_its_own_is_kept(
     capsys.readouterr()
     assert run(["doc", model.name]) == 1
     told = capsys.readouterr().err
-    assert "error[SW0908]: refusing to overwrite `work.html`: it is not from swarmc" in told
-    assert "move it away, or name another file with `-o`" in told
+    assert "error[SW0908]: refusing to overwrite `work.html`: it was edited or not written" in told
+    assert "move it away, or choose another file with `-o`" in told
     assert page.read_bytes() == mine
 
 

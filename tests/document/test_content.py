@@ -98,7 +98,7 @@ def test_every_table_has_as_many_cells_as_columns(page: Page) -> None:
 
 def test_a_swarm_and_its_members(sar: Page) -> None:
     assert sar.table("SearchAndRescue", "Roles") == [
-        ["role", "member", "number"],
+        ["role", "member", "multiplicity"],
         ["uav", "Uav", "3"],
         ["rover", "Rover", "1 to 5"],
     ]
@@ -117,8 +117,8 @@ def test_a_swarm_and_its_members(sar: Page) -> None:
 
 
 def test_a_state_machine(sar: Page) -> None:
-    assert sar.fact("UavSearch", "begins in") == "Mission"
-    assert sar.fact("UavSearch", "outcomes") == "none: it never ends"
+    assert sar.fact("UavSearch", "initial state") == "Mission"
+    assert sar.fact("UavSearch", "outcomes") == "none (endless)"
     assert sar.fact("RoverRescue", "outcomes") == "RoverRescue.Parked"
     assert sar.table("UavSearch", "Params")[1][:3] == ["altitude", "float64", "1.5"]
     coverage = "UavSearch.Mission.Coverage"
@@ -143,7 +143,7 @@ def test_a_state_machine(sar: Page) -> None:
 
 
 def test_functions_as_an_api(sar: Page) -> None:
-    assert sar.table("section-functions", "Who uses which function")[3] == [
+    assert sar.table("section-functions", "Function usage")[3] == [
         "uav_coverage",
         "swarm",
         "action",
@@ -174,7 +174,7 @@ def test_functions_as_an_api(sar: Page) -> None:
 
 def test_who_sends_and_who_handles_which_event() -> None:
     page = page_of(ROOT / "examples" / "cpswarm")
-    head, *rows = page.table("section-events", "Who sends and who handles which event")
+    head, *rows = page.table("section-events", "Senders and handlers of events")
     assert "UavSar of Uav" in head
     matrix = {
         (row[0], machine.partition(" of ")[0]): cell

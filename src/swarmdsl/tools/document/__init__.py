@@ -1,8 +1,8 @@
-"""`swarmc doc`: all about a model on one page.
+"""Documentation of a model as one HTML page: `swarmc doc`.
 
-The declarations of a model become `elements` with anchors; `names` says what their text names.
-`architecture`, `behaviour`, `interfaces` and `overview` say what there is to say of them as
-plain data (`page`), which `html` writes.
+`elements` gives each declared element an anchor, and `names` resolves the names in its text.
+`architecture`, `behaviour`, `interfaces` and `overview` build the entries as plain data (`page`),
+and `html` renders them.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from swarmdsl.lowering import lower
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import Declaration, Interface
 from swarmdsl.tools.document import architecture, behaviour, interfaces, overview
-from swarmdsl.tools.document.book import Book
-from swarmdsl.tools.document.elements import Element, Elements, Places
+from swarmdsl.tools.document.elements import Element, Elements, SourceLocations
+from swarmdsl.tools.document.entry_builder import EntryBuilder
 from swarmdsl.tools.document.html import html
-from swarmdsl.tools.document.names import Names
+from swarmdsl.tools.document.names import NameResolver
 from swarmdsl.tools.document.page import Entry, Page, Section, Table
 from swarmdsl.tools.document.pictures import pictures
-from swarmdsl.tools.document.traffic import traffic
+from swarmdsl.tools.document.traffic import collect_traffic
 
 _Kind = TypeVar("_Kind", ir.Function, ir.Event)
-_Maker = Callable[[Element, Book], Entry]
+_EntryFunction = Callable[[Element, EntryBuilder], Entry]
 _COMPONENTS = ("sensor", "actuator", "controller", "virtual component")
-_SECTIONS: tuple[tuple[str, str, tuple[str, ...], _Maker], ...] = (
+_SECTIONS: tuple[tuple[str, str, tuple[str, ...], _EntryFunction], ...] = (
     ("section-swarms", "Swarms", ("swarm",), architecture.swarm),
     ("section-members", "Members", ("member",), architecture.member),
     ("section-machines", "State machines", ("state machine",), behaviour.machine),
@@ -46,38 +46,41 @@ _SECTIONS: tuple[tuple[str, str, tuple[str, ...], _Maker], ...] = (
     ("section-fitness", "Fitness", ("fitness",), architecture.fitness),
     ("section-optimizations", "Optimizations", ("optimization",), architecture.optimization),
 )
-_TABLES: dict[str, Callable[[Book], Table]] = {
+_TABLES: dict[str, Callable[[EntryBuilder], Table]] = {
     "section-functions": interfaces.functions_table,
-    "section-events": overview.events_matrix,
+    "section-events": overview.events_table,
 }
 
 
 def document(
     project: Project, name: str | None = None, *, libraries: bool = False
 ) -> tuple[str, str]:
-    """The name of a valid model and the page about it, as HTML.
+    """Return the name of a valid model and its page as HTML.
 
-    Of libraries it has what the model uses, or with `libraries` all that they declare.
+    The page contains the library elements that the model uses; with `libraries`, all of them.
     """
-    pairs = _of_libraries_too(project) if libraries else used_declarations(project)
+    pairs = _with_libraries(project) if libraries else used_declarations(project)
     system = lower(project, name, pairs)
     elements = Elements([*pairs, *project.optimizations()])
-    book = Book(
+    builder = EntryBuilder(
         system,
         elements,
-        Names(project, elements),
-        Places(project.files),
-        traffic(system, elements),
+        NameResolver(project, elements),
+        SourceLocations(project.files),
+        collect_traffic(system, elements),
         pictures(system, elements),
         _by_element(system.functions, elements),
         _by_element(system.events, elements),
     )
     anchors = {element.path: anchor for anchor, element in reversed(elements.anchors.items())}
-    return system.name, html(_page(book), anchors)
+    return system.name, html(_page(builder), anchors)
 
 
 def _by_element(found: Iterable[_Kind], elements: Elements) -> dict[Element, list[_Kind]]:
-    """Functions or events by what they are declared as; an operation is a function of each part."""
+    """Group functions or events by declaration.
+
+    An operation has one function for each part of the component's type.
+    """
     by_element: dict[Element, list[_Kind]] = {}
     for each in found:
         element = elements.at(each.origin)
@@ -86,8 +89,8 @@ def _by_element(found: Iterable[_Kind], elements: Elements) -> dict[Element, lis
     return by_element
 
 
-def _of_libraries_too(project: Project) -> list[tuple[File, Declaration]]:
-    """All declarations, but for what a library retells of interfaces that the project has."""
+def _with_libraries(project: Project) -> list[tuple[File, Declaration]]:
+    """All declarations, except library copies of interfaces that the project declares."""
     own = own_interfaces(project)
     return [
         (file, node)
@@ -100,15 +103,17 @@ def _of_libraries_too(project: Project) -> list[tuple[File, Declaration]]:
     ]
 
 
-def _page(book: Book) -> Page:
+def _page(builder: EntryBuilder) -> Page:
     sections = []
-    for id_, title, kinds, make in _SECTIONS:
-        found = [each for each in book.elements.tops if each.kind in kinds]
-        table = _TABLES[id_](book) if id_ in _TABLES else None
+    for id_, title, kinds, make_entry in _SECTIONS:
+        found = [each for each in builder.elements.tops if each.kind in kinds]
+        table = _TABLES[id_](builder) if id_ in _TABLES else None
         if table is not None and not table.rows:
             table = None
         if found or table:
             kept = table.without_empty_columns() if table is not None else None
-            sections.append(Section(id_, title, tuple(make(each, book) for each in found), kept))
-    system: ir.System = book.system
-    return Page(system.name, system.doc, (overview.packages(book),), tuple(sections))
+            sections.append(
+                Section(id_, title, tuple(make_entry(each, builder) for each in found), kept)
+            )
+    system: ir.System = builder.system
+    return Page(system.name, system.doc, (overview.packages_table(builder),), tuple(sections))

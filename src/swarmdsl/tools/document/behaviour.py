@@ -1,4 +1,4 @@
-"""Entries of state machines and of the states in them."""
+"""Entries of state machines and their states."""
 
 from __future__ import annotations
 
@@ -25,122 +25,126 @@ from swarmdsl.syntax.ast import (
     Vertex,
 )
 from swarmdsl.syntax.ast import Entry as OnEntry
-from swarmdsl.tools.document.book import Book, link, listed
 from swarmdsl.tools.document.elements import Element
+from swarmdsl.tools.document.entry_builder import EntryBuilder, link, links
 from swarmdsl.tools.document.page import Cell, Entry, Inline, Prose, Row, Table
 
-_N = TypeVar("_N", bound=Node)
+_NodeType = TypeVar("_NodeType", bound=Node)
 _COLUMNS = ("on", "guard", "effects", "to", "description")
 
 
-def machine(element: Element, book: Book) -> Entry:
-    """A state machine with all its states, the inner ones beside those that they are in."""
+def machine(element: Element, builder: EntryBuilder) -> Entry:
+    """Entry of a state machine with all its states in a flat list."""
     node = element.node
     assert isinstance(node, StateMachine)
     states = [each for each in element.walk() if isinstance(each.node, (Vertex, Region))]
-    ends = [each for each in element.inside if isinstance(each.node, FinalState)]
+    ends = [each for each in element.children if isinstance(each.node, FinalState)]
     variables = []
     for item in node.items:
-        inner = book.elements.of(item)
+        inner = builder.elements.of(item)
         if isinstance(item, Variable) and inner is not None:
             cells = (
-                book.type(item.type, inner),
-                book.code(item.initial, inner),
-                book.used_by(inner),
+                builder.type(item.type, inner),
+                builder.code(item.initial, inner),
+                builder.used_by(inner),
             )
-            variables.append(book.row(inner, cells))
-    columns = ("name", "type", "first value", "used by", "description")
+            variables.append(builder.row(inner, cells))
+    columns = ("name", "type", "initial value", "used by", "description")
     facts: list[tuple[str, Cell]] = [
-        ("begins in", _initial(node.items, element, book)),
-        ("outcomes", listed(ends) or (("none: it never ends",) if node.endless else ())),
-        ("used by", book.used_by(element)),
+        ("initial state", _initial(node.items, element, builder)),
+        ("outcomes", links(ends) or (("none (endless)",) if node.endless else ())),
+        ("used by", builder.used_by(element)),
     ]
     blocks = (
-        book.figures.get(element),
-        book.params(element, (item for item in node.items if isinstance(item, Param))),
+        builder.figures.get(element),
+        builder.params(element, (item for item in node.items if isinstance(item, Param))),
         Table("Variables", columns, tuple(variables)),
     )
-    return book.entry(element, facts, blocks, (_state(each, book) for each in states))
+    return builder.entry(element, facts, blocks, (_state(each, builder) for each in states))
 
 
-def _state(element: Element, book: Book) -> Entry:
+def _state(element: Element, builder: EntryBuilder) -> Entry:
     node = element.node
-    inside = [each for each in element.inside if isinstance(each.node, (Vertex, Region))]
+    inside = [each for each in element.children if isinstance(each.node, (Vertex, Region))]
     parent = element.parent
     facts: list[tuple[str, Cell]] = []
     if parent is not None and parent.parent is not None:
-        facts.append(("in", (link(parent),)))
+        facts.append(("parent", (link(parent),)))
     rows: Iterable[Row] = ()
     match node:
         case State() | Parallel():
-            rows = [_transition(each, element, book) for each in _all(node.items, Transition)]
-            facts += _behaviour(node, element, book)
+            rows = [
+                _transition(each, element, builder) for each in _of_type(node.items, Transition)
+            ]
+            facts += _behaviour(node, element, builder)
         case Region():
-            facts.append(("begins in", _initial(node.items, element, book)))
+            facts.append(("initial state", _initial(node.items, element, builder)))
         case Choice():
-            rows = [_transition(each, element, book) for each in node.branches]
+            rows = [_transition(each, element, builder) for each in node.branches]
         case History():
-            facts.append(("else to", (book.names.code(node.target.span, element),)))
-    facts.append(("regions" if isinstance(node, Parallel) else "states", listed(inside)))
-    facts.append(("reached from", book.used_by(element)))
+            facts.append(("default", (builder.names.code(node.target.span, element),)))
+    facts.append(("regions" if isinstance(node, Parallel) else "states", links(inside)))
+    facts.append(("reached from", builder.used_by(element)))
     tables = (Table("Transitions", _COLUMNS, tuple(rows)),)
-    return book.entry(element, facts, tables, has_code=False)
+    return builder.entry(element, facts, tables, has_code=False)
 
 
-def _behaviour(node: State | Parallel, element: Element, book: Book) -> Iterable[tuple[str, Cell]]:
-    """What a state does, and when."""
+def _behaviour(
+    node: State | Parallel, element: Element, builder: EntryBuilder
+) -> Iterable[tuple[str, Cell]]:
+    """Yield the submachine, effects, activity and initial state of a state."""
     if isinstance(node, State) and node.machine is not None:
         values: list[Inline] = []
         for binding in node.bindings:
-            values += [", " if values else " with ", *book.code(binding, element)]
-        yield "runs", (book.names.code(node.machine.span, element), *values)
-    for entry in _all(node.items, OnEntry):
-        yield "entry", (*_effects(entry.effects, element, book), *_doc(entry.doc))
-    for activity in _all(node.items, Activity):
-        yield "activity", (*book.code(activity, element), *_doc(activity.doc))
-    for exit_ in _all(node.items, Exit):
-        yield "exit", (*_effects(exit_.effects, element, book), *_doc(exit_.doc))
+            values += [", " if values else " with ", *builder.code(binding, element)]
+        yield "submachine", (builder.names.code(node.machine.span, element), *values)
+    for entry in _of_type(node.items, OnEntry):
+        yield "entry", (*_effects(entry.effects, element, builder), *_doc(entry.doc))
+    for activity in _of_type(node.items, Activity):
+        yield "activity", (*builder.code(activity, element), *_doc(activity.doc))
+    for exit_ in _of_type(node.items, Exit):
+        yield "exit", (*_effects(exit_.effects, element, builder), *_doc(exit_.doc))
     if isinstance(node, State):
-        yield "begins in", _initial(node.items, element, book)
+        yield "initial state", _initial(node.items, element, builder)
 
 
-def _transition(item: Transition | Branch, element: Element, book: Book) -> Row:
+def _transition(item: Transition | Branch, element: Element, builder: EntryBuilder) -> Row:
     triggers: list[Inline] = []
     if isinstance(item, Transition):
         for trigger in item.triggers:
             triggers += [", "] if triggers else []
-            triggers += book.code(trigger, element)
-        stays = "stays, and leaves no state" if item.target is None else ""
+            triggers += builder.code(trigger, element)
+        no_target = "none (internal)" if item.target is None else ""
         if item.internal and item.target is not None:
             triggers += [" (internal)"]
     else:
-        triggers, stays = ["else"] if item.otherwise else [], ""
+        triggers, no_target = ["else"] if item.otherwise else [], ""
     target = item.target
     cells: tuple[Cell, ...] = (
-        tuple(triggers) or ("at once",),
-        book.code(item.guard, element),
-        _effects(item.effects, element, book),
-        (book.names.code(target.span, element),) if target is not None else (stays,),
+        tuple(triggers) or ("immediately",),
+        builder.code(item.guard, element),
+        _effects(item.effects, element, builder),
+        (builder.names.code(target.span, element),) if target is not None else (no_target,),
         (Prose(item.doc),) if item.doc else (),
     )
     return Row(cells)
 
 
-def _initial(items: Iterable[object], element: Element, book: Book) -> Cell:
-    for item in _all(items, Initial):
-        return (book.names.code(item.target.span, element), *_doc(item.doc))
+def _initial(items: Iterable[object], element: Element, builder: EntryBuilder) -> Cell:
+    for item in _of_type(items, Initial):
+        return (builder.names.code(item.target.span, element), *_doc(item.doc))
     return ()
 
 
-def _effects(effects: Iterable[Effect], element: Element, book: Book) -> Cell:
+def _effects(effects: Iterable[Effect], element: Element, builder: EntryBuilder) -> Cell:
     found: list[Inline] = []
     for effect in effects:
         found += [", "] if found else []
-        found += book.code(effect, element)
+        found += builder.code(effect, element)
     return tuple(found)
 
 
-def _all(items: Iterable[object], kind: type[_N]) -> list[_N]:
+def _of_type(items: Iterable[object], kind: type[_NodeType]) -> list[_NodeType]:
     return [item for item in items if isinstance(item, kind)]
 
 

@@ -1,4 +1,4 @@
-"""What `swarmc doc` does: from files to one page on disk."""
+"""Write the page of a model: `swarmc doc`."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ _SIGNATURE = b"<!-- swarmc doc "
 
 
 @dataclass(frozen=True)
-class Documented:
-    """What came of a run: `written` is the page, if there is one."""
+class DocumentResult:
+    """Result of a run; `written` is the page, if it was written."""
 
     report: Diagnostics
     files: int
     written: Path | None = None
 
 
-def run(paths: tuple[Path, ...], out: Path | None, *, libraries: bool) -> Documented:
-    """Write the page about the model in these files.
+def run(paths: tuple[Path, ...], out: Path | None, *, libraries: bool) -> DocumentResult:
+    """Write the page of the model in the given files.
 
-    It is file `out`, or is called like the model, in folder `out` or in the current one. What
-    swarmc has not written, or somebody has edited since, is not overwritten.
+    It goes to file `out`, or into folder `out` or the current folder with the name of the model. A
+    file that swarmc has not written or that was edited is not overwritten.
     """
     report = Diagnostics()
     settings = find_settings(paths, report)
     if report.has_errors:
-        return Documented(report, 1)
+        return DocumentResult(report, 1)
     checked = pipeline.check(paths or settings.sources, settings)
     report.include(checked.report)
     if checked.valid is None:
-        return Documented(report, checked.files)
+        return DocumentResult(report, checked.files)
     name, text = document(checked.valid, checked.name, libraries=libraries)
     path = _path(out, name)
     is_written = _write(path, _signed(text), report)
-    return Documented(report, checked.files, path if is_written else None)
+    return DocumentResult(report, checked.files, path if is_written else None)
 
 
 def _path(out: Path | None, name: str) -> Path:
@@ -54,7 +54,7 @@ def _path(out: Path | None, name: str) -> Path:
 
 
 def _signed(text: str) -> bytes:
-    """The page with a last line that tells whether it is as it was written."""
+    """Page with a hash in its last line, by which edits are detected."""
     content = text.encode()
     return content + _SIGNATURE + sha256(content).hexdigest().encode() + b" -->\n"
 
@@ -65,12 +65,12 @@ def _is_ours(content: bytes) -> bool:
 
 
 def _write(path: Path, content: bytes, report: Diagnostics) -> bool:
-    # A link stays one: the file that it leads to is replaced.
+    # Keep a symbolic link and replace its target.
     place = Path(os.path.realpath(path))
     try:
         if place.is_file() and not _is_ours(place.read_bytes()):
-            reason = "it is not from swarmc, or has been edited"
-            help_ = "move it away, or name another file with `-o`"
+            reason = "it was edited or not written by swarmc"
+            help_ = "move it away, or choose another file with `-o`"
             report.report("would-overwrite", path=path.as_posix(), reason=reason, help=help_)
             return False
         with Staging() as staging:

@@ -1,4 +1,4 @@
-"""What a model has that can be linked to, each element with an anchor of its own."""
+"""Elements of a model with their anchors."""
 
 from __future__ import annotations
 
@@ -33,10 +33,10 @@ _PARTS: dict[type[Node], tuple[str, ...]] = {
 
 @dataclass(eq=False, slots=True)
 class Element:
-    """A named piece of the model; `inside` are those in it.
+    """A named element of the model and the elements inside it.
 
-    `path` is what a person calls it: `UavSearch.Mission.Idle`. It is the anchor too, unless
-    something else has the same.
+    `path` is the qualified name, such as `UavSearch.Mission.Idle`. It is also the anchor unless
+    another element has the same path.
     """
 
     anchor: str
@@ -46,50 +46,50 @@ class Element:
     node: Node
     file: File
     parent: Element | None
-    inside: list[Element] = field(default_factory=list)
+    children: list[Element] = field(default_factory=list)
 
     @property
     def top(self) -> Element:
-        """The declaration that it is in."""
+        """Declaration that contains the element."""
         return self if self.parent is None else self.parent.top
 
     def walk(self) -> Iterator[Element]:
-        """Yield the element and all inside it, in the order of the text."""
+        """Yield the element and all its descendants in source order."""
         yield self
-        for inner in self.inside:
+        for inner in self.children:
             yield from inner.walk()
 
 
 class Elements:
-    """The elements of the declarations that a page is about."""
+    """Elements of the documented declarations."""
 
     def __init__(self, pairs: Sequence[tuple[File, TopLevel]]) -> None:
         self.tops: list[Element] = []
         self.anchors: dict[str, Element] = {}
-        self._of: dict[Node, Element] = {}
+        self._by_node: dict[Node, Element] = {}
         names = Counter(_name(node) for _, node in pairs)
         for file, node in pairs:
             name = _name(node)
-            # As in what is generated.
+            # The same disambiguation as in generated code.
             path = f"{file.package.replace('.', '_')}_{name}" if names[name] > 1 else name
             self.tops.append(self._add(path, name, node, file, None))
         self._starts: dict[Source, list[int]] = {}
-        self._in: dict[Source, list[Element]] = {}
-        for element in sorted(self._of.values(), key=lambda each: each.node.span.start):
+        self._by_source: dict[Source, list[Element]] = {}
+        for element in sorted(self._by_node.values(), key=lambda each: each.node.span.start):
             source = element.node.span.source
-            self._in.setdefault(source, []).append(element)
+            self._by_source.setdefault(source, []).append(element)
             self._starts.setdefault(source, []).append(element.node.span.start)
 
     def of(self, node: Node | None) -> Element | None:
-        """The element that a node of the syntax tree is, None for one that has no anchor."""
-        return self._of.get(node) if node is not None else None
+        """Element of a syntax node; None if it has no anchor."""
+        return self._by_node.get(node) if node is not None else None
 
     def at(self, span: Span | None) -> Element | None:
-        """The innermost element around a place."""
-        if span is None or span.source not in self._in:
+        """Innermost element that contains a span."""
+        if span is None or span.source not in self._by_source:
             return None
         found = bisect_right(self._starts[span.source], span.start) - 1
-        element = self._in[span.source][found] if found >= 0 else None
+        element = self._by_source[span.source][found] if found >= 0 else None
         while element is not None and element.node.span.end < span.end:
             element = element.parent
         return element
@@ -100,23 +100,23 @@ class Elements:
             number += 1
             anchor = f"{path}~{number}"
         element = Element(anchor, path, name, _kind(node), node, file, parent)
-        self.anchors[anchor] = self._of[node] = element
-        for inner, prefix in _named(node):
+        self.anchors[anchor] = self._by_node[node] = element
+        for inner, prefix in _named_children(node):
             inner_name = str(inner.name)  # type: ignore[attr-defined]
             inside = self._add(f"{path}.{prefix}{inner_name}", inner_name, inner, file, element)
-            element.inside.append(inside)
+            element.children.append(inside)
         return element
 
 
 def _name(node: TopLevel) -> str:
     if isinstance(node, Optimization):
-        # A keyword, so that no other element is called so.
+        # No other element can have a keyword as its name.
         return f"optimize.{node.swarm.name.rpartition('.')[2]}"
     return str(node.name)  # type: ignore[attr-defined]
 
 
 def _kind(node: Node) -> str:
-    """What a person calls it, as precisely as the model says it."""
+    """Kind of an element as shown to readers."""
     match node:
         case Optimization():
             return "optimization"
@@ -129,8 +129,8 @@ def _kind(node: Node) -> str:
     return kind_name(node)
 
 
-def _named(node: Node) -> Iterator[tuple[Node, str]]:
-    """The elements directly inside a node, each with the part of an interface that it is in."""
+def _named_children(node: Node) -> Iterator[tuple[Node, str]]:
+    """Yield the elements directly inside a node, with the interface part as a prefix."""
     parts: dict[Node, str] = {
         field: f"{part}."
         for part in _PARTS.get(type(node), ())
@@ -142,10 +142,10 @@ def _named(node: Node) -> Iterator[tuple[Node, str]]:
             yield child, parts.get(child, "")
 
 
-class Places:
-    """How files are called on a page: by their paths from the folder that all of the project is in.
+class SourceLocations:
+    """File names relative to the common folder of the project.
 
-    So a page does not say where on a disk it was made.
+    So a page does not depend on where the project is on disk.
     """
 
     def __init__(self, files: Iterable[File]) -> None:
@@ -157,13 +157,13 @@ class Places:
         self._root = Path(os.path.commonpath(folders)) if folders else Path.cwd()
 
     def file(self, file: File) -> str:
-        """The name of a file."""
+        """Name of a file."""
         path = Path(os.path.abspath(file.source.name))  # noqa: PTH100 - keeps links
         for root in (self._root, resources.library()):
             if path.is_relative_to(root):
                 return path.relative_to(root).as_posix()
         return path.name
 
-    def place(self, element: Element) -> str:
-        """`file:line` of an element."""
+    def location(self, element: Element) -> str:
+        """Location of an element as `file:line`."""
         return f"{self.file(element.file)}:{element.node.span.line}"

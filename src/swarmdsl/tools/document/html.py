@@ -1,4 +1,4 @@
-"""A page as HTML: one file that needs nothing from elsewhere, and runs only its own script."""
+"""Render a page as one self-contained HTML file that runs only its own script."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _FILES = Path(__file__).resolve().parent / "files"
 
 
 def html(page: Page, anchors: Mapping[str, str]) -> str:
-    """The text of the page; `anchors` are those of elements, by their paths."""
+    """HTML of a page; `anchors` maps paths of elements to anchors."""
     prose = Prose(anchors)
     environment = Environment(
         loader=FileSystemLoader(_FILES),
@@ -34,7 +34,7 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
     )
     environment.filters |= {
         "prose": prose.html,
-        "cell": _Inline(prose).cell,
+        "cell": _InlineRenderer(prose).cell,
         "code": code,
         "href": href,
         "breakable": breakable,
@@ -50,14 +50,14 @@ def html(page: Page, anchors: Mapping[str, str]) -> str:
     return legal(text)
 
 
-class _Inline:
-    """What stands in a line as HTML. There is much of it: it is put together without templates."""
+class _InlineRenderer:
+    """Renders inline content; without templates, because there is a lot of it."""
 
     def __init__(self, prose: Prose) -> None:
         self._prose = prose
 
     def cell(self, cell: Cell) -> Markup:
-        """Words, code and documentation one after the other."""
+        """Concatenate strings, code and documentation."""
         return Markup("".join(map(self._one, cell)))
 
     def _one(self, part: Inline) -> str:
@@ -69,20 +69,20 @@ class _Inline:
         return str(escape(part))
 
 
-def code(it: Code) -> Markup:
-    """Text of the model, with its links."""
+def code(value: Code) -> Markup:
+    """HTML of model text with its links."""
     parts = (
         f'<a href="{href(anchor)}">{breakable(text)}</a>' if anchor else breakable(text)
-        for text, anchor in it.pieces
+        for text, anchor in value.pieces
     )
     return Markup(f"<code>{''.join(parts)}</code>")
 
 
 def href(anchor: str) -> str:
-    """The address of an element, with nothing in it that HTML would read."""
+    """Escaped URL of an anchor on the page."""
     return f"#{quote(anchor)}"
 
 
 def breakable(name: str) -> Markup:
-    """A name that may go on in the next line where a word of it ends."""
+    """Name with line-break opportunities between its words."""
     return Markup(_BREAK.sub(r"\1<wbr>", str(escape(name))))

@@ -1,4 +1,4 @@
-"""The names in a model: text of it with links, and what uses what."""
+"""Resolve the names in a model: linked source text, and users of elements."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.ast import Documented, Interface, Node, TopLevel, TypeRef, nodes_of
 from swarmdsl.syntax.types import Array, Named, Type
 from swarmdsl.tools.document.elements import Element, Elements
-from swarmdsl.tools.document.page import Code, Piece
+from swarmdsl.tools.document.page import Code, Fragment
 
 _COMMENT = re.compile(r'("(?:[^"\\\n]|\\[^\n])*")|//[^\n]*|/\*(?:[^*]|\*(?!/))*\*/')
 _Link = tuple[int, int, Element]
 
 
-class Names:
-    """What the names in the documented declarations mean, looked up once for each of them."""
+class NameResolver:
+    """References in the documented declarations, resolved once per declaration."""
 
     def __init__(self, project: Project, elements: Elements) -> None:
         self.elements = elements
@@ -31,21 +31,21 @@ class Names:
         for top in elements.tops:
             if isinstance(top.node, Interface):
                 self._by_type.setdefault(interface_name(top.file, top.name), top)
-        self._users = self._all_users()
+        self._users = self._find_users()
 
     def users(self, element: Element) -> list[Element]:
-        """What names an element, each once, in the order of the text."""
+        """Elements that refer to an element, without duplicates, in source order."""
         return list(self._users.get(element, ()))
 
     def type(self, type_: Type | None) -> Element | None:
-        """The interface that a type names, or the elements of it, if there is something on it."""
+        """Element of the interface that a type or its array element names, if documented."""
         element = type_.element if isinstance(type_, Array) else type_
         return self._by_type.get(element) if isinstance(element, Named) else None
 
     def code(self, span: Span, owner: Element) -> Code:
-        """A piece of a declaration as it is written, without comments and on one line."""
-        links = self._of(owner.top)
-        pieces: list[Piece] = []
+        """Source text of a span with links, without comments and on one line."""
+        links = self._links_of(owner.top)
+        pieces: list[Fragment] = []
         at = span.start
         for start, end, target in links[bisect_left(links, span.start, key=lambda link: link[0]) :]:
             if start >= span.end:
@@ -54,27 +54,27 @@ class Names:
             pieces.append((span.source.text[start:end], target.anchor))
             at = end
         pieces.append((span.source.text[at : span.end], None))
-        return Code(tuple(_on_one_line(pieces)))
+        return Code(tuple(_single_line(pieces)))
 
     def head(self, owner: Element) -> Code:
-        """How a declaration begins: all of it but what is in its braces."""
+        """Declaration up to its opening brace."""
         span = owner.node.span
-        # Braces in comments and texts begin nothing.
+        # Ignore braces in comments and strings.
         end = _COMMENT.sub(lambda found: " " * len(found[0]), span.text).find("{")
         return self.code(
             Span(span.source, span.start, span.start + end) if end > 0 else span, owner
         )
 
-    def _of(self, top: Element) -> list[_Link]:
+    def _links_of(self, top: Element) -> list[_Link]:
         node = top.node
         assert isinstance(node, TopLevel)
         if node not in self._links:
-            found = {start: (start, end, to) for start, end, to in self._found(node, top.file)}
+            found = {start: (start, end, to) for start, end, to in self._find_links(node, top.file)}
             self._links[node] = sorted(found.values(), key=lambda link: link[0])
         return self._links[node]
 
-    def _found(self, owner: TopLevel, file: File) -> Iterator[_Link]:
-        # By their types first: ROS interfaces are known in files that do not import them.
+    def _find_links(self, owner: TopLevel, file: File) -> Iterator[_Link]:
+        # Resolve types first: ROS interfaces are known in files that do not import them.
         for ref in nodes_of(owner, TypeRef):
             named = self.type(ref.type)
             if named is not None:
@@ -84,11 +84,11 @@ class Names:
             if target is not None and not each.declares:
                 yield each.span.start, each.span.end, target
 
-    def _all_users(self) -> dict[Element, dict[Element, None]]:
+    def _find_users(self) -> dict[Element, dict[Element, None]]:
         users: dict[Element, dict[Element, None]] = {}
         for top in self.elements.tops:
             source = top.node.span.source
-            for start, end, target in self._of(top):
+            for start, end, target in self._links_of(top):
                 user = self.elements.at(Span(source, start, end))
                 if user is not None and user is not target:
                     users.setdefault(target, {})[user] = None
@@ -96,15 +96,15 @@ class Names:
 
 
 def doc_of(node: Node) -> str:
-    """The documentation of a node, empty where there is none."""
+    """Documentation of a node, or an empty string."""
     return node.doc if isinstance(node, Documented) else ""
 
 
-def _on_one_line(pieces: list[Piece]) -> Iterator[Piece]:
+def _single_line(pieces: list[Fragment]) -> Iterator[Fragment]:
     after_space = True
     for text, anchor in pieces:
         text = _COMMENT.sub(lambda found: found[1] or " ", text)
-        # Space in a text in quotes is part of the value.
+        # Keep spaces inside string literals.
         text = "".join(
             part if part[:1] == '"' else re.sub(r"\s+", " ", part)
             for part in re.split(r'("(?:[^"\\\n]|\\[^\n])*")', text)

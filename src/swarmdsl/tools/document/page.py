@@ -1,4 +1,4 @@
-"""A page of documentation as plain data: what is said of each element, before it is HTML."""
+"""Documentation page as plain data, before it is rendered as HTML."""
 
 from __future__ import annotations
 
@@ -8,15 +8,15 @@ from markupsafe import Markup
 
 from swarmdsl.base.records import dataclass
 
-Piece = tuple[str, str | None]
-"""A text, and the anchor that it leads to."""
+Fragment = tuple[str, str | None]
+"""A string and the anchor that it links to."""
 
 
 @dataclass(frozen=True, slots=True)
 class Code:
-    """Text of the model, with links where it names something."""
+    """Model text with links."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[Fragment, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,12 +28,12 @@ class Prose:
 
 Inline = str | Code | Prose
 Cell = Sequence[Inline]
-"""What stands beside each other in a table: words, code, documentation."""
+"""Content of a table cell: strings, code and documentation."""
 
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """A line of a table; one with an `anchor` is about an element of this `kind` and `name`."""
+    """Row of a table; with an `anchor`, it describes an element."""
 
     cells: tuple[Cell, ...]
     anchor: str | None = None
@@ -43,7 +43,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table, whose last column is documentation if there is any."""
+    """A table whose last column is documentation, if there is any."""
 
     title: str
     columns: tuple[Inline, ...]
@@ -51,7 +51,7 @@ class Table:
     is_matrix: bool = False
 
     def without_empty_columns(self) -> Table:
-        """The same without columns that have nothing in any row."""
+        """Return the table without columns that are empty in all rows."""
         kept = [at for at in range(len(self.columns)) if any(row.cells[at] for row in self.rows)]
         rows = tuple(
             Row(tuple(row.cells[at] for at in kept), row.anchor, row.kind, row.name)
@@ -62,7 +62,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A diagram as SVG, or why there is none."""
+    """A diagram as SVG, or the text that replaces it."""
 
     title: str
     svg: Markup | None
@@ -71,9 +71,9 @@ class Figure:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """All about an element: `code` is how it is declared, `facts` are terms with what they are.
+    """Documentation of an element: its declaration as `code`, and `facts` by term.
 
-    `note` is where it comes from, if that is not the project itself.
+    `note` is its origin if it is not from the project.
     """
 
     anchor: str
@@ -91,7 +91,7 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class Section:
-    """Entries of one kind, and perhaps a table about all of them."""
+    """Entries of one kind, with an optional summary table."""
 
     id: str
     title: str
@@ -100,13 +100,13 @@ class Section:
 
     @property
     def table_id(self) -> str:
-        """Where the table is."""
+        """Anchor of the table."""
         return f"{self.id}-table"
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A whole model."""
+    """Documentation of a model."""
 
     title: str
     doc: str

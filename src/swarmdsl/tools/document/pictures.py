@@ -1,4 +1,4 @@
-"""The diagrams of a system as parts of a page, with links to what they show."""
+"""Diagrams of a system with links to the entries of the page."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from swarmdsl.tools.diagram.views import diagrams
 from swarmdsl.tools.document.elements import Element, Elements
 from swarmdsl.tools.document.page import Figure
 
-_MOST_NODES = 2_000
-"""A larger diagram takes long to lay out, and nobody can read it."""
+_MAX_NODES = 2_000
+"""Larger diagrams are slow to lay out and unreadable."""
 _TITLES = {
-    "composition": "The members of {}",
-    "internal": "The parts of {}",
-    "statechart": "The states of {}",
+    "composition": "Members of {}",
+    "internal": "Parts of {}",
+    "statechart": "States of {}",
 }
 
 
 def pictures(system: ir.System, elements: Elements) -> Mapping[Element, Figure]:
-    """The diagram of each swarm, member and state machine that has one."""
+    """Diagrams of swarms, members and state machines by element."""
     found = {}
     for diagram in diagrams(system):
         element = elements.at(diagram.frame.origin)
@@ -38,9 +38,10 @@ def pictures(system: ir.System, elements: Elements) -> Mapping[Element, Figure]:
 def _figure(diagram: Diagram, subject: Element, elements: Elements) -> Figure:
     title = _TITLES[diagram.kind].format(subject.path)
     count = sum(1 for _ in diagram.frame.walk())
-    if count > _MOST_NODES:
-        way = f"swarmc diagram --kind {diagram.kind} --name {diagram.name}"
-        return Figure(title, None, f"A diagram of {count} nodes is not drawn here; `{way}` does.")
+    if count > _MAX_NODES:
+        command = f"swarmc diagram --kind {diagram.kind} --name {diagram.name}"
+        too_large = f"With {count} nodes, the diagram is too large for this page: use `{command}`."
+        return Figure(title, None, too_large)
 
     def link(origin: Span | None) -> str | None:
         element = elements.at(origin)

@@ -1,7 +1,7 @@
-"""Documentation as HTML: Markdown, of which nothing can run, and nothing is fetched.
+"""Render documentation as HTML that runs no scripts and fetches nothing.
 
-CommonMark (https://spec.commonmark.org) with tables, without HTML and pictures. Headings are
-text: those of a page are its own.
+The input is CommonMark (https://spec.commonmark.org) with tables, without HTML and images. Headings
+become text, because the page has its own.
 """
 
 from __future__ import annotations
@@ -14,33 +14,33 @@ from markdown_it import MarkdownIt
 from markdown_it.token import Token
 from markupsafe import Markup
 
-_LEFT_OUT = ["html_block", "html_inline", "image", "heading", "lheading", "hr"]
+_DISABLED_RULES = ["html_block", "html_inline", "image", "heading", "lheading", "hr"]
 
 
 class Prose:
-    """Makes HTML of documentation; a name in backquotes leads to what is called so."""
+    """Renders documentation; a name in backquotes becomes a link to its element."""
 
     def __init__(self, anchors: Mapping[str, str]) -> None:
-        """`anchors` are those of elements, by their paths."""
+        """Create a renderer; `anchors` maps paths of elements to anchors."""
         self._anchors = anchors
         self._markdown = MarkdownIt("commonmark", {"html": False}).enable("table")
-        self._markdown.disable(_LEFT_OUT)
+        self._markdown.disable(_DISABLED_RULES)
         self.html = cache(self._html)
 
     def _html(self, text: str) -> Markup:
         tokens = self._markdown.parse(text)
         for token in tokens:
             if token.children:
-                token.children = list(self._linked(token.children))
+                token.children = list(self._with_links(token.children))
         return Markup(self._markdown.renderer.render(tokens, self._markdown.options, {}))
 
-    def _linked(self, tokens: list[Token]) -> list[Token]:
-        """The tokens of a line, with links that lead somewhere."""
+    def _with_links(self, tokens: list[Token]) -> list[Token]:
+        """Add links for names and drop links without a valid target."""
         found: list[Token] = []
         closed: list[bool] = []
         for token in tokens:
             if token.type == "link_open":
-                closed.append(not self._leads(token))
+                closed.append(not self._has_target(token))
                 if closed[-1]:
                     continue
             elif token.type == "link_close" and closed.pop():
@@ -53,8 +53,11 @@ class Prose:
                 found += [opened, token, Token("link_close", "a", -1)]
         return found
 
-    def _leads(self, token: Token) -> bool:
-        """Whether a link leads to a page elsewhere, which is told nothing, or into this one."""
+    def _has_target(self, token: Token) -> bool:
+        """Return True for a link to another site or to an anchor of this page.
+
+        Links to other sites send no referrer.
+        """
         to = str(token.attrGet("href") or "")
         if to.startswith("#"):
             return unquote(to[1:]) in self._anchors.values()

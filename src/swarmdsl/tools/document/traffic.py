@@ -1,4 +1,4 @@
-"""Who sends and who handles which event, and who calls which function, reused machines included."""
+"""Senders and handlers of events and callers of functions, including submachines."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ States = dict[Element, None]
 
 
 @dataclass(slots=True)
-class Traffic:
-    """The states, by machine, that send an event, handle it, or call a function."""
+class EventTraffic:
+    """States, by machine, that send an event, handle it, or call a function."""
 
     sent: dict[str, dict[Element, States]] = field(default_factory=dict)
     handled: dict[str, dict[Element, States]] = field(default_factory=dict)
@@ -28,23 +28,23 @@ class Traffic:
         )
 
 
-def traffic(system: ir.System, elements: Elements) -> Traffic:
-    """Follow all machines of a system; events and functions are known by their names there."""
-    found = Traffic()
+def collect_traffic(system: ir.System, elements: Elements) -> EventTraffic:
+    """Collect the events and function calls of all machines by name."""
+    found = EventTraffic()
     for machine in system.machines:
         top = elements.at(machine.origin)
         if top is None:
             continue
         for state in machine.walk():
             element = elements.at(state.origin) or top
-            _note(found.sent, _sent(state), top, element)
-            _note(found.handled, _handled(state), top, element)
+            _record(found.sent, _sent(state), top, element)
+            _record(found.handled, _handled(state), top, element)
             called = [state.activity.function] if state.activity is not None else []
-            _note(found.called, called, top, element)
+            _record(found.called, called, top, element)
     return found
 
 
-def _note(
+def _record(
     found: dict[str, dict[Element, States]], names: Iterable[str], machine: Element, state: Element
 ) -> None:
     for name in names:

@@ -1,6 +1,6 @@
 "use strict";
-// Links, search, contents that follow, colours, and pictures in full size. Without it, the page has all
-// of its text and links.
+// Scroll to links, search, highlight the current entry in the contents, switch the theme, and show
+// diagrams in full size. The page works without this script.
 (() => {
   const MOST = 40;
   const byId = (id) => document.getElementById(id);
@@ -11,7 +11,7 @@
   root.classList.add("scripted");
   field.parentElement.hidden = menu.hidden = theme.hidden = false;
 
-  // ---- links: what comes into view gets its true height, and moves what is below
+  // ---- links: elements get their real height when they come into view, which moves those below
   const settle = (id) => {
     const target = byId(id);
     const again = (left) => {
@@ -25,7 +25,7 @@
     const link = event.target.closest("a[href^='#']");
     if (link) settle(goal(link.getAttribute("href")));
   });
-  // Where somebody goes back to, the browser knows where it was.
+  // On back and forward, the browser restores the position itself.
   const comes = performance.getEntriesByType("navigation")[0]?.type === "navigate";
   if (comes) addEventListener("load", () => settle(goal(location.hash)));
 
@@ -42,7 +42,7 @@
     }));
     return index;
   };
-  // How well an element fits, the least best; undefined where it does not.
+  // Rank of a match, 0 is best; undefined if the element does not match.
   const rank = (item, word) => {
     if (item.lower === word) return 0;
     if (item.lower.startsWith(word)) return 1;
@@ -111,8 +111,8 @@
     const any = field.value.trim() !== "";
     list.hidden = !any || found.length === 0;
     field.setAttribute("aria-expanded", String(!list.hidden));
-    const more = found.length > MOST ? `, the first ${MOST} are shown` : "";
-    told.textContent = any ? `${found.length || "nothing"} found${more}` : "";
+    const more = found.length > MOST ? `, showing the first ${MOST}` : "";
+    told.textContent = any ? `${found.length || "no"} results${more}` : "";
     told.classList.toggle("hidden", found.length > 0 || !any);
     chosen = -1;
     choose(0);
@@ -177,14 +177,14 @@
       try {
         return localStorage.getItem("swarmc-doc-theme");
       } catch {
-        return null; // not every browser keeps something for a file
+        return null; // some browsers have no storage for local files
       }
     },
     set: (value) => {
       try {
         localStorage.setItem("swarmc-doc-theme", value);
       } catch {
-        /* the same */
+        /* no storage */
       }
     },
   };
@@ -201,7 +201,7 @@
     paint(painted);
   });
 
-  // ---- what is wider than the page, once it is seen
+  // ---- diagrams and tables that are wider than the page, when they come into view
   const fit = (picture) => {
     const svg = picture.querySelector("svg");
     if (svg.width.baseVal.value <= svg.clientWidth + 1) return;

@@ -1,4 +1,4 @@
-"""What all entries of a page are made from."""
+"""Builders of page entries."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from collections.abc import Iterable, Mapping, Sequence
 from swarmdsl import ir
 from swarmdsl.base.records import dataclass
 from swarmdsl.syntax.ast import Node, Param, TypeRef
-from swarmdsl.tools.document.elements import Element, Elements, Places
-from swarmdsl.tools.document.names import Names, doc_of
+from swarmdsl.tools.document.elements import Element, Elements, SourceLocations
+from swarmdsl.tools.document.names import NameResolver, doc_of
 from swarmdsl.tools.document.page import Cell, Code, Entry, Figure, Inline, Prose, Row, Table
-from swarmdsl.tools.document.traffic import Traffic
+from swarmdsl.tools.document.traffic import EventTraffic
 
 
 @dataclass(frozen=True)
-class Book:
-    """A model, with all that is known of its elements."""
+class EntryBuilder:
+    """A model with the lookup tables from which entries are built."""
 
     system: ir.System
     elements: Elements
-    names: Names
-    places: Places
-    traffic: Traffic
+    names: NameResolver
+    locations: SourceLocations
+    traffic: EventTraffic
     figures: Mapping[Element, Figure]
     functions: Mapping[Element, Sequence[ir.Function]]
     events: Mapping[Element, Sequence[ir.Event]]
@@ -34,7 +34,7 @@ class Book:
         entries: Iterable[Entry] = (),
         has_code: bool = True,
     ) -> Entry:
-        """All about an element; what has nothing in it is left out."""
+        """Entry of an element without its empty facts and tables."""
         kept = (
             block.without_empty_columns() if isinstance(block, Table) else block
             for block in blocks
@@ -47,7 +47,7 @@ class Book:
             element.path,
             self.names.head(element) if has_code else None,
             doc_of(element.node),
-            self.places.place(element),
+            self.locations.location(element),
             tuple((term, cell) for term, cell in facts if cell),
             tuple(block for block in kept if isinstance(block, Figure) or block.rows),
             tuple(entries),
@@ -55,7 +55,10 @@ class Book:
         )
 
     def row(self, element: Element, cells: Sequence[Cell], heir: Element | None = None) -> Row:
-        """A row about an element, with its documentation; that of an `heir` only links to it."""
+        """Row of an element with its documentation.
+
+        In the table of an `heir` that inherits the element, the row links to its entry instead.
+        """
         doc = doc_of(element.node)
         last: Cell = (Prose(doc),) if doc else ()
         if heir is None or element.parent is heir:
@@ -65,25 +68,25 @@ class Book:
         return Row(((link(element, element.name), " of ", link(base)), *cells, last))
 
     def code(self, node: Node | None, owner: Element) -> Cell:
-        """A part of a declaration as it is written, or nothing."""
+        """Source text of a node, or nothing."""
         return (self.names.code(node.span, owner),) if node is not None else ()
 
     def type(self, ref: TypeRef, owner: Element) -> Cell:
-        """A type as it is written, and what it stands for where that is something else."""
-        written = self.names.code(ref.span, owner)
-        text = "".join(text for text, _ in written.pieces)
+        """Source text of a type, followed by the full type if that differs."""
+        source = self.names.code(ref.span, owner)
+        text = "".join(text for text, _ in source.pieces)
         full = str(ref.type)
         is_enum = self.names.type(ref.type) is not None
         if full == text or is_enum or full.endswith(f"/{text}"):
-            return (written,)
-        return (written, " = ", Code(((full, None),)))
+            return (source,)
+        return (source, " = ", Code(((full, None),)))
 
     def used_by(self, element: Element) -> Cell:
-        """What names an element."""
-        return listed(self.names.users(element))
+        """Links to the elements that refer to an element."""
+        return links(self.names.users(element))
 
     def params(self, owner: Element, params: Iterable[Param]) -> Table:
-        """The params of something, some of which may be inherited."""
+        """Table of params, including inherited ones."""
         rows = []
         for param in params:
             element = self.elements.of(param)
@@ -98,12 +101,12 @@ class Book:
 
 
 def link(element: Element, text: str | None = None) -> Code:
-    """An element by its path, or by another text, as a link to it."""
+    """Link to an element with its path or another text."""
     return Code(((text or element.path, element.anchor),))
 
 
-def listed(elements: list[Element]) -> tuple[Inline, ...]:
-    """Elements one after the other, each a link."""
+def links(elements: list[Element]) -> tuple[Inline, ...]:
+    """Links to elements, separated by commas."""
     found: list[Inline] = []
     for element in elements:
         found += [", "] if found else []
