@@ -5,8 +5,8 @@ import re
 import pytest
 
 from swarmdsl.base.source import Source
-from swarmdsl.ide.server.code import found_in
-from swarmdsl.ide.server.folding_range import folds
+from swarmdsl.ide.server.code import find_tokens
+from swarmdsl.ide.server.folding_range import folding_ranges
 
 WORD = re.compile(r"//[^\n]*|/\*|\w+")
 
@@ -24,13 +24,13 @@ WORD = re.compile(r"//[^\n]*|/\*|\w+")
     ],
 )
 def test_comments_are_found_whole(text, found):
-    assert [word for _, word in found_in(text, WORD)] == found
-    assert all(text.startswith(word, at) for at, word in found_in(text, WORD))
+    assert [word for _, word in find_tokens(text, WORD)] == found
+    assert all(text.startswith(word, at) for at, word in find_tokens(text, WORD))
 
 
 def test_only_a_part_is_looked_at():
     text = "a b /* c */ d"
-    assert list(found_in(text, WORD, 2, 8)) == [(2, "b"), (7, "c")]
+    assert list(find_tokens(text, WORD, 2, 8)) == [(2, "b"), (7, "c")]
 
 
 @pytest.mark.timeout(60)
@@ -38,6 +38,6 @@ def test_only_a_part_is_looked_at():
 def test_many_comments_without_an_end(end):
     """A pattern of whole comments looks for the end of each, which takes minutes."""
     text = "/*\n" * 40_000 + end + "{\n\n}"
-    found = [(fold.first, fold.last, fold.kind) for fold in folds(Source("a.swarm", text))]
+    found = [(fold.first, fold.last, fold.kind) for fold in folding_ranges(Source("a.swarm", text))]
     comment = [(0, 40_000, "comment")] if end else []
     assert found == [*comment, (40_000, 40_001, "")]

@@ -7,7 +7,7 @@ import pytest
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
-from swarmdsl.ide.server.fixes import fix
+from swarmdsl.ide.server.fixes import quick_fix
 from swarmdsl.syntax.parse import parse
 
 MODEL = """\
@@ -57,7 +57,7 @@ def mended(path: Path) -> list[str]:
         checked = pipeline.check([path])
         source = Source(str(path), path.read_text(encoding="utf-8"))
         declarations = parse(source, Diagnostics()).model.declarations
-        proposed = (fix(each, declarations) for each in checked.report)
+        proposed = (quick_fix(each, declarations) for each in checked.report)
         fixes = [found for found in proposed if found is not None]
         if not fixes:
             assert not checked.report.has_errors

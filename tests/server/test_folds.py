@@ -5,26 +5,26 @@ from __future__ import annotations
 import pytest
 
 from swarmdsl.base.source import Source
-from swarmdsl.ide.server.folding_range import Fold, folds
+from swarmdsl.ide.server.folding_range import FoldingRange, folding_ranges
 
 
 def test_what_can_be_folded() -> None:
     text = '/* a\n { */\nimport "a"\nimport "b"\n// c\n// d\nstruct S {\n  a : T\n}\n'
-    assert folds(Source("model.swarm", text)) == [
-        Fold(0, 1, "comment"),
-        Fold(2, 3, "imports"),
-        Fold(4, 5, "comment"),
-        Fold(6, 7),
+    assert folding_ranges(Source("model.swarm", text)) == [
+        FoldingRange(0, 1, "comment"),
+        FoldingRange(2, 3, "imports"),
+        FoldingRange(4, 5, "comment"),
+        FoldingRange(6, 7),
     ]
 
 
 @pytest.mark.parametrize("begin", ["/*", '"', "// */ /*"])
 def test_what_has_no_end_hides_no_blocks(begin: str) -> None:
     text = f"struct S {{\n  a : T\n}}\n{begin} x\nstruct U {{\n  a : T\n}}\n"
-    assert folds(Source("model.swarm", text)) == [Fold(0, 1), Fold(4, 5)]
+    assert folding_ranges(Source("model.swarm", text)) == [FoldingRange(0, 1), FoldingRange(4, 5)]
 
 
 @pytest.mark.parametrize("text", ['"' + r"\"" * 100_000, "/* " * 70_000, "/*\n" * 70_000])
 def test_much_that_has_no_end(text: str) -> None:
     """It takes minutes where each looks for its end on its own."""
-    assert folds(Source("model.swarm", text)) == []
+    assert folding_ranges(Source("model.swarm", text)) == []

@@ -59,7 +59,7 @@ def test_an_editor_is_asked_to_tell_of_changes_on_disk():
 def test_an_editor_with_commands_of_its_own_is_offered_them(tmp_path):
     uri = (tmp_path / "a.swarm").as_uri()
     document = {"uri": uri, "languageId": "swarm", "version": 1, "text": "swarm One { }\n"}
-    commands = ["swarmdsl.ide.preview", "swarmdsl.references"]
+    commands = ["swarmdsl.preview", "swarmdsl.references"]
     options = {"capabilities": {}, "initializationOptions": {"commands": commands}}
     process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     for each in (

@@ -42,20 +42,20 @@ def run(*messages, until):
 
 def test_it_gets_ready_for_the_next_request(collected, monkeypatch):
     done = []
-    monkeypatch.setattr(support, "prepare", lambda: done.append("targets"))
+    monkeypatch.setattr(support, "load_generators", lambda: done.append("targets"))
     monkeypatch.setattr(server, "parse", lambda source, report: done.append(source.text))
     run(INITIALIZE, until=collected)
     assert done == ["targets", "event"]
 
 
 def test_what_fails_then_is_told(collected, monkeypatch, capsys):
-    monkeypatch.setattr(support, "prepare", lambda: 1 / 0)
+    monkeypatch.setattr(support, "load_generators", lambda: 1 / 0)
     assert "internal error: division by zero" in run(INITIALIZE, until=collected)
     assert "ZeroDivisionError" in capsys.readouterr().err
 
 
 def test_without_a_rest_garbage_is_looked_for_after_many_messages(collected, monkeypatch):
-    monkeypatch.setattr(server, "_MOST_MESSAGES", 3)
+    monkeypatch.setattr(server, "_MESSAGES_PER_COLLECTION", 3)
     monkeypatch.setattr(server, "_REST", 60)
     ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
     assert '"id": 2' in run(INITIALIZE, ask, ask, until=collected)

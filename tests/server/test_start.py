@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from swarmdsl.ide.server.features import FEATURES, requests
+from swarmdsl.ide.server.features import FEATURES, handlers_of
 
 STARTED = """
 import sys
@@ -17,7 +17,7 @@ print(*sys.modules)
 
 @pytest.mark.parametrize("module", FEATURES)
 def test_a_module_answers_what_is_said_of_it(module):
-    assert requests(module).keys() == FEATURES[module].keys()
+    assert handlers_of(module).keys() == FEATURES[module].keys()
 
 
 def test_what_answers_is_imported_later():
@@ -25,7 +25,7 @@ def test_what_answers_is_imported_later():
     modules = ran.stdout.split()
     assert "swarmdsl.ide.server.session" in modules
     late = {
-        *(f"swarmdsl.ide.server.{module}" for module in FEATURES),
+        *(f"swarmdsl.ide.server.handlers.{module}" for module in FEATURES),
         "swarmdsl.syntax.formatter",
         "click",
     }

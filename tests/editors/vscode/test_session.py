@@ -218,7 +218,7 @@ def test_a_new_model(window: Window) -> None:
 
 def test_what_a_setting_names_is_told_if_it_is_no_swarmc(window: Window) -> None:
     window.open("behaviours.swarm")
-    with window.settings({"swarmdsl.ide.server.path": "/bin/false"}):
+    with window.settings({"swarmdsl.server.path": "/bin/false"}):
         told = window.page.locator(".notification-toast", has_text="/bin/false is not a swarmc")
         expect(told.get_by_role("button", name="Select Interpreter")).to_be_visible()
         expect(window.status("swarmdsl.swarm.swarmdsl").locator(".codicon-warning")).to_be_visible()
@@ -238,7 +238,7 @@ def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> 
     window.choose("Browse...")
     window.choose_file(Path(sys.executable))
     try:
-        window.found("the setting swarmdsl.ide.server.interpreter")
+        window.found("the setting swarmdsl.server.interpreter")
         window.server(__version__)
         window.command("Swarm: Simulate")
         window.choose("mission.toml")

@@ -1,5 +1,5 @@
-"""The language server: what an editor asks of a model, answered from the workspace.
+"""Language server: answers requests of editors from the workspace.
 
-The Language Server Protocol (LSP 3.17) is that of pygls; the `..._answers` modules say in its
-types what all others know. Nothing here parses, links or checks on its own.
+Built on pygls (LSP 3.17). The `handlers` convert the results of the other modules into types of the
+protocol. Nothing here parses, links or checks on its own.
 """

@@ -1,7 +1,7 @@
-"""The files that a server may read: those of its models, and of what these may use.
+"""Paths that the server may read: models, their libraries, installed packages.
 
-A model that somebody else wrote is opened in an editor without a thought; what it imports
-shall not lead to the files of whoever reads it.
+A user opens a model of someone else in an editor without a second thought. An import in it must not
+reach the user's other files.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.driver.config import Settings
 from swarmdsl.project.libraries import installed_folders
 
-# Where the packages of ROS are installed, divided as paths of programs are.
+# Search paths of installed ROS packages, separated like PATH.
 _ROS = ("AMENT_PREFIX_PATH", "COLCON_PREFIX_PATH", "ROS_PACKAGE_PATH")
 
 
-class Territory:
-    """All in some folders, the sources and libraries of a project, and what is installed."""
+class AllowedPaths:
+    """Folders of the editor, sources and libraries of a project, and installed packages."""
 
     def __init__(self, folders: Iterable[Path], settings: Settings) -> None:
         named = [*folders, *settings.sources, *settings.libraries, resources.library()]

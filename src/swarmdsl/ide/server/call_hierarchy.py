@@ -1,4 +1,8 @@
-"""Who can reach a state, and what it leads to; likewise who does a function or sends an event."""
+"""Call hierarchy of states, functions, operations and events.
+
+Transitions are the calls between states; activities call functions and operations; `send` calls an
+event.
+"""
 
 from __future__ import annotations
 
@@ -26,19 +30,19 @@ from swarmdsl.syntax.ast import (
     walk,
 )
 
-Ways = Mapping[Node, Sequence[Span]]
+Calls = Mapping[Node, Sequence[Span]]
 
-REACHED = (State, Parallel, Choice, History, FinalState, StateMachine, Function, Operation, Event)
+CALLABLE = (State, Parallel, Choice, History, FinalState, StateMachine, Function, Operation, Event)
 _SOURCES = (State, Parallel, Region, Choice, History)
 
 
-def ways_to(workspace: Workspace, node: Node) -> Ways:
-    """What leads to something, each with the places where it does."""
+def incoming_calls(workspace: Workspace, node: Node) -> Calls:
+    """Return the callers of an element, each with the spans of its calls."""
     found: dict[Node, list[Span]] = {}
     for each in occurrences_of(node, workspace):
         source, _, end = each.span
         if each.declares or source.text.startswith(".", end) or source.path is None:
-            continue  # a name that a path goes through is not where it leads
+            continue  # prefix of a qualified name, not its target
         file = workspace.file(source.path)
         owner = owner_at(file, each.span.start) if file is not None else None
         if owner is None or (isinstance(node, Event) and not _is_sent(owner, each.span)):
@@ -49,8 +53,8 @@ def ways_to(workspace: Workspace, node: Node) -> Ways:
     return found
 
 
-def ways_from(workspace: Workspace, node: Node) -> Ways:
-    """What something leads to, each with the places where it does."""
+def outgoing_calls(workspace: Workspace, node: Node) -> Calls:
+    """Return the elements that an element calls, each with the spans of the calls."""
     found: dict[Node, list[Span]] = {}
     place = node.span.absolute
     file = workspace.file(place.source.path) if place.source.path is not None else None
@@ -58,7 +62,7 @@ def ways_from(workspace: Workspace, node: Node) -> Ways:
     for _, ref in references(owner) if owner is not None else ():
         span = ref.span.absolute
         if (
-            isinstance(ref.target, REACHED)
+            isinstance(ref.target, CALLABLE)
             and owner is not None
             and place.start <= span.start < place.end
             and _source(owner, span) is node
@@ -69,7 +73,7 @@ def ways_from(workspace: Workspace, node: Node) -> Ways:
 
 
 def _source(owner: TopLevel, span: Span) -> Node:
-    """What a place in a declaration belongs to: the innermost state around it."""
+    """Return the innermost state around a span, else the declaration."""
     found: Node = owner
     for node in walk(owner):
         if isinstance(node, _SOURCES):

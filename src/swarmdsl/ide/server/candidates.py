@@ -1,4 +1,4 @@
-"""What a name can mean where it stands: the declarations and states that are in sight there."""
+"""Candidates for a name at the cursor: visible declarations and states."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.analysis.resolve.states import content, regions, vertices
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.fields import fields_of
-from swarmdsl.ide.server.speculative_parse import WORD
+from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
 from swarmdsl.syntax.ast import (
     NODES,
     Activity,
@@ -46,7 +46,7 @@ from swarmdsl.syntax.ast import (
 
 
 class Candidates:
-    """Looks for what can stand at an offset, in the declaration that is `around` it."""
+    """Candidates at an offset in the declaration `around` it."""
 
     def __init__(
         self, workspace: Workspace, scope: FileScope, around: TopLevel, offset: int
@@ -57,15 +57,15 @@ class Candidates:
         self._offset = offset
 
     def of(self, owner: TopLevel) -> Iterator[Iterable[Node]]:
-        """What the word on trial in a declaration can mean.
+        """Yield the possible targets of the placeholder in a declaration.
 
-        Nothing where no name of something that exists stands.
+        Yields nothing if the placeholder does not refer to an existing element.
         """
         for holder, ref in references(owner):
-            if WORD in ref.name:
-                yield self._meant(holder, ref, owner)
+            if PLACEHOLDER in ref.name:
+                yield self._targets(holder, ref, owner)
         for field in nodes_of(owner, FieldUse):
-            if field.name == WORD:
+            if field.name == PLACEHOLDER:
                 base = field.base
                 enum = base.target if isinstance(base, NameUse) else None
                 if isinstance(enum, EnumType):
@@ -73,19 +73,19 @@ class Candidates:
                 else:
                     yield fields_of(field, owner, self._workspace.project)
         for use in nodes_of(owner, NameUse):
-            if WORD in use.name:
+            if PLACEHOLDER in use.name:
                 kinds = (Variable, Param, FitnessInput)
                 own = [node for kind in kinds for node in nodes_of(self._around, kind)]
                 yield [*own, *self._visible((Constant, EnumType))]
 
-    def _meant(self, holder: Node, ref: Ref[Node], owner: TopLevel) -> Iterable[Node]:
-        """What a reference can lead to."""
-        path = ref.name.partition(WORD)[0].rstrip(".").split(".")
+    def _targets(self, holder: Node, ref: Ref[Node], owner: TopLevel) -> Iterable[Node]:
+        """Return the possible targets of a reference."""
+        path = ref.name.partition(PLACEHOLDER)[0].rstrip(".").split(".")
         around = self._around
         match holder, around:
             case PortRef(part=part), Member():
                 parts = {str(each.name): each for each in all_items(around, Part)}
-                if part is not None and WORD not in part.name:
+                if part is not None and PLACEHOLDER not in part.name:
                     component = parts[part.name].component.target if part.name in parts else None
                     return all_items(component, Port) if component is not None else ()
                 return [*parts.values(), *all_items(around, Port)]
@@ -96,7 +96,7 @@ class Candidates:
                 inside = content(inner)
                 return [v for v in vertices(inside) if isinstance(v, FinalState)] if inside else ()
             case Activity(owner=Component() | Part() | None as of), _:
-                return self._done(path, of)
+                return self._callables(path, of)
         kind = NODES.get(ref.kind)
         if ref.kind == "Vertex" and isinstance(around, StateMachine):
             if path != [""]:
@@ -104,8 +104,8 @@ class Candidates:
                     *nodes_of(around, State),
                     *nodes_of(around, Parallel),
                 ]
-                return [v for each in named if each.name == path[-1] for v in _inside(each)]
-            levels = [_inside(each) for each in reversed(self._containers())]
+                return [v for each in named if each.name == path[-1] for v in _substates(each)]
+            levels = [_substates(each) for each in reversed(self._containers())]
             return [vertex for level in levels for vertex in level]
         if isinstance(around, Optimization) and kind is Role:
             swarm = self._scope.one(around.swarm.name, Swarm)
@@ -119,8 +119,8 @@ class Candidates:
             if not package or self._scope.find(f"{package}.{node.name}")  # type: ignore[attr-defined]
         ]
 
-    def _done(self, path: list[str], owner: Component | Part | None) -> Iterable[Node]:
-        """What a state can do: functions, and operations of components and parts."""
+    def _callables(self, path: list[str], owner: Component | Part | None) -> Iterable[Node]:
+        """Return the functions, and operations of components and parts, that a state can call."""
         if path == [""]:
             return [*self._visible((NODES["Function"],)), *self._parts()]
         if isinstance(owner, Part):
@@ -128,7 +128,7 @@ class Candidates:
         return all_items(owner, Operation) if owner is not None else ()
 
     def _parts(self) -> list[Part]:
-        """The parts with operations of a member that runs the machine."""
+        """Return the parts with operations of the first member that runs the machine."""
         if not isinstance(self._around, StateMachine):
             return []
         return [
@@ -139,17 +139,17 @@ class Candidates:
         ]
 
     def _containers(self) -> list[Container]:
-        """The machine and the states around the offset, the innermost last."""
+        """Return the machine and the states around the offset, innermost last."""
         assert isinstance(self._around, StateMachine)
         return containers(self._around, self._offset)
 
     def _visible(self, kinds: tuple[type[Node], ...]) -> list[Node]:
-        """The declarations of some kinds that the file sees."""
+        """Return the declarations of some kinds that are visible in the file."""
         return visible(self._scope, kinds)
 
 
 def visible(scope: FileScope, kinds: tuple[type[Node], ...]) -> list[Node]:
-    """The declarations of some kinds that a file sees."""
+    """Return the declarations of some kinds that are visible in a file."""
     found: list[Node] = []
     for kind in kinds:
         for name in scope.names(kind):  # type: ignore[arg-type]
@@ -158,7 +158,7 @@ def visible(scope: FileScope, kinds: tuple[type[Node], ...]) -> list[Node]:
 
 
 def containers(machine: StateMachine, offset: int) -> list[Container]:
-    """The machine and the states around an offset, the innermost last."""
+    """Return the machine and the states around an offset, innermost last."""
     found: list[Container] = []
     for node in walk(machine):
         if isinstance(node, (StateMachine, State, Parallel, Region)):
@@ -168,8 +168,8 @@ def containers(machine: StateMachine, offset: int) -> list[Container]:
     return found or [machine]
 
 
-def _inside(state: Node) -> list[Node]:
-    """The states directly inside another, those in its regions among them."""
+def _substates(state: Node) -> list[Node]:
+    """Return the direct substates of a state, including those in its regions."""
     if isinstance(state, Parallel):
         return [each for region in regions(state) for each in vertices(region)]
     return list(vertices(state)) if isinstance(state, (State, Region, StateMachine)) else []

@@ -1,4 +1,4 @@
-"""Words in a text that need not be one that can be parsed."""
+"""Lexical search in text that need not parse."""
 
 from __future__ import annotations
 
@@ -6,13 +6,13 @@ import re
 from collections.abc import Iterator
 
 
-def found_in(
+def find_tokens(
     text: str, pattern: re.Pattern[str], start: int = 0, end: int | None = None
 ) -> Iterator[tuple[int, str]]:
-    """What a pattern finds, and where; a `/*` that it finds with all of its comment.
+    """Yield matches of a pattern with their offsets; extend `/*` to the whole comment.
 
-    One without an end is passed over: it is no comment. It takes as long as the text is, which a
-    pattern of whole comments does not where many have no end.
+    An unterminated `/*` is skipped: it is no comment. The search is linear, whereas a pattern for
+    whole comments is quadratic with many unterminated ones.
     """
     end = len(text) if end is None else end
     if text.find("/*", start, end) < 0:

@@ -1,4 +1,4 @@
-"""What an editor can offer above a declaration: how often it is used, a picture, a run."""
+"""Code lenses above declarations: references, preview, simulation."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ _SIMULATED: tuple[Kind, ...] = ("machine", "swarm")
 
 
 @dataclass(frozen=True)
-class Lens:
-    """What is offered at the name of a declaration; `kind` is None where it has no picture."""
+class CodeLens:
+    """Lens at the name of a declaration; `kind` is None if it cannot be previewed."""
 
     offer: Literal["references", "preview", "simulate"]
     name: Span
     kind: Kind | None = None
 
 
-def lenses(file: File) -> Iterator[Lens]:
-    """What is offered in a file."""
+def code_lenses(file: File) -> Iterator[CodeLens]:
+    """Yield the code lenses of a file."""
     for owner in owners(file):
         if isinstance(owner, Optimization):
             continue
         name = owner.name.span.absolute  # type: ignore[attr-defined]
         kind = _KINDS.get(type(owner))
-        yield Lens("references", name)
+        yield CodeLens("references", name)
         if kind in _PREVIEWED:
-            yield Lens("preview", name, kind)
+            yield CodeLens("preview", name, kind)
         if kind in _SIMULATED:
-            yield Lens("simulate", name, kind)
+            yield CodeLens("simulate", name, kind)

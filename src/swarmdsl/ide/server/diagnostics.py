@@ -1,4 +1,4 @@
-"""What is wrong with a file as the protocol tells it: with places, related ones, a way out."""
+"""Convert diagnostics into those of the protocol."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ _SEVERITIES = {
 }
 
 
-def as_range(span: Span, encoding: str) -> lsp.Range:
-    """Where a span is in its file."""
+def to_range(span: Span, encoding: str) -> lsp.Range:
+    """Return the range of a span in its file."""
     (line, character), (end_line, end_character) = bounds(span, encoding)
     return lsp.Range(
         start=lsp.Position(line=line, character=character),
@@ -27,20 +27,22 @@ def as_range(span: Span, encoding: str) -> lsp.Range:
     )
 
 
-def as_findings(
+def to_lsp_diagnostics(
     found: Iterable[Diagnostic], encoding: str, uri: Callable[[Path], str]
 ) -> list[lsp.Diagnostic]:
-    """Diagnostics of one file for its editor; `uri` says how that names a file."""
-    return [_finding(each, encoding, uri) for each in found]
+    """Convert diagnostics of one file; `uri` maps a path to its URI."""
+    return [_to_lsp_diagnostic(each, encoding, uri) for each in found]
 
 
-def _finding(found: Diagnostic, encoding: str, uri: Callable[[Path], str]) -> lsp.Diagnostic:
+def _to_lsp_diagnostic(
+    found: Diagnostic, encoding: str, uri: Callable[[Path], str]
+) -> lsp.Diagnostic:
     primary = found.primary
     label = primary.message if primary is not None else ""
     lines = [found.message, label, *found.notes, f"help: {found.help}" if found.help else ""]
     start = lsp.Position(line=0, character=0)
     return lsp.Diagnostic(
-        range=as_range(primary.span, encoding) if primary else lsp.Range(start=start, end=start),
+        range=to_range(primary.span, encoding) if primary else lsp.Range(start=start, end=start),
         severity=_SEVERITIES[found.severity],
         code=found.code,
         code_description=lsp.CodeDescription(href=page_path(found.code).as_uri()),
@@ -55,6 +57,6 @@ def _related(
     label: Label, encoding: str, uri: Callable[[Path], str]
 ) -> lsp.DiagnosticRelatedInformation:
     place = lsp.Location(
-        uri=uri(Path(label.span.source.name)), range=as_range(label.span, encoding)
+        uri=uri(Path(label.span.source.name)), range=to_range(label.span, encoding)
     )
     return lsp.DiagnosticRelatedInformation(location=place, message=label.message or "see here")

@@ -1,8 +1,7 @@
-"""The texts that an editor shows, changed as it tells.
+"""Open documents, with incremental changes.
 
-Those of pygls would do but for one thing: they end lines at each character where Python does, and
-the protocol does so at three ends only, so that what is typed behind another one got to the wrong
-place.
+pygls splits lines like `str.splitlines`, the protocol only at three line ends. With pygls, an edit
+after another separator (such as U+2028) ends up in the wrong place.
 """
 
 from __future__ import annotations
@@ -19,21 +18,21 @@ _LINE_END = re.compile(r"\r\n|\n|\r")
 
 
 class Document:
-    """The text of one file as an editor shows it, with its ends of lines."""
+    """Text of an open file, with its original line ends."""
 
     def __init__(self, text: str, version: int) -> None:
         self.text = text
         self.version = version
 
     def change(self, changes: Iterable[lsp.TextDocumentContentChangeEvent], encoding: str) -> None:
-        """Replace the whole text, or parts of it; one after the other."""
+        """Apply changes of the whole text or of ranges, in order."""
         for each in changes:
             if isinstance(each, lsp.TextDocumentContentChangeWholeDocument):
                 self.text = each.text
                 continue
-            first = self._offset(each.range.start, encoding)
-            last = self._offset(each.range.end, encoding)
-            self.text = self.text[:first] + each.text + self.text[max(first, last) :]
+            start = self._offset(each.range.start, encoding)
+            end = self._offset(each.range.end, encoding)
+            self.text = self.text[:start] + each.text + self.text[max(start, end) :]
 
     def _offset(self, at: lsp.Position, encoding: str) -> int:
         start = self._line_start(at.line)

@@ -1,6 +1,6 @@
-"""The requests that the server answers, with what a client has to know of them.
+"""Requests that the server answers, with their registration options.
 
-What answers them is imported with the first: a client sees what is wrong before it asks.
+Modules of handlers are imported on first use, so that diagnostics come first.
 """
 
 from __future__ import annotations
@@ -56,15 +56,15 @@ FEATURES: Mapping[str, Mapping[str, Any]] = {
     },
     "preview": {"swarmdsl/pictures": None},
 }
-"""By the module that answers them; its `REQUESTS` are the functions."""
+"""By module name in `handlers`; its `REQUESTS` maps requests to functions."""
 
 
-def requests(module: str) -> Mapping[str, Any]:
-    """What answers the requests of a module."""
+def handlers_of(module: str) -> Mapping[str, Any]:
+    """Return the request handlers of a module."""
     found: Mapping[str, Any] = import_module(f"swarmdsl.ide.server.handlers.{module}").REQUESTS
     return found
 
 
 def answer(module: str, name: str, session: Session, params: Any) -> Any:
-    """The answer to a request; raises what refuses it."""
-    return requests(module)[name](session, params)
+    """Answer a request; errors of the handler propagate."""
+    return handlers_of(module)[name](session, params)

@@ -1,4 +1,4 @@
-"""What can be given by name: fields of goals, of messages and of structs, params."""
+"""Names that take a value: fields of goals, messages and structs, params."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.types import Typing
 from swarmdsl.base.records import dataclass
-from swarmdsl.ide.server.speculative_parse import WORD
+from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
 from swarmdsl.project.loader import Project
 from swarmdsl.syntax.ast import (
     ActionType,
@@ -42,27 +42,27 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Named, Type
 
-Given = Field | Parameter | Param
+Slot = Field | Parameter | Param
 
 
 @dataclass(frozen=True)
 class Slots:
-    """What can be given, how that is called, and what is given already."""
+    """Parameters of a call, with its name and those already assigned."""
 
-    of: str
-    fields: Sequence[Given]
-    given: frozenset[str] = frozenset()
+    callee: str
+    fields: Sequence[Slot]
+    assigned: frozenset[str] = frozenset()
 
     @property
-    def left(self) -> list[Given]:
-        """What is not given yet."""
-        return [each for each in self.fields if each.name not in self.given]
+    def unassigned(self) -> list[Slot]:
+        """Return the parameters that are not assigned yet."""
+        return [each for each in self.fields if each.name not in self.assigned]
 
 
-def slots_of_call(
+def call_slots(
     target: Function | Operation | None, interfaces: Interfaces
-) -> tuple[Sequence[Given], Sequence[Given]]:
-    """What a function or an operation takes, and what it gives."""
+) -> tuple[Sequence[Slot], Sequence[Slot]]:
+    """Return inputs and outputs of a function or an operation."""
     if isinstance(target, Operation):
         return (
             [each for each in target.parameters if each.direction != "out"],
@@ -79,47 +79,47 @@ def slots_of_call(
     return (), ()
 
 
-def slots_of_event(event: Event | None, interfaces: Interfaces) -> Sequence[Given]:
-    """The fields of the message of an event."""
+def event_slots(event: Event | None, interfaces: Interfaces) -> Sequence[Slot]:
+    """Return the fields of the message of an event."""
     found = _interface(event.type.type if event is not None else None, interfaces, MessageType)
     return found.fields if isinstance(found, (MessageType, StructType)) else ()
 
 
 def slots(owner: TopLevel, project: Project) -> Slots | None:
-    """What the word on trial can be the name of, or give a value to."""
+    """Return the parameter list in which the placeholder is a name or a value."""
     interfaces = Interfaces(project.declarations())
     for activity in nodes_of(owner, Activity):
-        taken, given = slots_of_call(activity.function.target, interfaces)
-        if _holds(activity.arguments):
+        taken, given = call_slots(activity.function.target, interfaces)
+        if _any_placeholder(activity.arguments):
             return Slots(activity.function.name, taken, _names(activity.arguments))
-        if any(_is_trial(each) for each in activity.results):
-            others = frozenset(str(each.field) for each in activity.results)
-            return Slots(activity.function.name, given, others)
+        if any(_has_placeholder(each) for each in activity.results):
+            results = frozenset(str(each.field) for each in activity.results)
+            return Slots(activity.function.name, given, results)
     for send in nodes_of(owner, Send):
-        if _holds(send.arguments):
-            fields = slots_of_event(send.event.target, interfaces)
+        if _any_placeholder(send.arguments):
+            fields = event_slots(send.event.target, interfaces)
             return Slots(send.event.name, fields, _names(send.arguments))
     for state in nodes_of(owner, State):
         machine = state.machine.target if state.machine is not None else None
-        if _holds(state.bindings) and isinstance(machine, StateMachine):
+        if _any_placeholder(state.bindings) and isinstance(machine, StateMachine):
             params = [each for each in machine.items if isinstance(each, Param)]
             return Slots(str(machine.name), params, _names(state.bindings))
     for part in nodes_of(owner, Part):
-        if _holds(part.values) and part.component.target is not None:
+        if _any_placeholder(part.values) and part.component.target is not None:
             of = part.component.target
             return Slots(str(of.name), all_items(of, Param), _names(part.values))
     return None
 
 
 def fields_of(use: FieldUse, owner: TopLevel, project: Project) -> Sequence[Field]:
-    """The fields that the base of a field on trial has."""
+    """Return the fields of the type of the placeholder's base."""
     typing = Typing(Interfaces(project.declarations()))
     type_ = _with_event(use, owner, typing).infer(use.base)
     return (typing.interfaces.fields(type_) if isinstance(type_, Named) else None) or ()
 
 
 def _with_event(use: FieldUse, owner: TopLevel, typing: Typing) -> Typing:
-    """Typing where the field is used, which may be a transition on an event."""
+    """Return the typing at a field access, which may be in a transition with an event trigger."""
     for transition in nodes_of(owner, Transition):
         if any(node is use for node in walk(transition)):
             triggers = [
@@ -144,21 +144,21 @@ def _interface(
     return interfaces.get(type_, wanted) if isinstance(type_, Named) else None
 
 
-def _holds(arguments: Sequence[Argument | PartValue]) -> bool:
-    return any(_is_trial(each) for each in arguments)
+def _any_placeholder(arguments: Sequence[Argument | PartValue]) -> bool:
+    return any(_has_placeholder(each) for each in arguments)
 
 
-def _is_trial(given: Argument | PartValue | ResultMapping) -> bool:
-    return WORD in given.span.text
+def _has_placeholder(given: Argument | PartValue | ResultMapping) -> bool:
+    return PLACEHOLDER in given.span.text
 
 
 def _names(arguments: Sequence[Argument | PartValue]) -> frozenset[str]:
     return frozenset(str(each.name) for each in arguments)
 
 
-def is_name_on_trial(owner: TopLevel) -> bool:
-    """Whether the word on trial is the name of what is given, and not a part of its value."""
+def is_placeholder_name(owner: TopLevel) -> bool:
+    """Return True if the placeholder is a parameter name, not part of a value."""
     names: list[Word] = [each.name for each in nodes_of(owner, Argument)]
     names += [each.name for each in nodes_of(owner, PartValue)]
     names += [each.field for each in nodes_of(owner, ResultMapping)]
-    return WORD in names
+    return PLACEHOLDER in names

@@ -1,4 +1,4 @@
-"""Changes of a text that mend what a diagnostic is about, where its way out is one."""
+"""Quick fixes derived from the help of diagnostics."""
 
 from __future__ import annotations
 
@@ -15,59 +15,59 @@ _IMPORT = re.compile(r"add `(import [^`]+)`")
 _DECLARATION = re.compile(r"declare it: `([^`]+)`")
 _VARIABLE = re.compile(r"declare it in `(\w+)`: `([^`]+)`")
 _NAME = re.compile(r"[\w./]+")
-# The rest of a line on which nothing follows.
+# Rest of a line that has no further code.
 _REST = re.compile(r"[ \t]*(?://[^\n]*)?(?=\n|\Z)")
-# What can stand between the name of a declaration and what is in it.
-_OPENING = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*\{", re.DOTALL)
+# Between the name of a declaration and its body.
+_OPENING_BRACE = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*\{", re.DOTALL)
 _HEAD = re.compile(r"^(?:package|import)\b[^\n]*\n", re.MULTILINE)
 
 
 @dataclass(frozen=True)
-class Fix:
-    """What to do, in words, and the text to put in the place of a span."""
+class QuickFix:
+    """Title of a fix, and the replacement of a span."""
 
     title: str
     span: Span
     text: str
 
 
-def fix(found: Diagnostic, declarations: Iterable[Declaration]) -> Fix | None:
-    """The change that a diagnostic proposes; None where a person has to decide.
+def quick_fix(found: Diagnostic, declarations: Iterable[Declaration]) -> QuickFix | None:
+    """Return the fix that a diagnostic proposes, or None if it has no unique one.
 
-    `declarations` are those of the file that it is in.
+    `declarations` are those of its file.
     """
     if found.primary is None or found.help is None:
         return None
     span = found.primary.span.absolute
     if (meant := _MEANT.fullmatch(found.help)) and _NAME.fullmatch(span.text):
-        return Fix(f"Change to `{meant[1]}`", span, meant[1])
+        return QuickFix(f"Change to `{meant[1]}`", span, meant[1])
     text = span.source.text
     heads = list(_HEAD.finditer(text))
     below = heads[-1].end() if heads else 0
     if added := _IMPORT.fullmatch(found.help):
-        return Fix(f"Add `{added[1]}`", Span(span.source, below, below), f"{added[1]}\n")
+        return QuickFix(f"Add `{added[1]}`", Span(span.source, below, below), f"{added[1]}\n")
     if declared := _DECLARATION.match(found.help):
         gap = "\n" if heads else ""
         line = f"{gap}{declared[1]}\n"
-        return Fix(f"Declare `{declared[1]}`", Span(span.source, below, below), line)
+        return QuickFix(f"Declare `{declared[1]}`", Span(span.source, below, below), line)
     if variable := _VARIABLE.fullmatch(found.help):
         owner = next((each for each in declarations if each.name == variable[1]), None)
-        at = _inside(owner, text) if isinstance(owner, (StateMachine, Fitness)) else None
+        at = _end_of_values(owner, text) if isinstance(owner, (StateMachine, Fitness)) else None
         if at is None:
             return None
         rest = "" if text.startswith("\n", at) else "\n "
         line = f"\n  {variable[2]}{rest}"
-        return Fix(f"Declare `{variable[2]}`", Span(span.source, at, at), line)
+        return QuickFix(f"Declare `{variable[2]}`", Span(span.source, at, at), line)
     return None
 
 
-def _inside(owner: StateMachine | Fitness, text: str) -> int | None:
-    """Where the next value of a state machine or of a fitness goes: below those that it has."""
+def _end_of_values(owner: StateMachine | Fitness, text: str) -> int | None:
+    """Return the offset after the last value of a declaration, or after its opening brace."""
     values = [each for each in owner.items if isinstance(each, (Param, Variable, FitnessInput))]
     if values:
         end = values[-1].span.absolute.end
     else:
-        opening = _OPENING.match(text, owner.name.span.absolute.end)
+        opening = _OPENING_BRACE.match(text, owner.name.span.absolute.end)
         if opening is None:
             return None
         end = opening.end()

@@ -1,4 +1,4 @@
-"""What of a file can be folded: blocks, groups of imports, comments over several lines."""
+"""Folding ranges: blocks, groups of imports, multi-line comments."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source
-from swarmdsl.ide.server.code import found_in
+from swarmdsl.ide.server.code import find_tokens
 
 _TOKEN = re.compile(
     r'"[^"\\\n]*(?:\\[^\n][^"\\\n]*)*"?|//[^\n]*|/\*|[{}]|^[ \t]*import\b', re.MULTILINE
@@ -16,17 +16,17 @@ _TOKEN = re.compile(
 
 
 @dataclass(frozen=True)
-class Fold:
-    """Lines that are shown as their first one, counted from 0."""
+class FoldingRange:
+    """Range of lines, counted from 0, that folds to its first line."""
 
     first: int
     last: int
     kind: Literal["comment", "imports", ""] = ""
 
 
-def folds(source: Source) -> list[Fold]:
-    """All that can be folded, in any text: braces that do not match are passed over."""
-    tokens = list(found_in(source.text, _TOKEN))
+def folding_ranges(source: Source) -> list[FoldingRange]:
+    """Return the folding ranges of a source, which may have syntax errors."""
+    tokens = list(find_tokens(source.text, _TOKEN))
     found = [*_blocks(source, tokens), *_groups(source, tokens)]
     return sorted((each for each in found if each.last > each.first), key=lambda each: each.first)
 
@@ -35,21 +35,21 @@ def _line(source: Source, offset: int) -> int:
     return source.line_column(offset)[0] - 1
 
 
-def _blocks(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[Fold]:
+def _blocks(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[FoldingRange]:
     opened: list[int] = []
     for at, token in tokens:
         if token == "{":
             opened.append(_line(source, at))
         elif token == "}" and opened:
-            # The line of the closing brace stays in sight.
-            yield Fold(opened.pop(), _line(source, at) - 1)
+            # The line of the closing brace stays visible.
+            yield FoldingRange(opened.pop(), _line(source, at) - 1)
         elif token.startswith("/*"):
-            yield Fold(_line(source, at), _line(source, at + len(token) - 1), "comment")
+            yield FoldingRange(_line(source, at), _line(source, at + len(token) - 1), "comment")
 
 
-def _groups(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[Fold]:
-    """Comments and imports on lines that follow each other."""
-    before = Fold(0, -1)
+def _groups(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[FoldingRange]:
+    """Yield groups of comments and of imports on consecutive lines."""
+    before = FoldingRange(0, -1)
     for at, token in tokens:
         word = token.lstrip()
         kind: Literal["comment", "imports", ""] = ""
@@ -63,8 +63,8 @@ def _groups(source: Source, tokens: Iterable[tuple[int, str]]) -> Iterator[Fold]
             continue
         line = _line(source, start)
         if kind == before.kind and line <= before.last + (2 if kind == "imports" else 1):
-            before = Fold(before.first, line, kind)
+            before = FoldingRange(before.first, line, kind)
             continue
         yield before
-        before = Fold(line, line, kind)
+        before = FoldingRange(line, line, kind)
     yield before

@@ -1,4 +1,4 @@
-"""What is shown about a name: how it is declared, what it is, and its documentation."""
+"""Hover: declaration, kind, documentation and support in targets."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ from swarmdsl.syntax.ast import (
     nodes_of,
 )
 
-# Of these all of it is shown, as long as it is short.
-_WHOLE = (StructType, EnumType, MessageType, ServiceType, ActionType)
-_MOST_LINES = 20
+# Shown in full if they are short.
+_SHOWN_IN_FULL = (StructType, EnumType, MessageType, ServiceType, ActionType)
+_MAX_LINES = 20
 
 
 def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | None:
-    """The name at an offset, and what to show of it as Markdown; None where nothing is known."""
+    """Return the name at an offset and its Markdown, or None if there is none."""
     found = occurrence_at(workspace, file, offset)
     if found is None:
         return None
@@ -43,15 +43,15 @@ def hover(workspace: Workspace, file: File, offset: int) -> tuple[Span, str] | N
 
 
 def described(node: Node) -> str:
-    """How something is declared, what it is, and its documentation, as Markdown."""
-    parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([kind_name(node), *_more(node)])]
+    """Return declaration, kind and documentation of a node as Markdown."""
+    parts = [f"```swarm\n{declaration(node)}\n```", ", ".join([kind_name(node), *_facts(node)])]
     if isinstance(node, Documented) and node.doc:
         parts.append(node.doc)
     return "\n\n".join(parts)
 
 
-def _more(node: Node) -> Iterator[str]:
-    """What follows from how something is declared."""
+def _facts(node: Node) -> Iterator[str]:
+    """Yield facts that the declaration implies."""
     match node:
         case Role(multiplicity=None):
             yield "one member"
@@ -69,7 +69,7 @@ def _more(node: Node) -> Iterator[str]:
 
 
 def _multiplicity(lower: str, upper: str) -> str:
-    """How many members a role has, in words."""
+    """Describe a multiplicity, e.g. "at least 2 members"."""
     if lower == "*" or (lower == "0" and upper == "*"):
         return "any number of members"
     if upper == "*":
@@ -80,9 +80,9 @@ def _multiplicity(lower: str, upper: str) -> str:
 
 
 def declaration(node: Node) -> str:
-    """The text of a declaration, without what is inside it where that is a block of its own."""
+    """Return the text of a declaration, without its body if that is long or a block."""
     text = node.span.text
-    if isinstance(node, _WHOLE) and text.count("\n") < _MOST_LINES:
+    if isinstance(node, _SHOWN_IN_FULL) and text.count("\n") < _MAX_LINES:
         return text
     first = text.partition("\n")[0].rstrip()
     return first.removesuffix("{").rstrip()

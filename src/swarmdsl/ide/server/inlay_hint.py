@@ -1,6 +1,6 @@
-"""What a model does not say and yet means, shown beside its text.
+"""Inlay hints: implicit types, multiplicities, enum values and policies.
 
-The policies are those of the CPSwarm project (D5.4, 5.2), as `swarmc build` writes them.
+Source of the policies: CPSwarm D5.4, section 5.2; `swarmc build` writes the same.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ from swarmdsl.syntax.ast import (
 
 
 @dataclass(frozen=True)
-class Hint:
-    """Text to be shown at an offset of a file, and what it says in whole."""
+class InlayHint:
+    """Hint at an offset of a file, with its tooltip in `about`."""
 
     offset: int
     text: str
@@ -37,38 +37,38 @@ class Hint:
     kind: Literal["type", "parameter", ""] = ""
 
 
-def hints(file: File, within: Span) -> Iterator[Hint]:
-    """What can be shown in a part of a file."""
+def inlay_hints(file: File, within: Span) -> Iterator[InlayHint]:
+    """Yield the hints in a part of a file."""
     for owner in owners(file):
         span = owner.span.absolute
         if span.start <= within.end and within.start <= span.end:
             base = span.start - owner.span.start
-            for hint in _of_owner(owner):
+            for hint in _declaration_hints(owner):
                 place = hint.offset + base
                 if within.start <= place <= within.end:
-                    yield Hint(place, hint.text, hint.about, hint.kind)
+                    yield InlayHint(place, hint.text, hint.about, hint.kind)
 
 
-def _of_owner(owner: TopLevel) -> Iterator[Hint]:
+def _declaration_hints(owner: TopLevel) -> Iterator[InlayHint]:
     for activity in nodes_of(owner, Activity):
         yield from _policies(activity)
     for connector in nodes_of(owner, Connector):
         port = connector.source.port.target or connector.target.port.target
         if port is not None:
             text = port.type.span.text
-            yield Hint(connector.span.end, f" : {text}", "the type of the ports", "type")
+            yield InlayHint(connector.span.end, f" : {text}", "the type of the ports", "type")
     for role in nodes_of(owner, Role):
         if role.multiplicity is None:
-            yield Hint(role.span.end, "[1]", "one member, where nothing is said")
+            yield InlayHint(role.span.end, "[1]", "one member, where nothing is said")
     if isinstance(owner, EnumType):
         known = numbers(owner)
         for value in owner.values:
             if not value.value and str(value.name) in known:
-                yield Hint(value.span.end, f" = {known[str(value.name)]}", "its number")
+                yield InlayHint(value.span.end, f" = {known[str(value.name)]}", "its number")
 
 
-def _policies(activity: Activity) -> Iterator[Hint]:
-    """Where the goal comes from, and where the result goes."""
+def _policies(activity: Activity) -> Iterator[InlayHint]:
+    """Yield the goal policy and the result policy of an activity."""
     if activity.function.target is None:
         return
     goal = _goal_policy(activity)
@@ -79,7 +79,7 @@ def _policies(activity: Activity) -> Iterator[Hint]:
         result = "userdata"
     end = activity.span.end
     about = f"goal policy: {goal}; result policy: {result}"
-    yield Hint(end, f" {goal} → {result}", about)
+    yield InlayHint(end, f" {goal} → {result}", about)
 
 
 def _goal_policy(activity: Activity) -> str:
@@ -97,7 +97,7 @@ def _goal_policy(activity: Activity) -> str:
 
 
 def _is_known(use: NameUse) -> bool:
-    """Whether a name stands for a value that is known when a model is compiled."""
+    """Return True if the value of a name is known at compile time."""
     if isinstance(use.target, Param):
         return use.target.default is not None
     return isinstance(use.target, (Constant, EnumType))

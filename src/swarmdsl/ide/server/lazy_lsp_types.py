@@ -1,8 +1,8 @@
-"""The types of the protocol, each finished when it is first used.
+"""Lazy definition of the protocol types.
 
-`lsprotocol` has more than 500 classes for which attrs writes and compiles methods: that takes
-longer, and more memory, than all else from the start of the server to its first answer. A session
-uses a quarter of them.
+attrs generates and compiles methods for more than 500 classes of `lsprotocol`. That takes longer,
+and more memory, than the rest of the start of the server up to its first answer. A session uses a
+quarter of them.
 """
 
 from __future__ import annotations
@@ -14,49 +14,49 @@ from typing import Any
 
 import attrs
 
-# What a client sends is read by a thread of its own.
+# Messages are read in a separate thread.
 _LOCK = threading.RLock()
 _define = attrs.define
 _unfinished: set[type] = set()
-_known: dict[str, Any] = {}
+_types_by_name: dict[str, Any] = {}
 
 
 def load() -> None:
-    """Import `lsprotocol`, unless that has been done: then all its types are finished.
+    """Import `lsprotocol` with lazy types, unless it is imported already.
 
-    So they are where another version of it has nothing that looks up names in annotations.
+    With a version of it that does not resolve names in annotations, the types are complete at once.
     """
     if find_spec("lsprotocol._hooks") is None:
         return
-    attrs.define = _defer  # type: ignore[assignment]
+    attrs.define = _define_lazily  # type: ignore[assignment]
     try:
         from lsprotocol import types
     finally:
         attrs.define = _define
     from lsprotocol import _hooks
 
-    # Names in annotations are looked up when a type is finished, not for all types at once.
+    # Names in annotations are resolved when a type is completed, not for all types at once.
     _hooks._resolved_forward_references = bool(_unfinished)
-    _known.update(types.ALL_TYPES_MAP)
+    _types_by_name.update(types.ALL_TYPES_MAP)
 
 
 def unfinished() -> frozenset[type]:
-    """The types that nobody has used."""
+    """Return the types that have not been used yet."""
     return frozenset(_unfinished)
 
 
-def _defer(cls: type | None = None, **options: Any) -> Any:
-    """Take a class as `attrs.define` does, and do later what that does."""
+def _define_lazily(cls: type | None = None, **options: Any) -> Any:
+    """Replacement of `attrs.define` that postpones its work."""
     if cls is None or options:
         return _define(cls, **options)
     _unfinished.add(cls)
     for name in ("__init__", "__attrs_attrs__"):
-        setattr(cls, name, _Part(cls, name))
+        setattr(cls, name, _LazyAttribute(cls, name))
     return cls
 
 
-class _Part:
-    """Stands for a part of a class until attrs has made it."""
+class _LazyAttribute:
+    """Descriptor in place of a class attribute until attrs has created it."""
 
     def __init__(self, cls: type, name: str) -> None:
         self._cls = cls
@@ -65,9 +65,9 @@ class _Part:
     def __get__(self, instance: object, owner: type) -> Any:
         with _LOCK:
             if self._cls in _unfinished:
-                # Slots would need another class, and others know this one.
+                # slots=True would create another class, but this one is referenced already.
                 _define(self._cls, init=True, slots=False)
-                attrs.resolve_types(self._cls, _known, {})
+                attrs.resolve_types(self._cls, _types_by_name, {})
                 _unfinished.discard(self._cls)
         part = vars(self._cls)[self._name]
         return part if instance is None else MethodType(part, instance)

@@ -1,4 +1,4 @@
-"""What a client tells without asking: what it can do, and which folders and files changed."""
+"""Handlers of notifications: capabilities, open folders, changes on disk."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from lsprotocol import types as lsp
 
 from swarmdsl.ide.server.session import Session
 
-# Files whose changes on disk the editor tells of, if it can.
+# Files whose changes on disk the client reports, if it can.
 _WATCHED = ("*.swarm", "swarm.toml", "*.{msg,srv,action}")
 
 
 def _initialize(session: Session, params: lsp.InitializeParams) -> None:
-    session.begin(params.initialization_options)
+    session.initialize(params.initialization_options)
     _open_folders(session)
 
 
 def _initialized(session: Session, _params: lsp.InitializedParams) -> None:
-    if not session.offers("workspace.did_change_watched_files.dynamic_registration"):
+    if not session.has_capability("workspace.did_change_watched_files.dynamic_registration"):
         return
     registration = lsp.Registration(
         id="watched-files",
@@ -33,7 +33,7 @@ def _initialized(session: Session, _params: lsp.InitializedParams) -> None:
 
 
 def _open_folders(session: Session, _params: object = None) -> None:
-    """Take the folders that are open in the editor now."""
+    """Use the folders that are open in the editor now."""
     workspace = session.client.workspace
     uris = [each.uri for each in workspace.folders.values()]
     if not uris and workspace.root_uri is not None:
@@ -41,7 +41,7 @@ def _open_folders(session: Session, _params: object = None) -> None:
     session.open_folders(_paths(session, uris))
 
 
-def _on_disk(session: Session, params: lsp.DidChangeWatchedFilesParams) -> None:
+def _did_change_files(session: Session, params: lsp.DidChangeWatchedFilesParams) -> None:
     session.refresh(_paths(session, (each.uri for each in params.changes)))
 
 
@@ -52,6 +52,6 @@ def _paths(session: Session, uris: Iterable[str]) -> list[Path]:
 NOTIFICATIONS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.INITIALIZE: _initialize,
     lsp.INITIALIZED: _initialized,
-    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: _on_disk,
+    lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: _did_change_files,
     lsp.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS: _open_folders,
 }

@@ -1,18 +1,18 @@
-"""The order in which messages are taken, and what becomes of those that are none.
+"""Queue of messages, processed one after the other; rejects invalid ones.
 
-Framing, JSON-RPC and the meaning of messages are those of pygls, which takes each message as soon
-as it is read. Here all are read at once and taken one after the other, so that a request can be
-cancelled while another one is answered, and so that what waits is known: after many keys in a row
-only the last text is looked at.
+pygls does framing, JSON-RPC and dispatch, and processes each message as soon as it is read. Here a
+thread reads all messages into a queue. So a request can be cancelled while another one is answered,
+and after many edits in a row only the last text is checked.
 """
 
 from __future__ import annotations
 
 import logging
 import threading
+from collections.abc import Iterable
 from dataclasses import dataclass
 from queue import Queue
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from lsprotocol import types as lsp
 from pygls.exceptions import (
@@ -27,96 +27,125 @@ from pygls.protocol import LanguageServerProtocol, lsp_method
 
 from swarmdsl.ide.server.io import Incoming
 
-if TYPE_CHECKING:
-    from swarmdsl.ide.server.server import Server
-
-# A client that sends more than is answered waits.
-_MOST_WAITING = 256
-# What goes wrong is told to the client, and a mistake of the server itself also to its log.
+# A client that sends faster than the server answers has to wait.
+_QUEUE_SIZE = 256
+# Errors are sent to the client, internal errors also to the log of the server.
 logging.getLogger("pygls").setLevel(logging.CRITICAL + 1)
 
 
 @dataclass(frozen=True)
-class Fault:
-    """What came in place of a message."""
+class InvalidMessage:
+    """Input that is no valid message."""
 
     error: JsonRpcException
     id: Any = None
     method: Any = None
-    wants_answer: bool = True
+    expects_response: bool = True
 
 
-class Conversation(LanguageServerProtocol):
-    """Takes messages one after the other, each with all its consequences."""
+class DocumentListener(Protocol):
+    """Receives changes of open documents."""
 
-    _server: Server
+    def did_open(self, document: lsp.TextDocumentItem) -> None:
+        """Add a document."""
+
+    def did_change(
+        self,
+        document: lsp.VersionedTextDocumentIdentifier,
+        changes: Iterable[lsp.TextDocumentContentChangeEvent],
+    ) -> None:
+        """Change the text of a document."""
+
+    def did_close(self, document: lsp.TextDocumentIdentifier) -> None:
+        """Drop a document."""
+
+
+class SessionServer(Protocol):
+    """Server of a `SerialProtocol`."""
+
+    @property
+    def session(self) -> DocumentListener:
+        """Listener of the documents."""
+
+    def log(self, message: str) -> None:
+        """Send an error message to the client."""
+
+
+class SerialProtocol(LanguageServerProtocol):
+    """Processes messages strictly in order."""
+
+    # The class of the server cannot be named here: it would close an import cycle.
+    _server: SessionServer  # type: ignore[assignment]
 
     def __init__(self, *arguments: Any) -> None:
-        # Before all else: pygls looks at each attribute for the messages that it is about.
-        self._received: Queue[Any] = Queue(_MOST_WAITING)
+        # Set before super().__init__(): pygls inspects all attributes for handlers.
+        self._received: Queue[Any] = Queue(_QUEUE_SIZE)
         self._cancelled: set[int | str] = set()
         self._initialized = False
         super().__init__(*arguments)
 
     @property
     def exit_code(self) -> int:
-        """That of a server whose client is gone: 0 if it has said so before."""
+        """Exit code of the protocol: 0 after a `shutdown` request, else 1."""
         return 0 if self._shutdown else 1
 
     def listen(self, incoming: Incoming) -> None:
-        """Begin to read messages, while others are answered."""
+        """Start a thread that reads messages."""
         threading.Thread(target=self._listen, args=(incoming,), daemon=True).start()
 
     def _listen(self, incoming: Incoming) -> None:
-        run(threading.Event(), incoming, self, error_handler=self._not_json)
+        run(threading.Event(), incoming, self, error_handler=self._report_parse_error)
         self._received.put(None)
 
-    def _not_json(self, error: Exception, _source: object) -> None:
-        self._received.put(Fault(JsonRpcParseError(f"this is not JSON: {error}")))
+    def _report_parse_error(self, error: Exception, _source: object) -> None:
+        self._received.put(InvalidMessage(JsonRpcParseError(f"this is not JSON: {error}")))
 
     def structure_message(self, data: dict[str, Any]) -> Any:
-        """A message of the protocol, or what is wrong with one that has not its form."""
+        """Return the message, or an InvalidMessage if it has the wrong form."""
         try:
             return super().structure_message(data)
         except JsonRpcException as error:
-            return Fault(error, data.get("id"), data.get("method"), "id" in data)
+            return InvalidMessage(error, data.get("id"), data.get("method"), "id" in data)
 
     def handle_message(self, message: Any) -> None:
-        """Keep a message until those before it are answered."""
+        """Queue a message; note cancellations at once."""
         if isinstance(message, lsp.CancelNotification):
             if not self.idle:
                 self._cancelled.add(message.params.id)
-        elif isinstance(message, Fault) or hasattr(message, "jsonrpc"):
+        elif isinstance(message, InvalidMessage) or hasattr(message, "jsonrpc"):
             self._received.put(message)
         else:
-            self._received.put(Fault(JsonRpcInvalidRequest("this is no message")))
+            self._received.put(InvalidMessage(JsonRpcInvalidRequest("this is no message")))
 
     def receive(self, timeout: float) -> Any:
-        """The next message, None where the client is gone; raises queue.Empty."""
+        """Return the next message, None at the end of input.
+
+        Raises: queue.Empty after `timeout` seconds.
+        """
         return self._received.get(timeout=timeout)
 
     @property
     def idle(self) -> bool:
-        """Whether nothing was received that waits to be answered."""
+        """Return True if no message waits."""
         return self._received.empty()
 
-    def take(self, message: Any) -> None:
-        """Do what a message asks for; raises SystemExit where it asks for that."""
-        asks = isinstance(message, Fault) or hasattr(message, "method")
+    def process(self, message: Any) -> None:
+        """Process a message. Raises SystemExit on `exit`."""
+        is_request = isinstance(message, InvalidMessage) or hasattr(message, "method")
         method, identity = getattr(message, "method", None), getattr(message, "id", None)
-        refused = self._refused(method, identity) if asks and method is not None else None
-        if isinstance(message, Fault):
-            self._refuse(message, refused or message.error)
-        elif refused is None:
+        rejection = self._rejection(method, identity) if is_request and method is not None else None
+        if isinstance(message, InvalidMessage):
+            self._reject(message, rejection or message.error)
+        elif rejection is None:
             self._initialized |= method == lsp.INITIALIZE
             super().handle_message(message)
         elif identity is not None:
-            self._send_response(identity, error=refused.to_response_error())
+            self._send_response(identity, error=rejection.to_response_error())
         if self.idle:
             self._cancelled.clear()
 
-    def _refused(self, method: str, identity: object) -> JsonRpcException | None:
-        """Why a request is not answered, or a notification not heard, at this time."""
+    def _rejection(self, method: str, identity: object) -> JsonRpcException | None:
+        """Return the reason to reject a message at this time, if any."""
         if method == lsp.EXIT:
             return None
         if method == lsp.INITIALIZE:
@@ -127,24 +156,24 @@ class Conversation(LanguageServerProtocol):
         cancelled = isinstance(identity, (int, str)) and identity in self._cancelled
         return JsonRpcRequestCancelled("cancelled") if cancelled else None
 
-    def _refuse(self, fault: Fault, error: JsonRpcException) -> None:
-        if fault.wants_answer:
-            identity = fault.id if isinstance(fault.id, (int, str)) else None
+    def _reject(self, invalid: InvalidMessage, error: JsonRpcException) -> None:
+        if invalid.expects_response:
+            identity = invalid.id if isinstance(invalid.id, (int, str)) else None
             self._send_response(identity, error=error.to_response_error())  # type: ignore[arg-type]
         else:
-            self._server.log(f"{fault.method}: {error}")
+            self._server.log(f"{invalid.method}: {error}")
 
     @lsp_method(lsp.TEXT_DOCUMENT_DID_OPEN)
     def lsp_text_document__did_open(self, params: lsp.DidOpenTextDocumentParams) -> None:
-        """Take a text that the client shows. Those of pygls end lines where Python does."""
-        self._server.session.opened(params.text_document)
+        """Add an opened document. pygls would split its lines like `str.splitlines`."""
+        self._server.session.did_open(params.text_document)
 
     @lsp_method(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def lsp_text_document__did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
-        """Take what the client has changed in one."""
-        self._server.session.changed(params.text_document, params.content_changes)
+        """Apply all changes of a notification."""
+        self._server.session.did_change(params.text_document, params.content_changes)
 
     @lsp_method(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def lsp_text_document__did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
-        """Take what is on disk again."""
-        self._server.session.closed(params.text_document)
+        """Drop a closed document; use the file on disk."""
+        self._server.session.did_close(params.text_document)

@@ -1,7 +1,7 @@
-"""The models that files in an editor belong to, with what is typed in place of what is on disk.
+"""Workspaces of the files that are open in the editor, with their unsaved text.
 
-A file belongs to the sources of its project (`swarm.toml`); without a project to the folder that
-is open in the editor; outside of that it is a model of its own.
+A file belongs to the sources of its project (`swarm.toml`); without a project, to the folder that
+is open in the editor; outside of it, the file is a model of its own.
 """
 
 from __future__ import annotations
@@ -15,69 +15,70 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.source import Source
 from swarmdsl.driver.config import FILE_NAME, Settings, find_file, read_project
 from swarmdsl.driver.workspace import Workspace
-from swarmdsl.ide.server.allowed_paths import Territory
+from swarmdsl.ide.server.allowed_paths import AllowedPaths
 from swarmdsl.project.loader import File
 
-# Some 80,000 lines: beyond that nobody waits for an answer after a key.
-_MOST_BYTES = 2 * 2**20
+# About 80,000 lines; larger models would block the editor after each key.
+_MAX_BYTES = 2 * 2**20
 
 
 @dataclass
 class _Project:
-    """A project file as it was read last, and what is wrong with it."""
+    """Settings of a project file, with the diagnostics of its last read."""
 
     settings: Settings
     report: Diagnostics
 
 
 class Models:
-    """The workspaces of all open files; `folders` are those that are open in the editor.
+    """Workspaces of all open files; `folders` are open in the editor.
 
-    An edit takes effect when something is asked: many keys in a row cost what one does.
+    Edits take effect at the next query, so a burst of keys costs as much as one.
     """
 
     def __init__(self, folders: Sequence[Path] = ()) -> None:
         self.folders = list(folders)
         self._texts: dict[Path, str] = {}
-        # Files whose text is another than their workspaces know; whether it is for the first time.
+        # Edited files that their workspaces have not seen; True if the file was just opened or
+        # closed.
         self._changed: dict[Path, bool] = {}
         self._workspaces: dict[tuple[Path, ...], Workspace] = {}
         self._projects: dict[Path, _Project] = {}
 
     @property
-    def waiting(self) -> bool:
-        """Whether there are edits that have not taken effect."""
+    def has_pending_edits(self) -> bool:
+        """Return True if there are edits that have not taken effect."""
         return bool(self._changed)
 
     def edit(self, path: Path, text: str) -> None:
-        """Take what an editor shows for the content of a file."""
+        """Set the text of a file that is open in the editor."""
         self._changed[path] = self._changed.get(path, False) or path not in self._texts
         self._texts[path] = text
 
     def close(self, path: Path) -> None:
-        """Take what is on disk again."""
+        """Use the content on disk again."""
         if self._texts.pop(path, None) is not None:
             self._changed[path] = True
 
     def refresh(self, paths: Iterable[Path]) -> None:
-        """Read files again that were changed on disk, but for those that are open."""
+        """Read files again that changed on disk, unless they are open."""
         for path in paths:
             if path not in self._texts:
                 self._changed[path] = True
 
     def open_folders(self, folders: Iterable[Path]) -> None:
-        """Take other folders for those that are open in the editor."""
+        """Replace the folders that are open in the editor."""
         self.folders = list(folders)
-        self._forget()
+        self._discard_workspaces()
 
     def all(self) -> list[Workspace]:
-        """The workspaces, after all edits."""
-        self._settle()
+        """Return all workspaces, up to date with all edits."""
+        self._apply_edits()
         return list(self._workspaces.values())
 
     def file(self, path: Path) -> tuple[Workspace, File] | None:
-        """An open file, with the workspace that it belongs to."""
-        self._settle()
+        """Return an open file and its workspace."""
+        self._apply_edits()
         if path not in self._texts or path.name == FILE_NAME:
             return None
         workspace = self._workspace_of(path)
@@ -85,12 +86,12 @@ class Models:
         return (workspace, file) if file is not None else None
 
     def opened(self, workspace: Workspace) -> list[Path]:
-        """The open files of a workspace, first those that could not be read."""
+        """Return the open files of a workspace, unreadable ones first."""
         files = [path for path in self._models() if self._workspace_of(path) is workspace]
         return sorted(files, key=lambda path: workspace.file(path) is not None)
 
     def diagnostics(self) -> Iterator[tuple[Workspace, str, list[Diagnostic]]]:
-        """What is wrong by workspace and name of the file; of "" what is wrong with no file."""
+        """Yield diagnostics by workspace and file name ("" if they have no file)."""
         workspaces = self.all()
         for workspace in workspaces:
             for name, found in workspace.diagnostics().items():
@@ -101,14 +102,14 @@ class Models:
     def _models(self) -> Iterator[Path]:
         return (path for path in self._texts if path.name != FILE_NAME)
 
-    def _settle(self) -> None:
-        """Let all edits take effect."""
+    def _apply_edits(self) -> None:
+        """Bring all workspaces up to date."""
         if not self._changed:
             return
         changed, self._changed = self._changed, {}
         known = [workspace.file for workspace in self._workspaces.values()]
         for path in changed:
-            # One that could not be read is looked at as if it were new.
+            # A file that could not be read is treated as new.
             changed[path] |= all(file(path) is None for file in known)
         try:
             if any(path.name == FILE_NAME for path in changed):
@@ -124,13 +125,13 @@ class Models:
             for path in self._models():
                 self._workspace_of(path)
         except BaseException:
-            self._forget()  # what an update has left half done is of no use
+            self._discard_workspaces()  # a partial update leaves a workspace inconsistent
             raise
         if any(changed.values()):
-            self._tidy()
+            self._drop_unused()
 
-    def _tidy(self) -> None:
-        """Forget the models of which no file is open, or only such as others have too."""
+    def _drop_unused(self) -> None:
+        """Drop workspaces that no open file needs."""
         used = {id(self._workspace_of(path)) for path in self._models()}
         kept = {key: each for key, each in self._workspaces.items() if id(each) in used}
         if len(kept) < len(self._workspaces):
@@ -140,8 +141,8 @@ class Models:
             gc.unfreeze()
             gc.collect()
 
-    def _forget(self) -> None:
-        """Make all models anew when they are needed."""
+    def _discard_workspaces(self) -> None:
+        """Discard all workspaces; they are built again on demand."""
         if self._workspaces:
             self._workspaces.clear()
             gc.unfreeze()
@@ -150,19 +151,21 @@ class Models:
     def _workspace_of(self, path: Path) -> Workspace:
         found = [each for each in self._workspaces.values() if each.file(path) is not None]
         if found:
-            # Who imports a file belongs to the picture.
+            # Prefer the workspace that includes the importers of the file.
             return max(found, key=lambda workspace: workspace.files)
         settings, home = self._settings(path)
         if settings is not None and settings.sources not in self._workspaces:
-            workspace = self._made(settings, home)
+            workspace = self._create_workspace(settings, home)
             if workspace.file(path) is not None:
                 return workspace
             del self._workspaces[settings.sources]
         alone = (path,)
-        return self._workspaces.get(alone) or self._made(Settings(sources=alone), path.parent)
+        return self._workspaces.get(alone) or self._create_workspace(
+            Settings(sources=alone), path.parent
+        )
 
     def _settings(self, path: Path) -> tuple[Settings | None, Path]:
-        """What is compiled together with a file, None for that file alone; and where it is."""
+        """Return the settings for a file and their folder; None for a file without a project."""
         project = find_file(path)
         if project is not None:
             return self._project(project), project.parent
@@ -172,7 +175,7 @@ class Models:
         return None, path.parent
 
     def _project(self, path: Path) -> Settings:
-        """What a project file says; while it has mistakes, what it said before."""
+        """Read a project file; keep the previous settings while it has errors."""
         text = self._texts.get(path)
         source = Source(str(path), text, path) if text is not None else None
         report = Diagnostics()
@@ -183,11 +186,11 @@ class Models:
         self._projects[path] = _Project(settings, report)
         return settings
 
-    def _made(self, settings: Settings, home: Path) -> Workspace:
-        territory = Territory([*self.folders, home], settings)
+    def _create_workspace(self, settings: Settings, home: Path) -> Workspace:
+        allowed = AllowedPaths([*self.folders, home], settings)
         models = {path: self._texts[path] for path in self._models()}
         workspace = Workspace(
-            settings.sources, settings, texts=models, within=territory, most=_MOST_BYTES
+            settings.sources, settings, texts=models, within=allowed, most=_MAX_BYTES
         )
         self._workspaces[settings.sources] = workspace
         gc.collect()

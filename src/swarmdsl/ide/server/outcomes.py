@@ -1,4 +1,4 @@
-"""The ends of an activity that a state does not react to yet."""
+"""Outcomes of an activity that a state does not handle yet."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ from swarmdsl.syntax.ast import (
 _ALL = ("succeeded", "aborted", "preempted")
 
 
-def outcomes_left(owner: TopLevel | None, offset: int) -> list[str]:
-    """The outcomes that the state at an offset can have and that no transition takes for sure.
+def unhandled_outcomes(owner: TopLevel | None, offset: int) -> list[str]:
+    """Return the outcomes that no unguarded transition of the state at an offset handles.
 
-    The transition that is being written there does not count. All where no state is known.
+    The transition at the offset itself does not count. Returns all outcomes if the state is
+    unknown.
     """
     if not isinstance(owner, StateMachine):
         return list(_ALL)

@@ -1,7 +1,7 @@
-"""Offsets in a text as the positions of the protocol, and back.
+"""Conversion between offsets and positions of the protocol.
 
-Sources: LSP 3.17, "Position": lines and characters count from 0, characters in the units of an
-encoding, which is UTF-16 unless client and server agree on another.
+Source: LSP 3.17, "Position". Lines and characters count from 0, characters in code units of the
+encoding: UTF-16 unless client and server agree on another.
 """
 
 from __future__ import annotations
@@ -14,19 +14,19 @@ Position = tuple[int, int]
 
 
 def position(source: Source, offset: int, encoding: str = UTF_16) -> Position:
-    """Line and character of an offset."""
+    """Return line and character of an offset."""
     line, column = source.line_column(offset)
     return line - 1, units(source.text[offset - column + 1 : offset], encoding)
 
 
 def bounds(span: Span, encoding: str = UTF_16) -> tuple[Position, Position]:
-    """Where a span begins and ends in its file."""
+    """Return the start and end positions of a span in its file."""
     source, start, end = span.absolute
     return position(source, start, encoding), position(source, end, encoding)
 
 
 def offset(source: Source, at: Position, encoding: str = UTF_16) -> int:
-    """The offset of a position; of one behind the end of its line or of the text, that end."""
+    """Return the offset of a position, clamped to its line and to the text."""
     line, character = at
     if line < 0:
         return 0
@@ -45,7 +45,7 @@ def offset(source: Source, at: Position, encoding: str = UTF_16) -> int:
 
 
 def units(text: str, encoding: str) -> int:
-    """How many characters a text has, as an encoding counts them."""
+    """Return the length of a string in code units of an encoding."""
     if encoding == "utf-32" or text.isascii():
         return len(text)
     if encoding == "utf-8":

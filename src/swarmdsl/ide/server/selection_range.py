@@ -1,4 +1,4 @@
-"""What is selected when a selection grows: the word, what it is part of, and so on to the file."""
+"""Selection ranges: from the word outwards to the file."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Node, children
 
 
-def selections(file: File, offset: int) -> list[Span]:
-    """The parts of a file around an offset, each inside the next one."""
+def selection_ranges(file: File, offset: int) -> list[Span]:
+    """Return the spans around an offset, innermost first."""
     whole = Span(file.source, 0, len(file.source.text))
     found = [whole]
     inside: list[Node] = [*owners(file), *file.model.imports]
@@ -20,17 +20,17 @@ def selections(file: File, offset: int) -> list[Span]:
         if not around:
             break
         span, node = min(around, key=lambda one: one[0].end - one[0].start)
-        if _within(span, found[-1]):
+        if _strictly_inside(span, found[-1]):
             found.append(span)
         inside = [*children(node)]
     word = Span(file.source, *word_at(file.source.text, offset))
-    if word.text and _within(word, found[-1]):
+    if word.text and _strictly_inside(word, found[-1]):
         found.append(word)
     return found[::-1]
 
 
-def _within(inner: Span, outer: Span) -> bool:
-    """Whether a part is in another one, and is not all of it."""
+def _strictly_inside(inner: Span, outer: Span) -> bool:
+    """Return True if a span is strictly inside another one."""
     return (outer.start, outer.end) != (inner.start, inner.end) and (
         outer.start <= inner.start and inner.end <= outer.end
     )

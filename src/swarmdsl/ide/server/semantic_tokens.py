@@ -1,7 +1,8 @@
-"""The tokens of files as the protocol has them; those of what has not changed are kept.
+"""Encoded semantic tokens of files, cached by declaration.
 
-Each token is five numbers, its place counted from the one before (LSP 3.17, "Semantic Tokens"). So
-those of a declaration stay as they are wherever it is moved, but for the first two numbers.
+A token is five numbers; its position is relative to the previous token (LSP 3.17, "Semantic
+Tokens"). So the encoding of a declaration stays valid when it moves, except for the first two
+numbers.
 """
 
 from __future__ import annotations
@@ -14,15 +15,15 @@ from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import owners
 from swarmdsl.ide.server.positions import units
-from swarmdsl.ide.server.tokens import Token, of_head, of_owner
+from swarmdsl.ide.server.tokens import Token, declaration_tokens, head_tokens
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import TopLevel
 
 
-class _Stretch(NamedTuple):
-    """Tokens that follow each other: where the first and the last begin, and their numbers.
+class _TokenRun(NamedTuple):
+    """Encoded tokens in a row, with the offsets of the first and the last one.
 
-    The place of the first is that of the token before.
+    The position of the first token is relative to that of the token before the run.
     """
 
     first: int
@@ -30,67 +31,67 @@ class _Stretch(NamedTuple):
     numbers: list[int]
 
 
-class Painter:
-    """Finds the tokens of files, and remembers what was told."""
+class SemanticTokenCache:
+    """Encode the tokens of files and remember the results sent."""
 
     def __init__(self) -> None:
-        self._known: dict[TopLevel, _Stretch] = {}
-        self._told: dict[str, tuple[str, Sequence[int]]] = {}
+        self._known: dict[TopLevel, _TokenRun] = {}
+        self._sent: dict[str, tuple[str, Sequence[int]]] = {}
         self._count = 0
 
     def tokens(
         self, workspace: Workspace, file: File, encoding: str, within: Span | None = None
     ) -> list[int]:
-        """The tokens of a file, or of the declarations that are in a part of it."""
+        """Return the encoded tokens of a file, or of its declarations that overlap `within`."""
         text = file.source.text
         found: list[int] = []
         last = 0
-        for stretch in sorted(self._stretches(workspace, file, encoding, within)):
-            if stretch.numbers and stretch.first >= last:
-                found += _distance(text, last, stretch.first, encoding)
-                found += stretch.numbers[2:]
-                last = stretch.last
+        for run in sorted(self._token_runs(workspace, file, encoding, within)):
+            if run.numbers and run.first >= last:
+                found += _distance(text, last, run.first, encoding)
+                found += run.numbers[2:]
+                last = run.last
         return found
 
-    def _stretches(
+    def _token_runs(
         self, workspace: Workspace, file: File, encoding: str, within: Span | None
-    ) -> Iterator[_Stretch]:
-        for tokens in of_head(file):
-            yield _stretch(tokens, file.source.text, encoding)
+    ) -> Iterator[_TokenRun]:
+        for tokens in head_tokens(file):
+            yield _token_run(tokens, file.source.text, encoding)
         scope = Scopes(workspace.project)[file]
-        known: dict[TopLevel, _Stretch] = {}
+        known: dict[TopLevel, _TokenRun] = {}
         for owner in owners(file):
             whole = owner.span.absolute
             if within is not None and (whole.end < within.start or within.end < whole.start):
                 continue
-            stretch = self._known.get(owner)
-            if stretch is None:
-                stretch = _stretch(of_owner(owner, scope), owner.span.source.text, encoding)
-            known[owner] = stretch
+            run = self._known.get(owner)
+            if run is None:
+                run = _token_run(declaration_tokens(owner, scope), owner.span.source.text, encoding)
+            known[owner] = run
             base = whole.start - owner.span.start
-            yield _Stretch(stretch.first + base, stretch.last + base, stretch.numbers)
+            yield _TokenRun(run.first + base, run.last + base, run.numbers)
         if within is None:
             self._known = known
 
     def remember(self, name: str, data: Sequence[int]) -> str:
-        """Keep what was told of a file; return by which name it is asked for."""
+        """Store a result sent for a file; return its result id."""
         self._count += 1
-        self._told[name] = (str(self._count), data)
+        self._sent[name] = (str(self._count), data)
         return str(self._count)
 
     def remembered(self, name: str, result: object) -> Sequence[int] | None:
-        """What was told of a file by some name, if that was the last time."""
-        known, data = self._told.get(name, ("", None))
+        """Return the result of a file with this id, if it was the last one."""
+        known, data = self._sent.get(name, ("", None))
         return data if known == result else None
 
     def forget(self, name: str) -> None:
-        """Forget what was told of a file."""
-        self._told.pop(name, None)
+        """Forget the results of a file."""
+        self._sent.pop(name, None)
         self._known.clear()
 
 
 def changes(before: Sequence[int], now: Sequence[int]) -> list[tuple[int, int, Sequence[int]]]:
-    """What to put in place of which numbers: where they begin, how many, and the new ones."""
+    """Return edits as start, number of deleted numbers, and inserted numbers."""
     head = _same(before, now)
     if head == len(before) == len(now):
         return []
@@ -99,7 +100,7 @@ def changes(before: Sequence[int], now: Sequence[int]) -> list[tuple[int, int, S
 
 
 def _same(some: Sequence[int], others: Sequence[int]) -> int:
-    """How many of the first are the same; halves are compared at once."""
+    """Return the length of the common prefix, by bisection."""
     least, most = 0, min(len(some), len(others))
     while least < most:
         middle = (least + most + 1) // 2
@@ -110,18 +111,18 @@ def _same(some: Sequence[int], others: Sequence[int]) -> int:
     return least
 
 
-def _stretch(tokens: Iterable[Token], text: str, encoding: str) -> _Stretch:
+def _token_run(tokens: Iterable[Token], text: str, encoding: str) -> _TokenRun:
     ordered = sorted(tokens)
     first = last = ordered[0].start if ordered else 0
     numbers: list[int] = []
     for start, length, type_, modifiers in ordered:
         numbers += (*_distance(text, last, start, encoding), length, type_, modifiers)
         last = start
-    return _Stretch(first, last, numbers)
+    return _TokenRun(first, last, numbers)
 
 
 def _distance(text: str, start: int, end: int, encoding: str) -> tuple[int, int]:
-    """How many lines a place is behind another, and characters behind it or in its line."""
+    """Return the lines between two offsets, and the characters in the last line."""
     lines = text.count("\n", start, end)
     if lines:
         start = text.rfind("\n", start, end) + 1

@@ -1,7 +1,7 @@
-"""The server: which features it has, when it tells what is wrong, and how it ends.
+"""Server loop: registers features, schedules diagnostics, detects the end.
 
-Source: LSP 3.17, as pygls has it. Each feature is a function from a session and the params of a
-request to its result, in one of the `..._answers` modules.
+Source: LSP 3.17, implemented by pygls. Each feature is a function from a session and the params of
+a request to its result, in one of the `handlers`.
 """
 
 from __future__ import annotations
@@ -23,119 +23,119 @@ from swarmdsl import __version__
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.ide.server import lifecycle
-from swarmdsl.ide.server.features import FEATURES, answer, requests
+from swarmdsl.ide.server.features import FEATURES, answer, handlers_of
 from swarmdsl.ide.server.io import Incoming, Outgoing
-from swarmdsl.ide.server.message_queue import Conversation
+from swarmdsl.ide.server.message_queue import SerialProtocol
 from swarmdsl.ide.server.session import Session
 from swarmdsl.syntax.parse import parse
 
-# Between two looks at whether the process that started the server is still there, in seconds.
-_LOOK = 5.0
-# Garbage is looked for when nothing was asked for that many seconds, or after that many messages:
-# in the middle of a key, it would take a tenth of its time.
-_REST = 0.5
-_MOST_MESSAGES = 200
-# What is wrong is told again at once if that takes less, else after as long: keys that come
-# meanwhile cost nothing.
-_AT_ONCE = 0.05
-_LONGEST_PAUSE = 0.5
+# Interval between checks that the parent process is alive, in seconds.
+_CLIENT_CHECK = 5.0
+# Garbage is collected after this many seconds without a message, or after this many messages.
+# During an edit, it would take a tenth of the time.
+_IDLE_AFTER = 0.5
+_MESSAGES_PER_COLLECTION = 200
+# If checking takes less than this (seconds), diagnostics follow at once. Otherwise the server waits
+# as long as a check takes, at most the second value, so that further edits cost nothing.
+_FAST_CHECK = 0.05
+_MAX_DELAY = 0.5
 
 
 def serve(reader: BinaryIO, writer: BinaryIO) -> int:
-    """Answer one client until it is gone; return the exit code that the protocol asks for."""
+    """Serve one client until it disconnects; return the exit code of the protocol."""
     server = Server(Outgoing(writer))
-    gc.disable()  # the server does that when nobody waits
-    gc.freeze()  # what is there by now stays, and is not looked at
+    gc.disable()  # the server collects when it is idle
+    gc.freeze()  # modules loaded so far are never garbage
     return server.serve(Incoming(reader))
 
 
 class Server(LanguageServer):
-    """Answers one client, and tells it what is wrong once nothing else waits."""
+    """Serves one client; publishes diagnostics when no message waits."""
 
-    protocol: Conversation
+    protocol: SerialProtocol
 
     def __init__(self, outgoing: Outgoing) -> None:
-        super().__init__("swarmc", __version__, protocol_cls=Conversation)
+        super().__init__("swarmc", __version__, protocol_cls=SerialProtocol)
         self.session = Session(self)
         self._outgoing = outgoing
         self._duration = 0.0
         self._messages = 0
         self._prepared = False
         self.protocol.set_writer(outgoing)
-        for name, hear in lifecycle.NOTIFICATIONS.items():
-            self.feature(name)(partial(hear, self.session))
+        for name, handler in lifecycle.NOTIFICATIONS.items():
+            self.feature(name)(partial(handler, self.session))
         for module, features in FEATURES.items():
             for name, options in features.items():
                 self.feature(name, options)(partial(answer, module, name, self.session))
 
     def serve(self, incoming: Incoming) -> int:
-        """Answer until the client says so, or is gone; return the exit code."""
+        """Process messages until the client exits; return the exit code."""
         self.protocol.listen(incoming)
         try:
             while self._step():
                 pass
         except SystemExit:
-            pass  # as the client has asked
+            pass  # `exit` notification
         return self.protocol.exit_code
 
     def _step(self) -> bool:
-        """Do what is next; return whether there may be more."""
+        """Process one message or idle task; return False at the end of the session."""
         try:
-            message = self.protocol.receive(self._pause())
+            message = self.protocol.receive(self._timeout())
         except Empty:
             if self.session.dirty:
-                self._tell()
+                self._publish()
                 return True
             if self._messages:
-                self._rest()
+                self._idle()
                 return True
-            return self._client_lives()
+            return self._client_is_alive()
         if message is None:
             return False
         self._messages += 1
-        self.protocol.take(message)
-        if self.session.dirty and not self.session.models.waiting:
-            self._tell()  # the work is done, for the answer that was just given
-        if self._messages >= _MOST_MESSAGES:
-            self._tidy()
+        self.protocol.process(message)
+        if self.session.dirty and not self.session.models.has_pending_edits:
+            self._publish()  # the models are up to date after the answer
+        if self._messages >= _MESSAGES_PER_COLLECTION:
+            self._collect()
         return not self._outgoing.gone
 
-    def _pause(self) -> float:
-        """How long to wait for a message before there is something else to do."""
+    def _timeout(self) -> float:
+        """Return how long to wait for a message before an idle task, in seconds."""
         if not self.session.dirty:
-            return _REST if self._messages else _LOOK
-        return 0.0 if self._duration < _AT_ONCE else min(self._duration, _LONGEST_PAUSE)
+            return _IDLE_AFTER if self._messages else _CLIENT_CHECK
+        return 0.0 if self._duration < _FAST_CHECK else min(self._duration, _MAX_DELAY)
 
-    def _tell(self) -> None:
+    def _publish(self) -> None:
         start = time.perf_counter()
         try:
-            self.session.tell()
+            self.session.publish_diagnostics()
         except Exception as error:
             self.report_server_error(error)
         self._duration = time.perf_counter() - start
 
-    def _rest(self) -> None:
-        """Do what nobody should wait for."""
+    def _idle(self) -> None:
+        """Import lazily loaded modules and collect garbage."""
         try:
             if not self._prepared:
                 self._prepared = True
                 from swarmdsl.ide.server import support
 
-                support.prepare()
+                support.load_generators()
                 for module in FEATURES:
-                    requests(module)
-                # What reads mistakes is imported with the first one.
+                    handlers_of(module)
+                # The error reporting of the parser is imported at its first error.
                 parse(Source("", "event"), Diagnostics())
         except Exception as error:
             self.report_server_error(error)
-        self._tidy()
+        self._collect()
 
-    def _tidy(self) -> None:
+    def _collect(self) -> None:
         self._messages = 0
         gc.collect()
 
-    def _client_lives(self) -> bool:
-        """Whether the process that started the server is there, as far as it was named."""
+    def _client_is_alive(self) -> bool:
+        """Return True if the parent process is alive or unknown."""
         if self.process_id is None or self.process_id <= 0 or sys.platform == "win32":
             return True
         try:
@@ -143,18 +143,18 @@ class Server(LanguageServer):
         except ProcessLookupError:
             return False
         except OSError:
-            pass  # it belongs to somebody else
+            pass  # it belongs to another user
         return True
 
     def report_server_error(self, error: Exception, source: object = None) -> None:
-        """Note a mistake of the server itself for its log, and tell the client of it.
+        """Report an internal error to the log and to the client.
 
-        That a request is refused is no such mistake.
+        A rejected request is not an internal error.
         """
         if not isinstance(error, JsonRpcException) or isinstance(error, JsonRpcInternalError):
             traceback.print_exc(file=sys.stderr)
             self.log(f"internal error: {error}")
 
     def log(self, message: str) -> None:
-        """Tell of a mistake in what the client said, or in the server."""
+        """Send an error message to the log of the client."""
         self.window_log_message(lsp.LogMessageParams(type=lsp.MessageType.Error, message=message))

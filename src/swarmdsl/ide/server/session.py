@@ -1,4 +1,4 @@
-"""What the server knows of its client: the files it has open, and what it was told of them."""
+"""State of a client session: open documents, models and published diagnostics."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from pygls.lsp.server import LanguageServer
 from swarmdsl.base.diagnostics.collector import Diagnostic
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
-from swarmdsl.ide.server.diagnostics import as_findings, as_range
+from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics, to_range
 from swarmdsl.ide.server.documents import Document
 from swarmdsl.ide.server.models import Models
 from swarmdsl.ide.server.positions import Position, offset, position
-from swarmdsl.ide.server.semantic_tokens import Painter
+from swarmdsl.ide.server.semantic_tokens import SemanticTokenCache
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import TopLevel
 
@@ -28,46 +28,46 @@ Place = tuple[Workspace, File, int]
 
 
 class Session:
-    """A client, its files and models; answers are made of it.
+    """Open files and models of a client.
 
-    `dirty` is whether what is wrong may be something else than was told.
+    `dirty` is True if the diagnostics may differ from those published last.
     """
 
     def __init__(self, client: LanguageServer) -> None:
         self.client = client
         self.models = Models()
         self.encoding = "utf-16"
-        # The commands of its own that the client offers to be named.
+        # Commands that the client implements (`initializationOptions`).
         self.commands: frozenset[str] = frozenset()
         self.documents: dict[Path, Document] = {}
-        self.painter = Painter()
-        # What was last told of declarations that may still be the same, and where they began.
-        self.outlined: dict[TopLevel, tuple[Position, list[lsp.DocumentSymbol]]] = {}
+        self.semantic_tokens = SemanticTokenCache()
+        # Document symbols that were sent last, with the start position of their declaration.
+        self.symbol_cache: dict[TopLevel, tuple[Position, list[lsp.DocumentSymbol]]] = {}
         self.dirty = False
         self._uris: dict[Path, str] = {}
-        self._told: dict[str, list[Diagnostic]] = {}
+        self._published: dict[str, list[Diagnostic]] = {}
         self._changed: set[str] = set()
 
-    def begin(self, options: Any) -> None:
-        """Take what was agreed upon, and what a client says of itself beyond the protocol."""
+    def initialize(self, options: Any) -> None:
+        """Store the position encoding and the initialization options."""
         self.encoding = lsp.PositionEncodingKind(self.client.workspace.position_encoding).value
         commands = options.get("commands") if isinstance(options, dict) else None
         known = commands if isinstance(commands, list) else []
         self.commands = frozenset(each for each in known if isinstance(each, str))
 
-    def offers(self, capability: str) -> bool:
-        """Whether the client says that it can do something, by the path of that."""
+    def has_capability(self, capability: str) -> bool:
+        """Return True if the client has a capability, e.g. `window.work_done_progress`."""
         return bool(get_capability(self.client.client_capabilities, capability, False))
 
     def path(self, uri: str) -> Path | None:
-        """The file that a client names; None for what is no file."""
+        """Return the path of a URI, or None if it names no file."""
         try:
             parts = urlsplit(uri)
         except ValueError:
             return None
         if parts.scheme != "file":
             return None
-        # What looks like a query to a URL belongs to the name: editors leave `?` as it is.
+        # A `?` belongs to the file name: editors do not escape it.
         name = parts.path + (f"?{parts.query}" if parts.query else "")
         name = os.fsdecode(unquote_to_bytes(name.encode("utf-8", "surrogatepass")))
         if "\0" in name or not name.startswith("/"):
@@ -77,67 +77,67 @@ class Session:
         return Path(os.path.normpath(name))
 
     def uri(self, path: Path) -> str:
-        """How the client names a file."""
+        """Return the URI under which the client knows a file."""
         return self._uris.get(path) or path.absolute().as_uri()
 
-    def opened(self, document: lsp.TextDocumentItem) -> None:
-        """Take a file for one that the client shows."""
+    def did_open(self, document: lsp.TextDocumentItem) -> None:
+        """Add a document that the client has opened."""
         path = self.path(document.uri)
         if path is not None:
             self._uris[path] = document.uri
             self.documents[path] = Document(document.text, document.version)
-            self._edited(path)
+            self._did_edit(path)
 
-    def changed(
+    def did_change(
         self,
         document: lsp.VersionedTextDocumentIdentifier,
         changes: Iterable[lsp.TextDocumentContentChangeEvent],
     ) -> None:
-        """Take changes of the text of a file."""
+        """Apply changes to the text of an open document."""
         path = self.path(document.uri)
         known = self.documents.get(path) if path is not None else None
         if path is not None and known is not None:
             known.change(changes, self.encoding)
             known.version = document.version
-            self._edited(path)
+            self._did_edit(path)
 
-    def closed(self, document: lsp.TextDocumentIdentifier) -> None:
-        """Take what is on disk for a file again."""
+    def did_close(self, document: lsp.TextDocumentIdentifier) -> None:
+        """Drop an open document; its file is read from disk again."""
         path = self.path(document.uri)
         if path is not None and self.documents.pop(path, None) is not None:
             self._changed.discard(self._uris.pop(path, ""))
             self.models.close(path)
-            self.painter.forget(str(path))
-            self.outlined.clear()
+            self.semantic_tokens.forget(str(path))
+            self.symbol_cache.clear()
             self.dirty = True
 
-    def _edited(self, path: Path) -> None:
+    def _did_edit(self, path: Path) -> None:
         self._changed.add(self.uri(path))
         self.models.edit(path, self.documents[path].text)
         self.dirty = True
 
     def open_folders(self, folders: Iterable[Path]) -> None:
-        """Take folders for those that are open in the editor."""
+        """Replace the folders that are open in the editor."""
         self.models.open_folders(folders)
         self.dirty = True
 
     def refresh(self, paths: Iterable[Path]) -> None:
-        """Read files again that were changed on disk."""
+        """Read files again that changed on disk."""
         self.models.refresh(paths)
         self.dirty = True
 
     def file(self, document: lsp.TextDocumentIdentifier) -> tuple[Workspace, File] | None:
-        """The open file that a request is about, and the model that it belongs to."""
+        """Return an open file and the workspace that it belongs to."""
         path = self.path(document.uri)
         return self.models.file(path) if path is not None else None
 
     def place(self, document: lsp.TextDocumentIdentifier, at: lsp.Position) -> Place | None:
-        """The position that a request is about."""
+        """Return the position of a request as workspace, file and offset."""
         found = self.file(document)
         return (*found, self.offset(found[1], at)) if found is not None else None
 
     def place_on_disk(self, uri: str, at: lsp.Position) -> Place | None:
-        """A position in a file that need not be open, if a model has it."""
+        """Return a position in a file of any workspace, open or not."""
         path = self.path(uri)
         for workspace in self.models.all() if path is not None else ():
             file = workspace.file(path) if path is not None else None
@@ -146,44 +146,44 @@ class Session:
         return None
 
     def offset(self, file: File, at: lsp.Position) -> int:
-        """The offset of a position in a file."""
+        """Return the offset of a position in a file."""
         return offset(file.source, (at.line, at.character), self.encoding)
 
     def span(self, file: File, range_: lsp.Range) -> Span:
-        """A part of a file that a request is about."""
+        """Return the span of a range in a file."""
         start, end = self.offset(file, range_.start), self.offset(file, range_.end)
         return Span(file.source, min(start, end), max(start, end))
 
     def start(self, span: Span) -> Position:
-        """Line and character where a span begins in its file."""
+        """Return line and character of the start of a span."""
         source, start, _ = span.absolute
         return position(source, start, self.encoding)
 
     def range(self, span: Span) -> lsp.Range:
-        """Where a span is in its file."""
-        return as_range(span, self.encoding)
+        """Return the range of a span in its file."""
+        return to_range(span, self.encoding)
 
     def location(self, span: Span) -> lsp.Location | None:
-        """A place in a file; None for text that comes with swarmdsl in another form."""
+        """Return the location of a span, or None if its source has no file."""
         whole = span.absolute
         if whole.source.path is None:
             return None
         return lsp.Location(uri=self.uri(whole.source.path), range=self.range(whole))
 
-    def tell(self) -> None:
-        """Send what is wrong with the files that changed, or of which something else was sent."""
+    def publish_diagnostics(self) -> None:
+        """Publish diagnostics of files that were edited or whose diagnostics changed."""
         self.dirty = False
         found: dict[str, list[Diagnostic]] = {}
         for workspace, name, diagnostics in self.models.diagnostics():
-            # What concerns no place in a file is told of one that is open.
+            # Diagnostics without a file are shown in an open one.
             for path in [Path(name)] if name else self.models.opened(workspace)[:1]:
                 found.setdefault(self.uri(path), []).extend(diagnostics)
-        for uri in {**self._told, **found, **dict.fromkeys(self._changed)}:
+        for uri in {**self._published, **found, **dict.fromkeys(self._changed)}:
             now = found.get(uri, [])
-            if uri in self._changed or now != self._told.get(uri, []):
+            if uri in self._changed or now != self._published.get(uri, []):
                 self._publish(uri, now)
         self._changed.clear()
-        self._told = {uri: told for uri, told in found.items() if told}
+        self._published = {uri: each for uri, each in found.items() if each}
 
     def _publish(self, uri: str, found: Sequence[Diagnostic]) -> None:
         path = self.path(uri)
@@ -191,7 +191,7 @@ class Session:
         self.client.text_document_publish_diagnostics(
             lsp.PublishDiagnosticsParams(
                 uri=uri,
-                diagnostics=as_findings(found, self.encoding, self.uri),
+                diagnostics=to_lsp_diagnostics(found, self.encoding, self.uri),
                 version=document.version if document is not None else None,
             )
         )

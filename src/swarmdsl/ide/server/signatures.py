@@ -1,19 +1,26 @@
-"""What a call takes: shown while its arguments are written."""
+"""Signature help: the parameters of the call around the cursor."""
 
 from __future__ import annotations
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.completion import word_at
-from swarmdsl.ide.server.fields import Given, Slots, is_name_on_trial, slots
-from swarmdsl.ide.server.speculative_parse import ARGUMENT, NAME, WORD, closers, owner_around, tried
+from swarmdsl.ide.server.fields import Slot, Slots, is_placeholder_name, slots
+from swarmdsl.ide.server.speculative_parse import (
+    ARGUMENT,
+    NAME,
+    PLACEHOLDER,
+    closing_brackets,
+    declaration_at,
+    parse_with_placeholder,
+)
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Argument, PartValue, ResultMapping, TopLevel, nodes_of
 
 
 @dataclass(frozen=True)
 class Signature:
-    """A call: how it is written, where in that each parameter is, which is being written."""
+    """Label of a call, spans of its parameters in the label, index of the active one."""
 
     label: str
     parameters: list[tuple[int, int, str]]
@@ -21,16 +28,18 @@ class Signature:
 
 
 def signature(workspace: Workspace, file: File, offset: int) -> Signature | None:
-    """The call whose arguments an offset is in; None outside of one."""
+    """Return the call around an offset, or None outside of a call."""
     text = file.source.text
     start, end = word_at(text, offset)
     _, first, _ = workspace.piece(file, start)
     head = text[first:start]
-    if not closers(head).startswith(")"):
+    if not closing_brackets(head).startswith(")"):
         return None
     words = (*ARGUMENT, *NAME)
-    # Which argument it is does not depend on those behind it.
-    for owner in tried(workspace, file, (head, ""), owner_around(file, start), words):
+    # The active argument does not depend on the arguments after it.
+    for owner in parse_with_placeholder(
+        workspace, file, (head, ""), declaration_at(file, start), words
+    ):
         found = slots(owner, workspace.project)
         if found is not None and found.fields:
             return _signature(found, owner, text[start:end])
@@ -38,7 +47,7 @@ def signature(workspace: Workspace, file: File, offset: int) -> Signature | None
 
 
 def _signature(found: Slots, owner: TopLevel, written: str) -> Signature:
-    label = f"{found.of}("
+    label = f"{found.callee}("
     parameters = []
     for index, field in enumerate(found.fields):
         label += ", " if index else ""
@@ -50,23 +59,23 @@ def _signature(found: Slots, owner: TopLevel, written: str) -> Signature:
 
 
 def _active(found: Slots, owner: TopLevel, written: str) -> int | None:
-    """The parameter whose name or value stands at the place, else the first that is missing."""
+    """Return the parameter at the cursor, else the first unassigned one with this prefix."""
     names = [str(field.name) for field in found.fields]
-    name = written if is_name_on_trial(owner) else _given(owner)
-    left: list[Given] = found.left
+    name = written if is_placeholder_name(owner) else _assigned_name(owner)
+    unassigned: list[Slot] = found.unassigned
     if name in names:
         return names.index(name)
-    begins = [str(each.name) for each in left if str(each.name).startswith(written)]
-    return names.index(begins[0]) if begins else None
+    matching = [str(each.name) for each in unassigned if str(each.name).startswith(written)]
+    return names.index(matching[0]) if matching else None
 
 
-def _given(owner: TopLevel) -> str:
-    """The name to which the word on trial gives a value."""
+def _assigned_name(owner: TopLevel) -> str:
+    """Return the name to which the placeholder is assigned."""
     values: list[Argument | PartValue] = [*nodes_of(owner, Argument), *nodes_of(owner, PartValue)]
     for argument in values:
-        if WORD in argument.value.span.text:
+        if PLACEHOLDER in argument.value.span.text:
             return str(argument.name)
     for result in nodes_of(owner, ResultMapping):
-        if WORD in result.target.span.text:
+        if PLACEHOLDER in result.target.span.text:
             return str(result.field)
     return ""

@@ -1,4 +1,4 @@
-"""Whole statements with places to fill in, offered where their first word can stand."""
+"""Snippets: complete statements with fields to fill in."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from pathlib import Path
 from swarmdsl.base.records import dataclass
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.ide.server.candidates import containers
-from swarmdsl.ide.server.outcomes import outcomes_left
-from swarmdsl.ide.server.speculative_parse import owner_around
+from swarmdsl.ide.server.outcomes import unhandled_outcomes
+from swarmdsl.ide.server.speculative_parse import declaration_at
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Activity, State, StateMachine
 
@@ -20,7 +20,7 @@ _TABLE = Path(__file__).parent / "snippets.json"
 
 @dataclass(frozen=True)
 class Snippet:
-    """A text as editors fill it in (`${1:so}`), what it is called, what it is for."""
+    """Label, text in the snippet syntax of the protocol (`${1:name}`), description."""
 
     label: str
     text: str
@@ -29,7 +29,7 @@ class Snippet:
 
 @cache
 def table() -> dict[tuple[str, ...], list[Snippet]]:
-    """All snippets, by the words that must be possible at a place."""
+    """Return all snippets by the keywords that must be possible at the cursor."""
     found: dict[tuple[str, ...], list[Snippet]] = {}
     known = json.loads(_TABLE.read_text(encoding="utf-8"))
     for name, each in known.items():
@@ -41,16 +41,16 @@ def table() -> dict[tuple[str, ...], list[Snippet]]:
 def snippets(
     keywords: Collection[str], workspace: Workspace, file: File, offset: int
 ) -> Iterator[Snippet]:
-    """The statements that can stand at an offset of a file, where these keywords can."""
+    """Yield the snippets that fit at an offset, given the possible keywords."""
     for words, several in table().items():
         if all(word in keywords for word in words):
             yield from several
     if "on" not in keywords:
         return
-    owner = owner_around(file, offset)
+    owner = declaration_at(file, offset)
     inner = containers(owner, offset)[-1] if isinstance(owner, StateMachine) else None
     if isinstance(inner, State) and any(isinstance(item, Activity) for item in inner.items):
-        left = [each for each in outcomes_left(owner, offset) if each != "preempted"]
+        left = [each for each in unhandled_outcomes(owner, offset) if each != "preempted"]
         lines = [f"on {each} -> ${{{index}:Target}}" for index, each in enumerate(left, 1)]
         if lines:
             yield Snippet(

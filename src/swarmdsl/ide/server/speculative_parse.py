@@ -1,8 +1,8 @@
-"""A word put on trial where somebody types: what the compiler makes of it says what fits there.
+"""Speculative parsing: insert a placeholder at the cursor and link the result.
 
-The declaration around the place is parsed and linked with the word in it. What makes a statement
-of the word is put behind it; where nothing does, the compiler mends what is not finished, as it
-does everywhere, which takes ten times as long.
+Only the declaration around the cursor is parsed and linked. Several continuations after the
+placeholder are tried. If none gives a valid statement, error recovery takes over, which is ten
+times slower.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import Model, StateMachine, TopLevel
 from swarmdsl.syntax.parse import parse_segment, parse_strict
 
-WORD = "completed_here_"
-COMMENT_OR_TEXT = re.compile(
+PLACEHOLDER = "completed_here_"
+COMMENT_OR_STRING = re.compile(
     r'//[^\n]*|/\*(?:[^*]|\*(?!/))*(?:\*/|\Z)|"(?:[^"\\\n]|\\[^\n])*(?:"|(?=\n)|\Z)'
 )
-# What the word is to be: a name, or one before a value, a variable or the next argument.
-NAME = (WORD,)
-ARGUMENT = (f"{WORD} = 0", f"{WORD} => x", f", {WORD} = 0")
-# What can be missing before it, behind it in the brackets around it, and behind these.
-_ENDS = (
+# Placeholder as a name, or as the name in `name = value`, `name => variable`, `, name = value`.
+NAME = (PLACEHOLDER,)
+ARGUMENT = (f"{PLACEHOLDER} = 0", f"{PLACEHOLDER} => x", f", {PLACEHOLDER} = 0")
+# Possibly missing text: before the placeholder, after it inside the brackets, and after these.
+_COMPLETIONS = (
     ("", "", ""),
     ("", "", " -> x"),
     ("", " = 0", ""),
@@ -37,51 +37,51 @@ _ENDS = (
     ("", "", " { }"),
     (", ", " = 0", ""),
 )
-# The same where what follows is taken as it is.
-_JOINTS = ("", " = 0", " = 0,", " => x,")
+# Text between the placeholder and the existing rest.
+_CONTINUATIONS = ("", " = 0", " = 0,", " => x,")
 
 
-def tried(
+def parse_with_placeholder(
     workspace: Workspace,
     file: File,
     around: tuple[str, str],
-    instead: TopLevel | None,
+    replaced: TopLevel | None,
     words: Sequence[str] = NAME,
 ) -> Iterator[TopLevel]:
-    """The declarations there would be with one of the words between two texts, linked.
+    """Yield the linked declarations that contain a placeholder between two strings.
 
-    `instead` is the declaration of the file whose place they take.
+    They replace the declaration `replaced` of the file.
     """
-    linker = _linker(workspace, instead)
+    linker = _linker(workspace, replaced)
     name = file.source.name
     for model in _models(name, *around, words):
         for owner in (*model.declarations, *model.optimizations):
-            if WORD in owner.span.text:
+            if PLACEHOLDER in owner.span.text:
                 linker.link_outside(file, owner, Diagnostics())
-                if isinstance(owner, StateMachine) and isinstance(instead, StateMachine):
-                    linker.replace(instead, owner)
+                if isinstance(owner, StateMachine) and isinstance(replaced, StateMachine):
+                    linker.replace(replaced, owner)
                 linker.link_inside(file, owner, Diagnostics())
                 yield owner
 
 
 def _models(name: str, head: str, tail: str, words: Sequence[str]) -> Iterator[Model]:
-    """What is there with the word, for each way to go on behind it that makes no mistake.
+    """Yield a model for each continuation that parses without errors.
 
-    Where there is none, what is there with one of the words after all has been mended.
+    If there is none, yield the models that error recovery gives for each of the words.
     """
-    inside, outside = _divided(closers(head))
-    texts = [f"{head}{WORD}{joint}{tail}" for joint in _JOINTS if tail]
+    inside, outside = _split_brackets(closing_brackets(head))
+    texts = [f"{head}{PLACEHOLDER}{joint}{tail}" for joint in _CONTINUATIONS if tail]
     texts += [
-        f"{head}{before}{WORD}{within}\n{inside}{behind}\n{outside}"
-        for before, within, behind in _ENDS
+        f"{head}{before}{PLACEHOLDER}{within}\n{inside}{behind}\n{outside}"
+        for before, within, behind in _COMPLETIONS
     ]
-    flawless = False
+    valid = False
     for text in texts:
         parsed = parse_strict(Source(name, text), Diagnostics())
         if parsed is not None:
-            flawless = True
+            valid = True
             yield parsed.model
-    if flawless:
+    if valid:
         return
     ends = [f"\n{inside}{outside}", *([tail] if tail else [])]
     for word in words:
@@ -89,16 +89,16 @@ def _models(name: str, head: str, tail: str, words: Sequence[str]) -> Iterator[M
             yield parse_segment(Source(name, head + word + end), Diagnostics()).model
 
 
-def _divided(brackets: str) -> tuple[str, str]:
-    """Closing brackets in two: those of an expression or a list, and those from a block on."""
+def _split_brackets(brackets: str) -> tuple[str, str]:
+    """Split closing brackets at the first `}`."""
     inside, brace, outside = brackets.partition("}")
     return inside, brace + outside
 
 
-def closers(head: str) -> str:
-    """The brackets that end what is open behind a text."""
+def closing_brackets(head: str) -> str:
+    """Return the brackets that close all open ones at the end of a text."""
     opened = []
-    for bracket in re.findall(r"[][(){}]", COMMENT_OR_TEXT.sub("", head)):
+    for bracket in re.findall(r"[][(){}]", COMMENT_OR_STRING.sub("", head)):
         if bracket in "([{":
             opened.append({"(": ")", "[": "]", "{": "}"}[bracket])
         elif opened and opened[-1] == bracket:
@@ -106,8 +106,8 @@ def closers(head: str) -> str:
     return "\n".join(reversed(opened))
 
 
-def owner_around(file: File, offset: int) -> TopLevel | None:
-    """The declaration at an offset, or the one that ends there."""
+def declaration_at(file: File, offset: int) -> TopLevel | None:
+    """Return the declaration at an offset, or the one that ends there."""
     for owner in owners(file):
         span = owner.span.absolute
         if span.start <= offset <= span.end:
@@ -115,9 +115,9 @@ def owner_around(file: File, offset: int) -> TopLevel | None:
     return None
 
 
-def _linker(workspace: Workspace, instead: TopLevel | None) -> Linker:
-    """What links a declaration in the place of another one."""
+def _linker(workspace: Workspace, replaced: TopLevel | None) -> Linker:
+    """Return a linker for a declaration that replaces another one."""
     linker = Linker(workspace.project, Scopes(workspace.project))
-    if isinstance(instead, StateMachine):
-        linker.gather(workspace.runners(instead))
+    if isinstance(replaced, StateMachine):
+        linker.gather(workspace.runners(replaced))
     return linker

@@ -1,4 +1,4 @@
-"""Starts the server; what it is made of is imported then."""
+"""Start the server; import its parts on demand."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import BinaryIO, cast
 
 
 def serve(reader: BinaryIO, writer: BinaryIO) -> int:
-    """Serve a client until it is gone; return the exit code."""
+    """Serve a client until it disconnects; return the exit code."""
     if hasattr(signal, "SIGPIPE"):
-        # An editor that is gone is noticed where something is written.
+        # A closed connection is detected at the next write.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     from swarmdsl.ide.server import lazy_lsp_types
 
@@ -21,12 +21,12 @@ def serve(reader: BinaryIO, writer: BinaryIO) -> int:
 
 
 def serve_on_standard_streams() -> int:
-    """Serve the client that has started this process; return the exit code."""
-    return serve(_taken(0, "rb"), _taken(1, "wb"))
+    """Serve the parent process on stdin and stdout; return the exit code."""
+    return serve(_take_over(0, "rb"), _take_over(1, "wb"))
 
 
-def _taken(descriptor: int, mode: str) -> BinaryIO:
-    """A standard stream; what is printed by mistake does not get into it."""
+def _take_over(descriptor: int, mode: str) -> BinaryIO:
+    """Duplicate a standard stream; redirect the original to null against stray prints."""
     stream = os.fdopen(os.dup(descriptor), mode)
     null = os.open(os.devnull, os.O_RDWR)
     os.dup2(null, descriptor)

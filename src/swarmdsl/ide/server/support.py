@@ -1,4 +1,4 @@
-"""What becomes of a construct in the targets, as `swarmc targets` says it."""
+"""Support of a construct in each target, as in `swarmc targets`."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ from swarmdsl.syntax.ast import (
 
 
 def support(node: Node, settings: Settings) -> Iterator[str]:
-    """A line for each target of a project that says what it makes of a construct."""
-    wanted = set(_constructs(node))
-    if not wanted:
+    """Yield one line for each target of a project: its support of a construct."""
+    constructs = set(_constructs(node))
+    if not constructs:
         return
     for target in settings.targets or registry.default_names():
-        said, rows = _mapping(target, settings.targets.get(target, {}))
+        label, rows = _mapping(target, settings.targets.get(target, {}))
         for mapped in rows:
-            if mapped.construct in wanted:
-                yield f"{said}: {mapped.support.value}, {mapped.means}"
+            if mapped.construct in constructs:
+                yield f"{label}: {mapped.support.value}, {mapped.means}"
 
 
-def prepare() -> None:
-    """Import the targets, for which whoever asks first would have to wait."""
+def load_generators() -> None:
+    """Import all generators ahead of the first hover."""
     for target in registry.default_names():
         _generator(target)
 
@@ -48,7 +48,7 @@ def _generator(target: str) -> Generator | None:
 
 
 def _mapping(target: str, options: Mapping[str, str]) -> tuple[str, tuple[Mapped, ...]]:
-    """What a target with these options is called, and what it makes of constructs."""
+    """Return the label of a target with these options, and its mapping of constructs."""
     generator = _generator(target)
     if generator is None:
         return f"`{target}`", ()
@@ -60,7 +60,7 @@ def _mapping(target: str, options: Mapping[str, str]) -> tuple[str, tuple[Mapped
 
 
 def _constructs(node: Node) -> Iterator[str]:
-    """What a construct is called there."""
+    """Yield the names of a construct in the mapping tables."""
     match node:
         case State(machine=machine, items=items):
             activity = next((item for item in items if isinstance(item, Activity)), None)

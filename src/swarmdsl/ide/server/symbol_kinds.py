@@ -1,4 +1,4 @@
-"""What the kinds of declarations are called in the protocol, which knows those of programs."""
+"""Kinds of the protocol for each kind of declaration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The outline of a file, and the declarations of a model by a part of their names."""
+"""Document outline and workspace symbol search."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from swarmdsl.syntax.ast import Node, Optimization, children
 
 @dataclass(frozen=True)
 class Symbol:
-    """Something with a name: all of it, its name, and what is inside."""
+    """Named element with its span, the span of its name, and its children."""
 
     name: str
     kind: type[Node]
@@ -26,13 +26,13 @@ class Symbol:
 
 
 def outline(file: File) -> list[Symbol]:
-    """What a file declares, in the order of its text."""
+    """Return the declarations of a file in source order."""
     found = [symbol for owner in owners(file) for symbol in symbols_of(owner)]
     return sorted(found, key=lambda symbol: symbol.span.start)
 
 
 def search(workspace: Workspace, query: str) -> Iterator[Symbol]:
-    """All in the files of a model whose name has the letters of the query, in their order."""
+    """Yield symbols of a workspace whose name contains the letters of the query, in order."""
     for file in workspace.project.files:
         if file.source.path is not None and not file.library:
             work = outline(file)
@@ -49,7 +49,7 @@ def _matches(query: str, name: str) -> bool:
 
 
 def symbols_of(node: Node) -> Iterator[Symbol]:
-    """What is declared in a node, and the node itself if it has a name."""
+    """Yield the symbols declared in a node, including the node itself if it is named."""
     inside = [symbol for child in children(node) for symbol in symbols_of(child)]
     if not isinstance(node, Optimization) and type(node) not in KINDS:
         yield from inside

@@ -1,7 +1,7 @@
-"""What the words of a file are, for an editor that colours them by their meaning.
+"""Semantic tokens: the meaning of each word of a file.
 
-A word such as `state` is a keyword at one place and a field of a message at another: colours that
-are made by patterns cannot know.
+A word such as `state` can be a keyword or a field of a message. Patterns of a TextMate grammar
+cannot tell the two apart.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import NamedTuple
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import occurrences
-from swarmdsl.ide.server.code import found_in
+from swarmdsl.ide.server.code import find_tokens
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File
 from swarmdsl.syntax import ast
@@ -21,7 +21,7 @@ from swarmdsl.syntax.ast import Node, TopLevel, nodes_of, references
 from swarmdsl.syntax.parser import generated
 from swarmdsl.syntax.types import PRIMITIVES
 
-# Source: LSP 3.17, "Semantic Tokens"; all of them are standard there.
+# Source: LSP 3.17, "Semantic Tokens"; all of these are predefined.
 TYPES = (
     *("namespace", "class", "struct", "enum", "enumMember", "type", "interface", "event"),
     *("function", "method", "variable", "parameter", "property", "label", "keyword"),
@@ -71,7 +71,7 @@ _KEYWORDS = frozenset(
 
 
 class Token(NamedTuple):
-    """A word: where it begins, how long it is, what it is by its place in TYPES and MODIFIERS."""
+    """Offset, length, index in TYPES, and bit set of MODIFIERS of a word."""
 
     start: int
     length: int
@@ -83,13 +83,13 @@ def _token(start: int, length: int, kind: str, modifiers: int = 0) -> Token:
     return Token(start, length, _NUMBERS[kind], modifiers)
 
 
-def of_head(file: File) -> Iterator[list[Token]]:
-    """The tokens of the package and of each import, at places in the file."""
+def head_tokens(file: File) -> Iterator[list[Token]]:
+    """Yield tokens of the package and of each import, with offsets in the file."""
     model = file.model
     nodes = [*model.imports, *([model.package] if model.package is not None else [])]
     for node in nodes:
         source, start, end = node.span.absolute
-        found = found_in(source.text, _WORD, start, end)
+        found = find_tokens(source.text, _WORD, start, end)
         words = [(at, word) for at, word in found if word[0] not in '"/']
         count = 1 if not isinstance(node, ast.ImportRos) else 2
         tokens = []
@@ -104,8 +104,8 @@ def of_head(file: File) -> Iterator[list[Token]]:
             yield tokens
 
 
-def of_owner(owner: TopLevel, scope: FileScope) -> list[Token]:
-    """The tokens of a declaration, at places in the source of its tree."""
+def declaration_tokens(owner: TopLevel, scope: FileScope) -> list[Token]:
+    """Return the tokens of a declaration, with offsets in the source of its tree."""
     base = owner.span.absolute.start - owner.span.start
     found: dict[int, Token | None] = {}
     for span in _names(owner):
@@ -122,14 +122,14 @@ def of_owner(owner: TopLevel, scope: FileScope) -> list[Token]:
         start = each.span.start - base + len(package) + len(slash)
         found[start] = _token(start, each.span.end - base - start, kind, modifiers)
     source, start, end = owner.span
-    for at, word in found_in(source.text, _WORD, start, end):
+    for at, word in find_tokens(source.text, _WORD, start, end):
         if word in _KEYWORDS and at not in found:
             found[at] = _token(at, len(word), "keyword")
     return [token for token in found.values() if token is not None]
 
 
 def _names(owner: TopLevel) -> Iterator[Span]:
-    """All that is a name, whatever it means."""
+    """Yield the spans of all names."""
     for _, ref in references(owner):
         if ref.kind != "Outcome":
             yield ref.span
@@ -139,7 +139,7 @@ def _names(owner: TopLevel) -> Iterator[Span]:
 
 
 def _by_grammar(owner: TopLevel) -> Iterator[Token]:
-    """Names whose kind is known from where they stand."""
+    """Yield names whose kind follows from the grammar."""
 
     def token(span: Span, kind: str, modifiers: int = 0) -> Token:
         return _token(span.start, span.end - span.start, kind, modifiers)

@@ -1,4 +1,4 @@
-"""The types that can be named at a place."""
+"""Type names for completion."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from swarmdsl.analysis.resolve.scopes import FileScope
 from swarmdsl.ide.server.candidates import visible
-from swarmdsl.ide.server.speculative_parse import WORD
+from swarmdsl.ide.server.speculative_parse import PLACEHOLDER
 from swarmdsl.project.rosidl import standard
 from swarmdsl.project.rosidl.interface_file import Kind
 from swarmdsl.syntax.ast import (
@@ -30,13 +30,13 @@ _KINDS: dict[Kind, str] = {"msg": "message", "srv": "service", "action": "action
 Named = tuple[str, str, Node | None]
 
 
-def type_names(wanted: TypeRef, owner: TopLevel, scope: FileScope) -> Iterator[Named]:
-    """The names that fit for a type, each with what it is and its declaration, if there is one.
+def type_names(expected: TypeRef, owner: TopLevel, scope: FileScope) -> Iterator[Named]:
+    """Yield type names with a detail and their declaration, if any.
 
-    In the place of the word behind `package/` they are those of that package, without it.
+    After `package/`, yield the names of this package without the prefix.
     """
-    kind, kinds = _wanted(wanted, owner)
-    before = wanted.name.partition(WORD)[0]
+    kind, kinds = _expected(expected, owner)
+    before = expected.name.partition(PLACEHOLDER)[0]
     package, slash, _ = before.rpartition("/")
     if not slash and kind == "msg":
         yield from ((word, "type", None) for word in PRIMITIVES)
@@ -52,10 +52,10 @@ def type_names(wanted: TypeRef, owner: TopLevel, scope: FileScope) -> Iterator[N
             yield name if slash else f"{each}/{name}", f"{_KINDS[kind]} of ROS", None
 
 
-def _wanted(wanted: TypeRef, owner: TopLevel) -> tuple[Kind, tuple[type[Node], ...]]:
-    """Which kinds of interfaces fit."""
+def _expected(expected: TypeRef, owner: TopLevel) -> tuple[Kind, tuple[type[Node], ...]]:
+    """Return the expected interface kind and the node types that fit."""
     for call in nodes_of(owner, Communication):
-        if call.type is wanted:
+        if call.type is expected:
             if call.paradigm == "action":
                 return "action", (ActionType,)
             return "srv", (ServiceType,)

@@ -1,4 +1,4 @@
-"""Answers for whoever writes: what can stand here, new names, changes that mend something."""
+"""Handlers for editing: completion, signature help, formatting, rename, quick fixes."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.renaming import RefusedError, renamable, rename
 from swarmdsl.ide.server.completion import Completion, completions
-from swarmdsl.ide.server.diagnostics import as_findings
-from swarmdsl.ide.server.fixes import fix
+from swarmdsl.ide.server.diagnostics import to_lsp_diagnostics
+from swarmdsl.ide.server.fixes import quick_fix
 from swarmdsl.ide.server.hover import described
 from swarmdsl.ide.server.layout import line_changes
 from swarmdsl.ide.server.session import Place, Session
@@ -27,7 +27,7 @@ def _completion(session: Session, params: lsp.CompletionParams) -> list[lsp.Comp
     place = session.place(params.text_document, params.position)
     if place is None:
         return []
-    fills = session.offers("text_document.completion.completion_item.snippet_support")
+    fills = session.has_capability("text_document.completion.completion_item.snippet_support")
     answers = []
     for index, each in enumerate(completions(*place)):
         answer = lsp.CompletionItem(
@@ -55,7 +55,7 @@ def _completion_kind(completion: Completion) -> lsp.CompletionItemKind:
 
 
 def _snippets(place: Place, answers: list[lsp.CompletionItem]) -> Iterator[lsp.CompletionItem]:
-    """Whole statements that begin with one of the keywords that can stand here."""
+    """Yield snippets that begin with one of the possible keywords."""
     keywords = {each.label for each in answers if each.kind is lsp.CompletionItemKind.Keyword}
     for snippet in snippets(keywords, *place):
         yield lsp.CompletionItem(
@@ -79,7 +79,7 @@ def _signature(session: Session, params: lsp.SignatureHelpParams) -> lsp.Signatu
         for start, end, doc in found.parameters
     ]
     answer = lsp.SignatureInformation(label=found.label, parameters=parameters)
-    # Where none is meant, one behind the last says so in all versions of the protocol.
+    # An index after the last parameter means "none" in all versions of the protocol.
     active = found.active if found.active is not None else len(parameters)
     return lsp.SignatureHelp(signatures=[answer], active_signature=0, active_parameter=active)
 
@@ -97,7 +97,7 @@ def _range_formatting(
 def _layout(
     session: Session, document: lsp.TextDocumentIdentifier, part: lsp.Range | None = None
 ) -> list[lsp.TextEdit]:
-    """The changes that give a file, or the lines of a part of it, their layout."""
+    """Return the edits that format a file, or the lines of a part of it."""
     found = session.file(document)
     if found is None:
         return []
@@ -146,7 +146,7 @@ def _failed(error: RefusedError) -> JsonRpcException:
 
 
 def _edits(session: Session, changes: Iterable[tuple[Span, str]]) -> lsp.WorkspaceEdit:
-    """Texts to be put in places, by file."""
+    """Group replacements by file into a workspace edit."""
     found: dict[str, list[lsp.TextEdit]] = {}
     for span, text in changes:
         location = session.location(span)
@@ -161,19 +161,19 @@ def _code_actions(session: Session, params: lsp.CodeActionParams) -> list[lsp.Co
     if found is None:
         return []
     workspace, file = found
-    wanted = session.span(file, params.range)
+    requested = session.span(file, params.range)
     actions = []
     for each in workspace.diagnostics().get(file.source.name, []):
         span = each.primary.span if each.primary is not None else None
-        touched = span is not None and span.start <= wanted.end and wanted.start <= span.end
-        mended = fix(each, file.model.declarations) if touched else None
-        if mended is not None:
+        touched = span is not None and span.start <= requested.end and requested.start <= span.end
+        proposed = quick_fix(each, file.model.declarations) if touched else None
+        if proposed is not None:
             actions.append(
                 lsp.CodeAction(
-                    title=mended.title,
+                    title=proposed.title,
                     kind=lsp.CodeActionKind.QuickFix,
-                    diagnostics=as_findings([each], session.encoding, session.uri),
-                    edit=_edits(session, [(mended.span, mended.text)]),
+                    diagnostics=to_lsp_diagnostics([each], session.encoding, session.uri),
+                    edit=_edits(session, [(proposed.span, proposed.text)]),
                     is_preferred=True,
                 )
             )

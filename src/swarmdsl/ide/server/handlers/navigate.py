@@ -1,4 +1,4 @@
-"""Answers that lead somewhere: to what a name means, to where it is used."""
+"""Handlers for navigation: definition, references, symbols, call hierarchy."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace import Workspace
 from swarmdsl.driver.workspace.references import Occurrence, occurrence_at, occurrences_of
 from swarmdsl.ide.server import symbols
-from swarmdsl.ide.server.call_hierarchy import REACHED, ways_from, ways_to
+from swarmdsl.ide.server.call_hierarchy import CALLABLE, incoming_calls, outgoing_calls
 from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.symbol_kinds import SYMBOL_KINDS
 from swarmdsl.syntax.ast import Node, Optimization
@@ -24,15 +24,15 @@ def _definition(session: Session, params: lsp.DefinitionParams) -> lsp.Location 
     return session.location(found.node.name.span) if found is not None else None  # type: ignore[attr-defined]
 
 
-def _same(place: Place | None) -> Iterator[Occurrence]:
-    """All names that mean what the one at a position means."""
+def _occurrences(place: Place | None) -> Iterator[Occurrence]:
+    """Yield all occurrences of the element at a position."""
     found = occurrence_at(*place) if place is not None else None
     if place is not None and found is not None:
         yield from occurrences_of(found.node, place[0])
 
 
 def _references(session: Session, params: lsp.ReferenceParams) -> list[lsp.Location]:
-    same = _same(session.place(params.text_document, params.position))
+    same = _occurrences(session.place(params.text_document, params.position))
     declared = params.context.include_declaration
     spans = [each.span for each in same if declared or not each.declares]
     locations = (session.location(span) for span in dict.fromkeys(spans))
@@ -46,7 +46,7 @@ def _highlights(
     kinds = {True: lsp.DocumentHighlightKind.Write, False: lsp.DocumentHighlightKind.Read}
     return [
         lsp.DocumentHighlight(range=session.range(each.span), kind=kinds[each.declares])
-        for each in _same(place)
+        for each in _occurrences(place)
         if place is not None and each.span.source is place[1].source
     ]
 
@@ -69,14 +69,14 @@ def _prepare_calls(
 ) -> list[lsp.CallHierarchyItem] | None:
     place = session.place(params.text_document, params.position)
     found = occurrence_at(*place) if place is not None else None
-    if found is None or not isinstance(found.node, REACHED):
+    if found is None or not isinstance(found.node, CALLABLE):
         return None
     item = _as_item(session, found.node)
     return [item] if item is not None else None
 
 
 def _as_item(session: Session, node: Node) -> lsp.CallHierarchyItem | None:
-    """A state or the like for the list of those that reach each other."""
+    """Convert a node into an item of the call hierarchy."""
     if isinstance(node, Optimization):
         return None
     name = node.name.span  # type: ignore[attr-defined]
@@ -93,35 +93,35 @@ def _as_item(session: Session, node: Node) -> lsp.CallHierarchyItem | None:
     )
 
 
-def _ways_to(
+def _incoming_calls(
     session: Session, params: lsp.CallHierarchyIncomingCallsParams
 ) -> list[lsp.CallHierarchyIncomingCall]:
     return [
         lsp.CallHierarchyIncomingCall(from_=item, from_ranges=ranges)
-        for item, ranges in _ways(session, params.item, ways_to)
+        for item, ranges in _calls(session, params.item, incoming_calls)
     ]
 
 
-def _ways_from(
+def _outgoing_calls(
     session: Session, params: lsp.CallHierarchyOutgoingCallsParams
 ) -> list[lsp.CallHierarchyOutgoingCall]:
     return [
         lsp.CallHierarchyOutgoingCall(to=item, from_ranges=ranges)
-        for item, ranges in _ways(session, params.item, ways_from)
+        for item, ranges in _calls(session, params.item, outgoing_calls)
     ]
 
 
-def _ways(
+def _calls(
     session: Session,
     item: lsp.CallHierarchyItem,
-    ways: Callable[[Workspace, Node], Mapping[Node, Sequence[Span]]],
+    calls: Callable[[Workspace, Node], Mapping[Node, Sequence[Span]]],
 ) -> Iterator[tuple[lsp.CallHierarchyItem, list[lsp.Range]]]:
-    """Where one gets from a state or to it, and by which transitions."""
+    """Yield the elements at the other end of calls, with the ranges of these calls."""
     place = session.place_on_disk(item.uri, item.selection_range.start)
     found = occurrence_at(*place) if place is not None else None
     if place is None or found is None:
         return
-    for node, spans in ways(place[0], found.node).items():
+    for node, spans in calls(place[0], found.node).items():
         other = _as_item(session, node)
         if other is not None:
             yield other, [session.range(span.absolute) for span in spans]
@@ -133,6 +133,6 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT: _highlights,
     lsp.WORKSPACE_SYMBOL: _workspace_symbols,
     lsp.TEXT_DOCUMENT_PREPARE_CALL_HIERARCHY: _prepare_calls,
-    lsp.CALL_HIERARCHY_INCOMING_CALLS: _ways_to,
-    lsp.CALL_HIERARCHY_OUTGOING_CALLS: _ways_from,
+    lsp.CALL_HIERARCHY_INCOMING_CALLS: _incoming_calls,
+    lsp.CALL_HIERARCHY_OUTGOING_CALLS: _outgoing_calls,
 }

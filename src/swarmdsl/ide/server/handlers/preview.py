@@ -1,4 +1,4 @@
-"""The answer to an editor that shows the diagrams of a model: a request beyond the protocol."""
+"""Handler of `swarmdsl/pictures`, an extension of the protocol for the preview."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from swarmdsl.ide.server.session import Session
 
 
 def _pictures(session: Session, params: Any) -> dict[str, Any] | None:
-    """The diagrams of the model that a file belongs to, that of `id` drawn with `folded` nodes."""
+    """Return the diagrams of a model; draw diagram `id` with the nodes in `folded` folded."""
     uri = getattr(getattr(params, "textDocument", None), "uri", None)
     if not isinstance(uri, str):
         raise JsonRpcInvalidParams("the document is missing")
     found = session.file(lsp.TextDocumentIdentifier(uri=uri))
     if found is None:
         return None
-    # Layout and lowering are imported by those who look at pictures.
+    # Layout and lowering are imported on the first request.
     from swarmdsl.ide.preview.pictures import Pictures, pictures
 
     workspace = found[0]

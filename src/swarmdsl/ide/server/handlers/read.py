@@ -1,4 +1,4 @@
-"""Answers about one file for whoever reads it: what a name is, the outline, colours, hints."""
+"""Handlers for reading: hover, outline, semantic tokens, folding, hints, links, lenses."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from lsprotocol import types as lsp
 from swarmdsl.base.source import Span
 from swarmdsl.driver.workspace.references import occurrence_at, occurrences_of, owners
 from swarmdsl.ide.server import symbols
-from swarmdsl.ide.server.code_lens import lenses
-from swarmdsl.ide.server.folding_range import folds
+from swarmdsl.ide.server.code_lens import code_lenses
+from swarmdsl.ide.server.folding_range import folding_ranges
 from swarmdsl.ide.server.hover import hover
-from swarmdsl.ide.server.inlay_hint import hints
-from swarmdsl.ide.server.links import links
+from swarmdsl.ide.server.inlay_hint import inlay_hints
+from swarmdsl.ide.server.links import document_links
 from swarmdsl.ide.server.positions import Position
-from swarmdsl.ide.server.selection_range import selections
+from swarmdsl.ide.server.selection_range import selection_ranges
 from swarmdsl.ide.server.semantic_tokens import changes
 from swarmdsl.ide.server.session import Session
 from swarmdsl.ide.server.symbol_kinds import SYMBOL_KINDS
@@ -40,15 +40,19 @@ def _document_symbols(
     found = session.file(params.text_document)
     if found is None:
         return []
-    before, session.outlined = session.outlined, {}
+    before, session.symbol_cache = session.symbol_cache, {}
     for owner in owners(found[1]):
         start = session.start(owner.span)
         known = before.get(owner)
         if known is None or known[0] != start:
-            told = [_as_symbol(each, session) for each in symbols.symbols_of(owner)]
-            known = (start, told)
-        session.outlined[owner] = known
-    return [each for _, told in sorted(session.outlined.values(), key=_start) for each in told]
+            converted = [_as_symbol(each, session) for each in symbols.symbols_of(owner)]
+            known = (start, converted)
+        session.symbol_cache[owner] = known
+    return [
+        each
+        for _, converted in sorted(session.symbol_cache.values(), key=_start)
+        for each in converted
+    ]
 
 
 def _start(of: tuple[Position, object]) -> Position:
@@ -72,8 +76,8 @@ def _tokens(
     found = session.file(params.text_document)
     if found is None:
         return None
-    data = session.painter.tokens(*found, session.encoding)
-    remembered = session.painter.remember(found[1].source.name, data)
+    data = session.semantic_tokens.tokens(*found, session.encoding)
+    remembered = session.semantic_tokens.remember(found[1].source.name, data)
     return lsp.SemanticTokens(data=data, result_id=remembered)
 
 
@@ -84,7 +88,7 @@ def _token_changes(
     if found is None:
         return None
     name = found[1].source.name
-    before = session.painter.remembered(name, params.previous_result_id)
+    before = session.semantic_tokens.remembered(name, params.previous_result_id)
     answer = _tokens(session, params)
     if before is None or answer is None:
         return answer
@@ -102,31 +106,33 @@ def _tokens_in_range(
     if found is None:
         return None
     part = session.span(found[1], params.range)
-    return lsp.SemanticTokens(data=session.painter.tokens(*found, session.encoding, part))
+    return lsp.SemanticTokens(data=session.semantic_tokens.tokens(*found, session.encoding, part))
 
 
-def _folds(session: Session, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
+def _folding_ranges(session: Session, params: lsp.FoldingRangeParams) -> list[lsp.FoldingRange]:
     found = session.file(params.text_document)
     return [
         lsp.FoldingRange(start_line=each.first, end_line=each.last, kind=each.kind or None)
-        for each in (folds(found[1].source) if found is not None else ())
+        for each in (folding_ranges(found[1].source) if found is not None else ())
     ]
 
 
-def _selections(session: Session, params: lsp.SelectionRangeParams) -> list[lsp.SelectionRange]:
+def _selection_ranges(
+    session: Session, params: lsp.SelectionRangeParams
+) -> list[lsp.SelectionRange]:
     found = session.file(params.text_document)
     if found is None:
         return []
     answers = []
     for at in params.positions:
         answer: lsp.SelectionRange | None = None
-        for span in reversed(selections(found[1], session.offset(found[1], at))):
+        for span in reversed(selection_ranges(found[1], session.offset(found[1], at))):
             answer = lsp.SelectionRange(range=session.range(span), parent=answer)
         answers.append(answer or lsp.SelectionRange(range=lsp.Range(start=at, end=at)))
     return answers
 
 
-def _hints(session: Session, params: lsp.InlayHintParams) -> list[lsp.InlayHint]:
+def _inlay_hints(session: Session, params: lsp.InlayHintParams) -> list[lsp.InlayHint]:
     found = session.file(params.text_document)
     if found is None:
         return []
@@ -138,29 +144,29 @@ def _hints(session: Session, params: lsp.InlayHintParams) -> list[lsp.InlayHint]
             tooltip=hint.about,
             kind=_HINT_KINDS.get(hint.kind),
         )
-        for hint in hints(file, session.span(file, params.range))
+        for hint in inlay_hints(file, session.span(file, params.range))
     ]
 
 
-def _links(session: Session, params: lsp.DocumentLinkParams) -> list[lsp.DocumentLink]:
+def _document_links(session: Session, params: lsp.DocumentLinkParams) -> list[lsp.DocumentLink]:
     found = session.file(params.text_document)
     return [
         lsp.DocumentLink(range=session.range(span), target=session.uri(path))
-        for span, path in (links(found[1]) if found is not None else ())
+        for span, path in (document_links(found[1]) if found is not None else ())
     ]
 
 
-def _lenses(session: Session, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
+def _code_lenses(session: Session, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
     found = session.file(params.text_document)
     if found is None:
         return []
     uri = params.text_document.uri
     answers = []
-    for lens in lenses(found[1]):
+    for lens in code_lenses(found[1]):
         range_ = session.range(lens.name)
         command = f"swarmdsl.{lens.offer}"
         if lens.offer == "references":
-            # They are counted when the line comes into sight.
+            # References are counted in codeLens/resolve, when the lens becomes visible.
             answers.append(lsp.CodeLens(range=range_, data={"uri": uri}))
         elif command in session.commands:
             subject = {"kind": lens.kind, "name": lens.name.text}
@@ -193,10 +199,10 @@ REQUESTS: Mapping[str, Callable[[Session, Any], Any]] = {
     lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL: _tokens,
     lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA: _token_changes,
     lsp.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE: _tokens_in_range,
-    lsp.TEXT_DOCUMENT_FOLDING_RANGE: _folds,
-    lsp.TEXT_DOCUMENT_SELECTION_RANGE: _selections,
-    lsp.TEXT_DOCUMENT_INLAY_HINT: _hints,
-    lsp.TEXT_DOCUMENT_DOCUMENT_LINK: _links,
-    lsp.TEXT_DOCUMENT_CODE_LENS: _lenses,
+    lsp.TEXT_DOCUMENT_FOLDING_RANGE: _folding_ranges,
+    lsp.TEXT_DOCUMENT_SELECTION_RANGE: _selection_ranges,
+    lsp.TEXT_DOCUMENT_INLAY_HINT: _inlay_hints,
+    lsp.TEXT_DOCUMENT_DOCUMENT_LINK: _document_links,
+    lsp.TEXT_DOCUMENT_CODE_LENS: _code_lenses,
     lsp.CODE_LENS_RESOLVE: _resolve_lens,
 }
