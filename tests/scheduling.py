@@ -21,8 +21,8 @@ def unit(nodeid: str) -> str:
 
 @pytest.hookimpl(optionalhook=True)
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
-    """Run each file on one worker for `--dist loadfile`, so that its fixtures are made once."""
-    if config.getoption("dist") != "loadfile":
+    """Run each file on one worker, so that its fixtures are made once."""
+    if config.getoption("dist") != "load":  # the default
         return None
     from xdist.scheduler import LoadFileScheduling
 
