@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 # Files that write to one folder of the checkout, or share a fixture that is slow to make.
-TOGETHER = ("tests/editor/",)
+TOGETHER = ("tests/editors/",)
 
 
 def unit(nodeid: str) -> str:
