@@ -59,6 +59,8 @@ def imported(path: Path) -> Iterator[str]:
 
 def test_generators_import_the_sdk_only() -> None:
     files = [*ROOT.glob("generators/**/*.py"), *PLUGINS.glob("*/**/*.py")]
+    # Modules that generated packages get a copy of are no part of the generator.
+    files = [path for path in files if "runtime" not in path.parts]
     assert len(files) > 50
     others = [
         f"{path.relative_to(ROOT)}: {module}"

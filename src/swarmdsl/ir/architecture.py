@@ -17,7 +17,7 @@ Direction = Literal["in", "out", "inout"]
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """Where data flows in or out; `topic` is the ROS topic behind it."""
+    """Where data enters or leaves; `topic` is the ROS topic behind the port."""
 
     name: str
     direction: Direction
@@ -29,7 +29,7 @@ class Port:
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """A sensor, actuator, controller or virtual component, with all that it inherits.
+    """Sensor, actuator, controller or virtual component, with all that it inherits.
 
     `operations` are names of functions; `behavior` names a state machine.
     """
@@ -48,7 +48,7 @@ class Component:
 
 @dataclass(frozen=True, slots=True)
 class CommunicationSettings:
-    """How a member reaches the others: the technology and its settings."""
+    """Technology by which a member reaches the others, with its settings."""
 
     technology: str
     values: tuple[tuple[str, Expression], ...]
@@ -59,9 +59,9 @@ class CommunicationSettings:
 
 @dataclass(frozen=True, slots=True)
 class Part:
-    """A component in its place in a member; `values` are the params set there.
+    """Component in a member; `values` are the params set there.
 
-    `operations` are names of functions: those of the component, asked of this part.
+    `operations` are names of functions: the component's, called on this part.
     """
 
     name: str
@@ -75,7 +75,7 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class PortRef:
-    """A port of a part, or of the member itself (`part` None)."""
+    """Port of a part, or of the member itself (`part` None)."""
 
     part: str | None
     port: str
@@ -86,7 +86,7 @@ class PortRef:
 
 @dataclass(frozen=True, slots=True)
 class Connector:
-    """Data flows from `source` to `target`."""
+    """Data flow from `source` to `target`."""
 
     source: PortRef
     target: PortRef
@@ -96,7 +96,7 @@ class Connector:
 
 @dataclass(frozen=True, slots=True)
 class PortGroup:
-    """Ports of a member that connectors join, in the order of the model, and their ROS topic."""
+    """Ports of a member that connectors join, in model order, and their ROS topic."""
 
     ports: tuple[PortRef, ...]
     topic: str
@@ -104,7 +104,7 @@ class PortGroup:
 
 @dataclass(frozen=True, slots=True)
 class Member:
-    """A type of robot, with all that it inherits; `behavior` names its state machine.
+    """Type of robot, with all that it inherits; `behavior` names its state machine.
 
     `port_groups` is derived from the connectors.
     """
@@ -125,7 +125,7 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Multiplicity:
-    """How many; `upper` None means any number."""
+    """Number of members; `upper` None means any number."""
 
     lower: int
     upper: int | None
@@ -151,7 +151,7 @@ class Role:
 
 @dataclass(frozen=True, slots=True)
 class Environment:
-    """The world a swarm lives in; `size` is width, depth and perhaps height in metres."""
+    """World of a swarm; `size` is width, depth and perhaps height in metres."""
 
     name: str
     world: str | None

@@ -1,7 +1,7 @@
 """Fields that lowering computes from the rest of the model.
 
-They do not count when nodes are compared: nodes that were not lowered, as those of an importer,
-leave them empty.
+They do not count in comparisons: nodes that were not lowered, such as an importer's, leave
+them empty.
 """
 
 from collections.abc import Mapping

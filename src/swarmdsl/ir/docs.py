@@ -1,6 +1,6 @@
-"""Documentation of what is a line of its own in a model, and here only a value of a node.
+"""Documentation of model lines that are only values in the IR.
 
-The first state of a machine is one, and the effects on entry of a state.
+Examples are the first state of a machine and the effects on entry of a state.
 """
 
 from __future__ import annotations
@@ -11,5 +11,5 @@ Docs = tuple[tuple[str, str], ...]
 
 
 def doc_of(docs: Docs, name: str) -> str:
-    """What is said of one of them; empty where nothing is."""
+    """Return the documentation of one of them, or the empty string."""
     return dict(docs).get(name, "")

@@ -1,4 +1,4 @@
-"""The IR as indented text for a person: what the front end made of a model."""
+"""IR as indented text, for people: the result of the front end."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ _PLAIN = (str, bool, int, float, Enum, *_WRITTEN, *_EXPRESSIONS)
 
 
 def dump(system: System) -> str:
-    """The whole system; fields that are empty or have their default value are left out."""
+    """Return the whole system, without fields that are empty or have their default."""
     return "".join(f"{line}\n" for line in _node(system))
 
 
 def _node(node: Any) -> Iterator[str]:
-    """A node on one line where it fits, else with a line for each of its fields."""
+    """Yield a node on one line if it fits, else with a line for each field."""
     values = dict(_values(node))
     line = " ".join([type(node).__name__, *(f"{name}={v}" for name, v in values.items())])
     if all(isinstance(value, str) for value in values.values()) and len(line) <= _WIDTH:
@@ -45,7 +45,7 @@ def _node(node: Any) -> Iterator[str]:
 
 
 def _values(node: Any) -> Iterator[tuple[str, Any]]:
-    """Fields worth showing: plain ones as text, others as a sequence of nodes."""
+    """Yield the fields to show: plain ones as strings, others as sequences of nodes."""
     for field in fields(node):
         value = getattr(node, field.name)
         if (

@@ -1,8 +1,8 @@
 """Expressions in the language of a target.
 
-One printer serves all targets: a `Dialect` says how operators, names and literals look.
-Parentheses follow the target's own precedence, and wherever comparisons or signs meet,
-so that what is printed never depends on fine points of the target's grammar.
+One printer serves all targets: a `Dialect` defines operators, names and literals.
+Parentheses follow the target's own precedence, and are added wherever comparisons or signs
+meet, so that the output never depends on fine points of the target's grammar.
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ _PRIMARY = 8
 
 @dataclass(frozen=True)
 class Dialect:
-    """How one target writes expressions.
+    """Notation of expressions in one target.
 
-    `operators` renames those the target spells otherwise; `literal`, `variable` and
+    `operators` renames those that the target spells otherwise; `literal`, `variable` and
     `param` print a leaf; `event` is the message of the triggering event; `functions`
-    renames the built-in functions, to `.name` where the target has a property instead, or
+    renames the built-in functions, to `.name` if the target has a property instead, or
     prints a call from its arguments. `modulo` prints `%`, whose result has the sign of the
-    divisor in the language, `quotient` prints `/`, the division of real numbers.
+    divisor in the language; `quotient` prints `/`, the division of real numbers.
     """
 
     literal: Callable[[Literal], str]
@@ -58,12 +58,12 @@ class Dialect:
 
 
 def translate(expression: Expression, dialect: Dialect) -> str:
-    """The expression as text of the target."""
+    """Return the expression in the notation of the target."""
     return _print(expression, dialect)[0]
 
 
 def _print(expression: Expression, dialect: Dialect) -> tuple[str, int]:
-    """Return the text and how strongly it binds."""
+    """Return the string and its binding strength."""
     match expression:
         case Literal():
             text = dialect.literal(expression)
@@ -109,14 +109,14 @@ def _operand(expression: Expression, least: int, dialect: Dialect) -> str:
 
 
 def python_literal(literal: Literal) -> str:
-    """A literal in Python; a duration in seconds, as rospy and rclpy take it."""
+    """Return a Python literal; durations in seconds, as in rospy and rclpy."""
     if literal.type == DURATION:
         return repr(literal.milliseconds / 1000)
     return repr(literal.value)
 
 
 def ecmascript_literal(literal: Literal) -> str:
-    """A literal in ECMAScript; a duration in milliseconds, as SCXML delays are."""
+    """Return an ECMAScript literal; durations in milliseconds, as SCXML delays."""
     if literal.type == DURATION:
         length = literal.milliseconds
         return json.dumps(int(length) if length.is_integer() else length)

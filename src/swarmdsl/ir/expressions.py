@@ -12,7 +12,7 @@ from swarmdsl.syntax.types import DURATION, Type
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """A value written in the model; durations are held in nanoseconds (ROS's unit)."""
+    """Value written in the model; durations are in nanoseconds (ROS's unit)."""
 
     value: bool | int | float | str
     type: Type
@@ -20,7 +20,7 @@ class Literal:
 
     @property
     def milliseconds(self) -> float:
-        """The length of a duration literal."""
+        """Length of a duration literal."""
         assert self.type == DURATION
         assert isinstance(self.value, int)
         return self.value / 1_000_000
@@ -28,7 +28,7 @@ class Literal:
 
 @dataclass(frozen=True, slots=True)
 class VariableRef:
-    """The value of a variable of the machine."""
+    """Value of a variable of the machine."""
 
     name: str
     type: Type
@@ -37,7 +37,7 @@ class VariableRef:
 
 @dataclass(frozen=True, slots=True)
 class ParamRef:
-    """The value of a param of the machine, fixed when the robot starts."""
+    """Value of a param of the machine, fixed when the robot starts."""
 
     name: str
     type: Type
@@ -46,7 +46,7 @@ class ParamRef:
 
 @dataclass(frozen=True, slots=True)
 class EventData:
-    """The message that came with the triggering event."""
+    """Message of the triggering event."""
 
     type: Type
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
@@ -54,7 +54,7 @@ class EventData:
 
 @dataclass(frozen=True, slots=True)
 class FieldAccess:
-    """`base.field`; `type` is None where the message's fields are not known."""
+    """`base.field`; `type` is None if the fields of the message are not known."""
 
     base: Expression
     field: str
@@ -85,7 +85,7 @@ class Binary:
 
 @dataclass(frozen=True, slots=True)
 class Call:
-    """A built-in function: `min`, `max`, `abs`, `sqrt`, `len`."""
+    """Built-in function: `min`, `max`, `abs`, `sqrt`, `len`."""
 
     function: str
     arguments: tuple[Expression, ...]
@@ -97,7 +97,7 @@ Expression = Literal | VariableRef | ParamRef | EventData | FieldAccess | Unary 
 
 
 def subexpressions(expression: Expression) -> Iterator[Expression]:
-    """The expression and all inside it."""
+    """Yield the expression and all inside it."""
     yield expression
     match expression:
         case FieldAccess(base=base):
@@ -113,5 +113,5 @@ def subexpressions(expression: Expression) -> Iterator[Expression]:
 
 
 def reads(expression: Expression) -> set[str]:
-    """Names of the variables an expression reads."""
+    """Return the names of the variables that an expression reads."""
     return {part.name for part in subexpressions(expression) if isinstance(part, VariableRef)}

@@ -1,4 +1,4 @@
-"""Where a value may be too large for what it is stored in."""
+"""Types whose range a computed value may exceed."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from swarmdsl.syntax.types import INTEGERS, STRING, Primitive, Type
 
 
 def bound_of(value: Expression, wanted: Type | None) -> str | None:
-    """The type, of whole numbers or text, whose bounds a value may exceed; None where it cannot.
+    """Return the integer or string type that a value may exceed, or None.
 
-    What is known in advance was checked, and what is only handed on is of the type it has.
+    Constant values are already checked, and values that are only passed on have that type.
     """
     computed = isinstance(value, (Unary, Binary, Call))
     if computed and value.type == STRING:
@@ -20,6 +20,6 @@ def bound_of(value: Expression, wanted: Type | None) -> str | None:
 
 
 def bound_of_any(wanted: Type | None) -> str | None:
-    """The same for a value of which nothing is known."""
+    """Return the same for a value of unknown origin."""
     is_whole = isinstance(wanted, Primitive) and wanted.name in INTEGERS
     return wanted.name if isinstance(wanted, Primitive) and is_whole else None

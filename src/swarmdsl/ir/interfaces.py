@@ -1,4 +1,4 @@
-"""Messages, services, actions, events and the functions a robot offers."""
+"""Messages, services, actions, events and functions of robots."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.syntax.types import Named, Type
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A named piece of data of a message."""
+    """Named field of a message."""
 
     name: str
     type: Type
@@ -23,7 +23,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class Constant:
-    """A named value: of a message, or of an enum (a message of nothing but constants)."""
+    """Named value of a message, or of an enum (a message of constants only)."""
 
     name: str
     type: Type
@@ -34,9 +34,9 @@ class Constant:
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """Fields of a ROS message, or of a struct of the model.
+    """ROS message, or struct of the model.
 
-    `external` means the model only describes it: its package defines it.
+    `external` means that the model only describes it: its package defines it.
     """
 
     type: Named
@@ -49,7 +49,7 @@ class Message:
 
 @dataclass(frozen=True, slots=True)
 class Service:
-    """A ROS service interface."""
+    """ROS service."""
 
     type: Named
     request: tuple[Field, ...]
@@ -61,7 +61,7 @@ class Service:
 
 @dataclass(frozen=True, slots=True)
 class Action:
-    """A ROS action interface."""
+    """ROS action."""
 
     type: Named
     goal: tuple[Field, ...]
@@ -77,7 +77,7 @@ Interface = Message | Service | Action
 
 @dataclass(frozen=True, slots=True)
 class Event:
-    """Something that happens, known by a message on a topic.
+    """Event, known by a message on a topic.
 
     A swarm event (`swarm` true) is published on `topic` by its sender and arrives at the
     other members on `bridge/events/<topic>`, which the swarmros bridge provides.
@@ -92,16 +92,16 @@ class Event:
 
     @property
     def incoming_topic(self) -> str:
-        """The topic on which a member hears of it."""
+        """Topic on which a member receives the event."""
         return incoming_topic(self.topic, self.swarm)
 
 
 @dataclass(frozen=True, slots=True)
 class Param:
-    """A ROS parameter; `default` is None where a value must be given at start.
+    """ROS parameter; `default` is None if a value is required at start.
 
-    That of a state machine is the value on which those agree who behave so; `declared` is the
-    one that the machine says itself, for whoever gives it none.
+    The default of a state machine's param is the value on which all users of the machine agree;
+    `declared` is the machine's own default, used by those that set none.
     """
 
     name: str
@@ -114,7 +114,7 @@ class Param:
 
 @dataclass(frozen=True, slots=True)
 class FunctionPort:
-    """A topic that a function listens to (`in`) or publishes on (`out`)."""
+    """Topic that a function subscribes to (`in`) or publishes on (`out`)."""
 
     direction: Literal["in", "out"]
     topic: str
@@ -125,7 +125,7 @@ class FunctionPort:
 
 @dataclass(frozen=True, slots=True)
 class Communication:
-    """How a function is called: the ROS action or service `name` of interface `type`."""
+    """ROS action or service `name` of interface `type` that calls a function."""
 
     paradigm: Literal["action", "service"]
     name: str
@@ -136,9 +136,9 @@ class Communication:
 
 @dataclass(frozen=True, slots=True)
 class Function:
-    """What a robot can do, as the abstraction or the swarm library offers it.
+    """Capability of a robot, from the abstraction or the swarm library.
 
-    One that is `in_library` comes with a library of models, so that somebody has written it.
+    If it is `in_library`, it comes with a library of models, so an implementation exists.
     """
 
     name: str

@@ -1,4 +1,4 @@
-"""What makes a swarm good, and what may be changed to make it better."""
+"""Fitness of a swarm and the search space of an optimization."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.ir.interfaces import Field, Param
 
 @dataclass(frozen=True, slots=True)
 class Fitness:
-    """A value to make as great or as small as possible, from what a run measured.
+    """Value to maximize or minimize, computed from measurements of a run.
 
     The expression reads inputs as variables.
     """
@@ -30,7 +30,7 @@ class Fitness:
 
 @dataclass(frozen=True, slots=True)
 class ParamRange:
-    """The values a param of the members in a role may take."""
+    """Range of a param of the members in a role."""
 
     role: str
     param: str
@@ -43,7 +43,7 @@ class ParamRange:
 
 @dataclass(frozen=True, slots=True)
 class CountRange:
-    """How many members there may be in a role."""
+    """Range of the number of members in a role."""
 
     role: str
     lower: Expression
@@ -54,10 +54,10 @@ class CountRange:
 
 @dataclass(frozen=True, slots=True)
 class Optimization:
-    """A search for the best swarm.
+    """Search for the best swarm.
 
     `settings` are the number of steps of a run, the number of runs (`evaluations`) and the
-    seed of all chance, as far as they are given.
+    random seed, as far as they are given.
     """
 
     swarm: str

@@ -1,7 +1,7 @@
 """State machines in SCXML's vocabulary, all references by id.
 
 A state's `id` is its path in the machine (`Flying.TakeOff`), unique there. Submachines
-are in place: a state that reuses another machine is a composite state that says so.
+are expanded: a state that reuses another machine is a composite state with `submachine`.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from swarmdsl.syntax.types import Type
 
 
 class StateKind(Enum):
-    """What a state is; a region is a composite state inside a parallel one."""
+    """Kind of a state; a region is a composite state inside a parallel one."""
 
     SIMPLE = "simple"
     COMPOSITE = "composite"
@@ -32,7 +32,7 @@ class StateKind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class EventTrigger:
-    """An event of the system, by name."""
+    """Event of the system, by name."""
 
     event: str
     origin: Span | None = dataclass_field(default=None, compare=False, repr=False)
@@ -40,7 +40,7 @@ class EventTrigger:
 
 @dataclass(frozen=True, slots=True)
 class OutcomeTrigger:
-    """The activity of state `state` ended with `outcome` (succeeded, aborted, preempted)."""
+    """Activity of `state` ended with `outcome` (succeeded, aborted, preempted)."""
 
     state: str
     outcome: str
@@ -72,7 +72,7 @@ Trigger = EventTrigger | OutcomeTrigger | DoneTrigger | TimeTrigger
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
-    """Store a value in a variable or in a field of one (`path` below it)."""
+    """Assignment to a variable or to a field of one (`path` below it)."""
 
     variable: str
     path: tuple[str, ...]
@@ -82,7 +82,7 @@ class Assignment:
 
 @dataclass(frozen=True, slots=True)
 class Send:
-    """Send an event with the fields of its message; fields not named keep their defaults."""
+    """Sending of an event with fields of its message; others keep their defaults."""
 
     event: str
     arguments: tuple[tuple[str, Expression], ...]
@@ -94,7 +94,7 @@ Effect = Assignment | Send
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """From the state that holds it to `target`, an id; None to stay where it is.
+    """Transition from the state that holds it to `target`, an id; None to stay.
 
     Without triggers it is taken as soon as its guard holds: a branch of a choice, the
     default of a history (both without a guard as well), or an eventless transition.
@@ -112,7 +112,7 @@ class Transition:
 
 @dataclass(frozen=True, slots=True)
 class ResultMapping:
-    """Field `field` of the result is stored in a variable or in a field of one."""
+    """Store of field `field` of the result in a variable or in a field of one."""
 
     field: str
     variable: str
@@ -121,7 +121,7 @@ class ResultMapping:
 
 
 class Policy(Enum):
-    """Where the content of a goal, request, result or response comes from (D5.4, 5.2)."""
+    """Source of the content of a goal, request, result or response (D5.4, 5.2)."""
 
     EMPTY = "empty"
     FIXED = "fixed"
@@ -131,10 +131,10 @@ class Policy(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Activity:
-    """The call of a function while the state is active.
+    """Call of a function while the state is active.
 
-    `arguments` fill the goal or request by field name, `results` say where fields of the
-    result or response go; a callback does either in code of the user.
+    `arguments` fill the goal or request by field name, `results` store fields of the
+    result or response; a callback does either in code of the user.
     """
 
     function: str
@@ -147,19 +147,19 @@ class Activity:
 
     @property
     def judges_response(self) -> bool:
-        """Whether the model itself looks at field `success` of a response.
+        """True if the model itself reads field `success` of a response.
 
-        Otherwise a service that says there that it has not succeeded is aborted.
+        Otherwise a service whose response says that it failed counts as aborted.
         """
         return any(result.field == "success" for result in self.results)
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """A vertex of the machine and what is inside it.
+    """Vertex of the machine, with its content.
 
     `initial` is the id of the child entered first (composite state, region).
-    `submachine` names the machine whose states stand here. `deep` is for a history.
+    `submachine` names the machine that is expanded here. `deep` is for a history.
     """
 
     id: str
@@ -197,7 +197,7 @@ class Variable:
 
 @dataclass(frozen=True, slots=True)
 class StateMachine:
-    """A behaviour. `initial` is the id of the state entered first."""
+    """Behaviour. `initial` is the id of the state entered first."""
 
     name: str
     initial: str

@@ -1,4 +1,4 @@
-"""The whole model, ready for generators."""
+"""Whole model, as generators see it."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from swarmdsl.syntax.types import Named
 
 @dataclass(frozen=True, slots=True)
 class System:
-    """Everything that was declared, in the order of the files and of the text in them.
+    """All declarations, in the order of the files and of the text in them.
 
-    `name` is the package of the first file, or its file name where it has none. `standard` are
+    `name` is the package of the first file, or its file name if it has none. `standard` are
     the interfaces of ROS that the model uses and does not describe, with those in their fields;
     `ros_packages` the packages of ROS among those that the model mentions.
     """
@@ -39,24 +39,24 @@ class System:
     ros_packages: tuple[str, ...] = field(default=(), compare=False, metadata=DERIVED)
 
     def event(self, name: str) -> Event:
-        """The event of that name."""
+        """Return the event of that name."""
         return next(event for event in self.events if event.name == name)
 
     def function(self, name: str) -> Function:
-        """The function of that name."""
+        """Return the function of that name."""
         return next(function for function in self.functions if function.name == name)
 
     def interface(self, type_: object) -> Interface | None:
-        """The interface as the model describes it; None if the model does not."""
+        """Return the interface as the model describes it, or None."""
         found = next((known for known in self.interfaces if known.type == type_), None)
         if found is None and isinstance(type_, Named):
             return _message_of_action(type_, self.interfaces)
         return found
 
     def known_interface(self, type_: object, kind: type[Interface] = Message) -> Interface | None:
-        """The interface as the model or, if it does not, as ROS describes it.
+        """Return the interface as the model describes it, else as ROS does.
 
-        Where ROS has several of one name (`nav_msgs/GetMap`), that of class `kind` is preferred.
+        If ROS has several of one name (`nav_msgs/GetMap`), that of class `kind` is preferred.
         """
         described = self.interface(type_)
         if described is not None:
@@ -69,7 +69,7 @@ class System:
 
 
 def _message_of_action(type_: Named, known: tuple[Interface, ...]) -> Message | None:
-    """The message of that name that ROS generates from one of the known actions."""
+    """Return the message that ROS generates from one of the known actions."""
     for generated in generated_from(type_):
         for action in known:
             if isinstance(action, Action) and action.type == generated.action:

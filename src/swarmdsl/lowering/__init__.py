@@ -1,7 +1,7 @@
-"""From syntax trees to the intermediate representation.
+"""Lower syntax trees to the intermediate representation.
 
-A model without errors is taken for granted: nothing is reported here, and a broken
-assertion is a bug in swarmdsl.
+The model must be free of errors: nothing is reported here, and a failed assertion is a bug in
+swarmdsl.
 """
 
 from __future__ import annotations
@@ -53,10 +53,10 @@ def lower(
     name: str | None = None,
     declarations: list[tuple[File, Declaration]] | None = None,
 ) -> ir.System:
-    """The whole project as one system, in the order of files and text.
+    """Return the project as one system, in the order of files and text.
 
-    Its name is that of the first package if none is given. Of libraries it has what the project
-    uses, or the `declarations` that are given, with all that they use.
+    Its name is the first package unless one is given. Of libraries it contains what the project
+    uses, or the given `declarations` with all that they use.
     """
     used = used_declarations(project) if declarations is None else declarations
     context = make_context(project, used)
@@ -114,7 +114,7 @@ def lower(
 
 
 def _with_libraries(functions: Iterable[ir.Function], project: Project) -> tuple[ir.Function, ...]:
-    """The functions, those that come with a library marked."""
+    """Return the functions, with those from libraries marked."""
     libraries = {file.source.name for file in project.files if file.library}
     return tuple(
         replace(function, in_library=True)

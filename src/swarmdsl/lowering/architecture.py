@@ -35,7 +35,7 @@ from swarmdsl.syntax.ast import (
 
 
 def lower_component(component: Component, context: Context) -> ir.Component:
-    """A component with its ports and params."""
+    """Lower a component with its ports and params."""
     return ir.Component(
         name=context.names[component],
         kind=component.kind,
@@ -51,7 +51,7 @@ def lower_component(component: Component, context: Context) -> ir.Component:
 
 
 def lower_member(member: Member, context: Context) -> ir.Member:
-    """A member with its parts and connectors."""
+    """Lower a member with its parts and connectors."""
     ports = _ports(all_items(member, Port), context)
     connectors = tuple(
         ir.Connector(_end(item.source), _end(item.target), item.doc, item.span)
@@ -74,7 +74,7 @@ def lower_member(member: Member, context: Context) -> ir.Member:
 
 
 def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
-    """A swarm with its roles."""
+    """Lower a swarm with its roles."""
     place = next((item for item in swarm.items if isinstance(item, EnvironmentUse)), None)
     fitness = next((item for item in swarm.items if isinstance(item, FitnessUse)), None)
     return ir.Swarm(
@@ -99,7 +99,7 @@ def lower_swarm(swarm: Swarm, context: Context) -> ir.Swarm:
 
 
 def lower_environment(environment: Environment, context: Context) -> ir.Environment:
-    """An environment, lengths in metres."""
+    """Lower an environment, lengths in metres."""
     world = next((item for item in environment.items if isinstance(item, World)), None)
     size = next((item for item in environment.items if isinstance(item, Size)), None)
     return ir.Environment(

@@ -1,4 +1,4 @@
-"""What lowering needs everywhere: names in the system, types of expressions."""
+"""Context of lowering: names in the system, types of expressions."""
 
 from __future__ import annotations
 
@@ -39,18 +39,16 @@ from swarmdsl.syntax.ast import (
 
 @dataclass(frozen=True)
 class Context:
-    """Passed through lowering.
+    """Names and types that all of lowering needs.
 
-    `names` gives each declaration its name in the system: its own, with the package
-    before it where two packages use the same. `operations` gives the functions of operations
+    `names` gives each declaration its name in the system: its own, prefixed with the package
+    if two packages use the same. `operations` gives the functions of operations
     by the namespace of their server, `services` the types of these servers. `heard` gives the
-    events by the topics they are heard on; `monitored` are those among them that are not
-    declared, because a transition monitors their topic.
-    `behaving` are the members and components by machine, `parts` those of members by what
-    they are.
-    In a machine that another one reuses, `variables` and `values` say what its variables
-    are called there and which values its params have. `enums` are the types of the numbers
-    behind enums.
+    events by incoming topic; `monitored` are those of them that exist only because a transition
+    monitors their topic.
+    `behaving` are the members and components by machine, `parts` those of members by component.
+    In a machine that another one reuses, `variables` gives the new names of its variables and
+    `values` the values of its params. `enums` are the integer types of enums.
     """
 
     names: Mapping[Declaration, str]
@@ -66,11 +64,11 @@ class Context:
     enums: Mapping[ir.Named, ir.Primitive] = field(default_factory=dict)
 
     def name(self, ref: Ref[Any]) -> str:
-        """The name of what a resolved reference means."""
+        """Return the name of the target of a resolved reference."""
         return self.names[cast("Declaration", ref.target)]
 
     def function(self, activity: Activity) -> str:
-        """The name of the function that an activity calls."""
+        """Return the name of the function that an activity calls."""
         operation = activity.function.target
         if not isinstance(operation, Operation):
             return self.name(activity.function)
@@ -78,38 +76,38 @@ class Context:
         return self.operations[self.namespace(activity.owner), operation]
 
     def namespace(self, owner: Component | Part) -> str:
-        """Where the servers of its operations are, from the namespace of the robot."""
+        """Return the namespace of the servers of its operations, below the robot's."""
         return str(owner.name) if isinstance(owner, Part) else snake_case(self.names[owner])
 
     def offered(self, owner: Component | Part) -> tuple[str, ...]:
-        """The functions that its operations are, inherited ones first."""
+        """Return the functions of its operations, inherited ones first."""
         namespace = self.namespace(owner)
         return tuple(self.operations[namespace, item] for item in operations_of(owner))
 
     def reusing(
         self, variables: Mapping[Variable, str], values: Mapping[Param, ir.Expression]
     ) -> Context:
-        """The same inside a reused machine."""
+        """Return the context inside a reused machine."""
         return replace(self, variables=variables, values=values)
 
     def with_event(self, type_: ir.Type) -> Context:
-        """The same, where `event` is a message of that type."""
+        """Return the context in which `event` is a message of that type."""
         return replace(self, typing=self.typing.on_event(type_))
 
     def type_of(self, ref: TypeRef) -> ir.Type:
-        """The type a resolved type reference means, an enum's being that of its numbers."""
+        """Return the type of a resolved type reference; for an enum its integer type."""
         assert ref.type is not None
         return self.plain(ref.type)
 
     def plain(self, type_: ir.Type) -> ir.Type:
-        """The same type with the numbers of enums for the enums."""
+        """Return the type with integer types instead of enums."""
         if isinstance(type_, ir.Array):
             return replace(type_, element=self.plain(type_.element))
         return self.enums.get(type_, type_) if isinstance(type_, ir.Named) else type_
 
 
 def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Context:
-    """Name what belongs to the system and gather what is known of types and behaviours."""
+    """Name the declarations of the system and collect types and behaviours."""
     count = Counter(str(declaration.name) for _, declaration in pairs)
     names: dict[Declaration, str] = {}
     behaving: dict[StateMachine, list[Member | Component]] = {}
@@ -162,7 +160,7 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
 
 
 def operation_owners(pairs: Iterable[tuple[File, Declaration]]) -> list[Component | Part]:
-    """What can be asked for operations: the components, then the parts of the members."""
+    """Return the owners of operations: components, then the parts of members."""
     owners = [declaration for _, declaration in pairs]
     return [
         *(owner for owner in owners if isinstance(owner, Component)),
@@ -171,7 +169,7 @@ def operation_owners(pairs: Iterable[tuple[File, Declaration]]) -> list[Componen
 
 
 def operations_of(owner: Component | Part) -> list[Operation]:
-    """The operations of a component, or of the one that a part is."""
+    """Return the operations of a component, or of a part's component."""
     component = owner.component.target if isinstance(owner, Part) else owner
     assert component is not None
     return all_items(component, Operation)
@@ -180,7 +178,7 @@ def operations_of(owner: Component | Part) -> list[Operation]:
 def _monitored(
     pairs: Iterable[tuple[File, Declaration]], declared: Container[str], taken: set[str]
 ) -> Iterator[ir.Event]:
-    """One event for each other topic that is monitored, named after it."""
+    """Yield an event for each other monitored topic, named after the topic."""
     seen: set[str] = set()
     for _, declaration in pairs:
         for node in nodes_of(declaration, MonitorTrigger):

@@ -35,7 +35,7 @@ _ATTRIBUTES: dict[type[Node], str] = {
 
 
 def lower_docs(items: Iterable[Node]) -> ir.Docs:
-    """What is said of such items; those that are nodes in the IR have it there."""
+    """Return the documentation of such items; nodes of the IR have their own."""
     found: dict[str, list[str]] = {}
     for item in items:
         match item:

@@ -1,4 +1,4 @@
-"""Expressions, with their types filled in."""
+"""Lower expressions, with their types filled in."""
 
 from __future__ import annotations
 
@@ -27,18 +27,18 @@ _TYPES = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
 
 
 def lower_optional(expression: Expression | None, context: Context) -> ir.Expression | None:
-    """An expression, or None where there is none."""
+    """Lower an expression, or return None if there is none."""
     return None if expression is None else lower_expression(expression, context)
 
 
 def lower_expression(expression: Expression, context: Context) -> ir.Expression:
-    """An expression that was parsed and checked."""
+    """Lower an expression that was parsed and checked."""
     assert expression.tree is not None
     return _lower(expression.tree, context)
 
 
 def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str, ...]]:
-    """A place to store a value: the variable and the fields below it."""
+    """Return the assigned variable and the fields below it."""
     tree = expression.tree
     path: list[str] = []
     while isinstance(tree, FieldUse):
@@ -50,7 +50,7 @@ def lower_path(expression: Expression, context: Context) -> tuple[str, tuple[str
 
 
 def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
-    """An expression; its type follows from its parts, which may stand for other values here."""
+    """Lower an expression; params may have values here, so types are computed anew."""
     match tree:
         case Value():
             return _literal(tree)
@@ -80,7 +80,7 @@ def _lower(tree: ExpressionTree, context: Context) -> ir.Expression:
 
 
 def _constant(constant: Constant, at: Span, context: Context) -> ir.Literal:
-    """The value of a constant: its expression could be that of others, again and again."""
+    """Return the value of a constant as a literal, not its expression."""
     value = context.typing.folding.constant(constant)
     assert value is not None
     if constant.type.type == DURATION:
@@ -111,7 +111,7 @@ def _result(
 
 
 def _unary(operator: str, operand: ir.Expression, type_: ir.Type | None, at: Span) -> ir.Expression:
-    """An operator before its operand; with a number it makes another number."""
+    """Lower a prefix operator; a sign before a number gives a literal."""
     if operator == "-" and isinstance(operand, ir.Literal) and not isinstance(operand.value, str):
         return replace(operand, value=-operand.value, origin=at)
     return ir.Unary(operator, operand, type_, at)

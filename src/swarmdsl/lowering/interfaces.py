@@ -1,4 +1,4 @@
-"""Interfaces, events and functions."""
+"""Lower interfaces, events and functions."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def lower_interface(
     file: File,
     context: Context,
 ) -> ir.Interface:
-    """A message, service or action; a struct is a message of the model."""
+    """Lower a message, service or action; a struct is a message of the model."""
     type_ = interface_name(file, declaration.name)
     external = "/" in declaration.name
     doc, origin = declaration.doc, declaration.name.span
@@ -65,7 +65,7 @@ def lower_interface(
 
 
 def _values(enum: EnumType) -> tuple[ir.Constant, ...]:
-    """An enum is, in ROS, a message of constants."""
+    """Return the constants of an enum, which in ROS is a message of constants."""
     known, type_ = numbers(enum), underlying(enum)
     return tuple(
         ir.Constant(
@@ -90,7 +90,7 @@ def _constant(constant: Constant, context: Context) -> ir.Constant:
 
 
 def lower_services(component: Component, context: Context) -> Iterator[ir.Service]:
-    """The services that the component's own operations are, in its package."""
+    """Yield the services of the component's own operations, in its package."""
     for operation in component.items:
         if not isinstance(operation, Operation):
             continue
@@ -113,7 +113,7 @@ def lower_services(component: Component, context: Context) -> Iterator[ir.Servic
 
 
 def lower_operations(owner: Component | Part, context: Context) -> Iterator[ir.Function]:
-    """The functions that ask a component or a part for its operations, inherited ones first."""
+    """Yield the functions of an owner's operations, inherited ones first."""
     namespace = context.namespace(owner)
     for operation in operations_of(owner):
         origin = operation.name.span
@@ -124,7 +124,7 @@ def lower_operations(owner: Component | Part, context: Context) -> Iterator[ir.F
 
 
 def lower_event(event: Event, context: Context) -> ir.Event:
-    """An event; its topic is its name where none is given."""
+    """Lower an event; its topic defaults to its name."""
     return ir.Event(
         name=context.names[event],
         type=context.type_of(event.type),
@@ -136,7 +136,7 @@ def lower_event(event: Event, context: Context) -> ir.Event:
 
 
 def lower_function(function: Function, context: Context) -> ir.Function:
-    """A function with how it is called."""
+    """Lower a function with its call."""
     call = next(item for item in function.items if isinstance(item, Communication))
     type_ = context.type_of(call.type)
     assert isinstance(type_, ir.Named)
@@ -158,7 +158,7 @@ def lower_function(function: Function, context: Context) -> ir.Function:
 
 
 def lower_params(items: Iterable[object], context: Context) -> tuple[ir.Param, ...]:
-    """The params among the items of a declaration."""
+    """Return the params among the items of a declaration."""
     return tuple(
         ir.Param(
             str(item.name),

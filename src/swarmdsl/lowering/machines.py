@@ -1,4 +1,4 @@
-"""State machines: ids, submachines put in place, references by id."""
+"""Lower state machines: ids, expanded submachines, references by id."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ from swarmdsl.syntax.ast import (
 
 
 def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
-    """A machine as a behaviour of its own, the machines it reuses in place."""
+    """Lower a machine as a behaviour, with the machines that it reuses expanded."""
     params = _params(machine, context)
     builder = _Builder({param.name for param in params})
     frame = Frame(_ids(machine, ""), context)
@@ -65,7 +65,7 @@ def lower_machine(machine: StateMachine, context: Context) -> ir.StateMachine:
 
 
 class _Builder:
-    """Builds the states of one machine and gathers the variables of those it reuses."""
+    """Builder of one machine's states, which collects variables of reused machines."""
 
     def __init__(self, taken: set[str]) -> None:
         self.variables: list[ir.Variable] = []
@@ -74,7 +74,7 @@ class _Builder:
     def add_variables(
         self, machine: StateMachine, prefix: str, context: Context
     ) -> dict[Variable, str]:
-        """Add a machine's variables, named after the state that reuses it; return the names."""
+        """Add a reused machine's variables, named after the state; return the names."""
         names: dict[Variable, str] = {}
         for item in machine.items:
             if isinstance(item, Variable):
@@ -95,7 +95,7 @@ class _Builder:
         return names
 
     def states(self, container: Container, frame: Frame) -> tuple[ir.State, ...]:
-        """The states directly inside a container."""
+        """Return the states directly inside a container."""
         return tuple(self._state(state, frame) for state in vertices(container))
 
     def _state(self, state: Vertex, frame: Frame) -> ir.State:
@@ -199,7 +199,7 @@ def _first_values(names: Mapping[Variable, str], context: Context) -> Iterator[i
 
 
 def _ids(container: Container, prefix: str) -> dict[Vertex | Region, str]:
-    """Paths of all states of a machine below `prefix`, those of reused machines left out."""
+    """Return the paths of a machine's states below `prefix`, without reused machines."""
     found: dict[Vertex | Region, str] = {}
     for inside in (*vertices(container), *regions(container)):
         path = f"{prefix}.{inside.name}" if prefix else str(inside.name)
@@ -216,9 +216,9 @@ def _initial(container: Container) -> Vertex:
 
 
 def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
-    """The params a machine runs with: its own, and those of its members that it uses.
+    """Return the params of a machine: its own, and those of its members that it uses.
 
-    A default is that of the members and components which behave so, where they agree.
+    A default is that of the members and components with this behaviour, if they agree.
     """
     own = [item for item in machine.items if isinstance(item, Param)]
     used = {use.target for use in nodes_of(machine, NameUse) if isinstance(use.target, Param)}
@@ -238,7 +238,7 @@ def _params(machine: StateMachine, context: Context) -> tuple[ir.Param, ...]:
 def _values(
     owner: Member | Component, context: Context
 ) -> Iterator[dict[str, ir.Expression | None]]:
-    """The values of an owner's params: for a component, in each part that is one."""
+    """Yield the values of an owner's params: for a component, in each of its parts."""
     defaults = {
         param.name: param.default for param in lower_params(all_items(owner, Param), context)
     }

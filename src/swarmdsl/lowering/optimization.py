@@ -1,4 +1,4 @@
-"""Fitness and optimization."""
+"""Lower fitness and optimizations."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from swarmdsl.syntax.ast import (
 
 
 def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
-    """A fitness with its inputs and params."""
+    """Lower a fitness with its inputs and params."""
     objective = next(item for item in fitness.items if isinstance(item, Objective))
     return ir.Fitness(
         name=context.names[fitness],
@@ -38,7 +38,7 @@ def lower_fitness(fitness: Fitness, context: Context) -> ir.Fitness:
 
 
 def lower_optimization(optimization: Optimization, context: Context) -> ir.Optimization:
-    """What an optimiser may vary."""
+    """Lower an optimization with its search space."""
     return ir.Optimization(
         swarm=context.name(optimization.swarm),
         params=tuple(

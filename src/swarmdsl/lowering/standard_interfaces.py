@@ -18,7 +18,7 @@ from swarmdsl.syntax.ast import ActionType, Constant, Field, MessageType, Servic
 def with_standard_interfaces(system: ir.System) -> ir.System:
     """Return the system with the interfaces and packages of ROS that it mentions.
 
-    The interfaces in fields of those are included.
+    The interfaces in their fields are included.
     """
     described = {each.type: each for each in system.interfaces}
     pending = list(_mentioned(system))
@@ -88,7 +88,7 @@ def _named(type_: ir.Type) -> Iterator[ir.Named]:
 
 @cache
 def _lowered(type_: ir.Named) -> tuple[ir.Interface, ...]:
-    """Return the message, service and action of that name, as far as ROS has them."""
+    """Return the message, service and action of that name that ROS has."""
     found = (standard.lookup(type_, kind) for kind in INTERFACE_KINDS)
     return tuple(_interface(type_, node) for node in found if node is not None)
 

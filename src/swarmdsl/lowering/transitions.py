@@ -1,4 +1,4 @@
-"""What is on a state: transitions, effects on entry and exit, the activity."""
+"""Lower the content of states: transitions, entry and exit effects, activity."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from swarmdsl.syntax.ast import (
 
 @dataclass(frozen=True)
 class Frame:
-    """One use of a machine: the ids of its states there, and what its names mean."""
+    """One use of a machine: the ids of its states there, and its names."""
 
     ids: Mapping[Vertex | Region, str]
     context: Context
@@ -44,7 +44,7 @@ class Frame:
 def lower_effects(
     state: State | Parallel, kind: type[Entry] | type[Exit], frame: Frame
 ) -> tuple[ir.Effect, ...]:
-    """The effects on entry or on exit of a state."""
+    """Lower the effects on entry or on exit of a state."""
     return tuple(
         _effect(effect, frame.context)
         for item in state.items
@@ -54,7 +54,7 @@ def lower_effects(
 
 
 def lower_transitions(state: State | Parallel, frame: Frame) -> tuple[ir.Transition, ...]:
-    """The transitions that a state holds."""
+    """Lower the transitions of a state."""
     items = [item for item in state.items if isinstance(item, Transition)]
     return tuple(made for item in items for made in _transition(item, state, frame))
 
@@ -62,10 +62,10 @@ def lower_transitions(state: State | Parallel, frame: Frame) -> tuple[ir.Transit
 def _transition(
     transition: Transition, owner: State | Parallel, frame: Frame
 ) -> Iterator[ir.Transition]:
-    """One transition; two where one of the triggers is the completion of a simple state.
+    """Lower a transition; two if one trigger is the completion of a simple state.
 
-    A state that does nothing and has nothing in it is complete at once (UML 2.5.1, 14.2.3.4):
-    a transition on that is one without trigger.
+    A state without activity and content is complete at once (UML 2.5.1, 14.2.3.4):
+    a transition on that has no trigger.
     """
     context = frame.context
     types = [_message_type(trigger, context) for trigger in transition.triggers]
@@ -110,7 +110,7 @@ def _at_once(trigger: Trigger, owner: State | Parallel) -> bool:
 
 
 def lower_branch(branch: Branch, frame: Frame) -> ir.Transition:
-    """A branch of a choice."""
+    """Lower a branch of a choice."""
     return ir.Transition(
         triggers=(),
         guard=lower_optional(branch.guard, frame.context),
@@ -157,7 +157,7 @@ def _effect(effect: Effect, context: Context) -> ir.Effect:
 
 
 def lower_activity(state: State, frame: Frame) -> ir.Activity | None:
-    """What a simple state does, if anything."""
+    """Lower the activity of a simple state, if it has one."""
     found = next((item for item in state.items if isinstance(item, Activity)), None)
     if found is None:
         return None
