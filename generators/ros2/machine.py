@@ -89,7 +89,7 @@ class Table:
     def _on_entry(self, state: State, around: State | None) -> list[Source]:
         found = []
         final = state.kind is StateKind.FINAL
-        if final and around is not None and around.id in self._events.told_apart:
+        if final and around is not None and around.id in self._events.by_final_state:
             event = self._module.new_event(self._events.final(state.id))
             line = f"{STEP}machine.raise_event({event})"
             found.append(self._module.function("tell", state.id, BOTH, [line], state.origin))

@@ -1,6 +1,6 @@
-"""What the author of a generator needs, and nothing else.
+"""Types that a generator is made of.
 
-A generator is data and one pure function: from the IR of a system to files. It never
+A generator is data and one pure function, from the IR of a system to files. It never
 touches the disk; the core checks the paths, finds collisions and writes.
 """
 
@@ -26,8 +26,8 @@ V = TypeVar("V", str, bool, int)
 class Feature(Enum):
     """Constructs of state machines that a target may be unable to express.
 
-    The value is how a diagnostic names the construct. What every target must express
-    (simple and final states, transitions on outcomes and events) is not listed.
+    The value names the construct in diagnostics. Simple and final states, and transitions on
+    outcomes and events, are not listed: every target must express them.
     """
 
     COMPOSITE = "a composite state"
@@ -56,7 +56,7 @@ ALL_FEATURES = frozenset(Feature)
 
 
 class Support(Enum):
-    """How a target has a construct: it has the like, it is made of others, or it is reported."""
+    """Support of a construct: native, made of other constructs, or reported."""
 
     EXACT = "exact"
     EMULATED = "emulated"
@@ -65,7 +65,7 @@ class Support(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Mapped:
-    """What becomes of a construct in a target, or why it is rejected and with which code."""
+    """Translation of a construct in a target, or the reason and code of its rejection."""
 
     construct: str
     support: Support
@@ -74,14 +74,14 @@ class Mapped:
 
 @dataclass(frozen=True, slots=True)
 class OutputFile:
-    """A file to be written below the target's output folder.
+    """File to write below the target's output folder.
 
-    `path` is relative, with `/` and no `..`. A file with `keep` is there to be filled in: once
-    somebody has written in it, it is left as it is. `owner` is the element of the model that it
-    is for, whose name is in its path. `facts` are what code in it builds on, a fact a line; the
-    mark of them (`fits`) is in the text. `origin` is the place in the model that gave the file
-    its name: where a clash of two names is shown, and where lines come from of which nothing
-    else is known; a `MappedText` knows more (see `swarmdsl.codegen.source_map`).
+    `path` is relative, with `/` and no `..`. A file with `keep` is a stub for the user to fill in:
+    once edited, it is not overwritten. `owner` is the element of the model that the file is for,
+    whose name is in its path. `facts` are the facts of the model that code in it relies on, one a
+    line; the text contains their mark (`fits`). `origin` is the place in the model that gave the
+    file its name: it is shown if two paths clash, and it is the origin of lines without one of
+    their own. A `MappedText` knows more (see `swarmdsl.codegen.source_map`).
     """
 
     path: str
@@ -95,7 +95,7 @@ class OutputFile:
 
 @dataclass(frozen=True)
 class NoOptions:
-    """The options of a generator that has none."""
+    """Options of a generator that has none."""
 
 
 def option(
@@ -106,28 +106,28 @@ def option(
     beside: str = "",
     only: str = "",
 ) -> Any:
-    """A field of an options class: its default, what it is for, the values it may take.
+    """Return a field of an options class: default, help text, and the values allowed.
 
-    `beside` is for one that is true where nothing else is said and another target is built too:
-    `skeleton.ros=1` is target `skeleton` with its option `ros` at 1. `only` is for one that counts
-    only where another of the same target has a value, as `ros=1`.
+    `beside` makes the default true if another target is built too: `skeleton.ros=1` is target
+    `skeleton` with its option `ros` at 1. An option with `only`, such as `ros=1`, counts only if
+    that option of the same target has that value.
 
-    `check` is called with a value of the option's type that somebody gave, and returns what
-    is wrong with it, in words, or None. It is reported where the value stands.
+    `check` is called with a given value of the option's type. It returns an error message, which
+    is reported where the value is given, or None.
     """
     about = {"help": text, "choices": choices, "check": check, "beside": beside, "only": only}
-    # The data classes of Python, which are slow to import, take no fields but their own.
+    # Python's dataclasses, slow to import, accept only their own fields.
     python = sys.modules.get("dataclasses")
     return (python.field if python is not None else field)(default=default, metadata=about)
 
 
 def all_machines(system: System) -> tuple[StateMachine, ...]:
-    """Every state machine of the system."""
+    """Return every state machine of the system."""
     return system.machines
 
 
 def chosen_machines(system: System) -> list[StateMachine]:
-    """The machines that get a node: the behaviours there are, or all when there is none."""
+    """Return the machines that get a node: the behaviours, or all if there is none."""
     used = {member.behavior for member in system.members}
     used |= {component.behavior for component in system.components}
     used.discard(None)
@@ -138,9 +138,9 @@ Emit = Callable[[System, Any, Diagnostics], Iterable[OutputFile]]
 
 
 def emit_of(module: str) -> Emit:
-    """The function `emit` of a module that is imported when it is called.
+    """Return function `emit` of a module that is imported on the first call.
 
-    Whoever checks the options of a project needs no more than these.
+    Checking the options of a project then needs no more than the registration.
     """
 
     def emit(system: System, options: Any, report: Diagnostics) -> Iterable[OutputFile]:
@@ -152,15 +152,14 @@ def emit_of(module: str) -> Emit:
 
 @dataclass(frozen=True)
 class Generator:
-    """One target.
+    """Target: its name, options, constructs and function.
 
     `emit(system, options, report)` returns the files; `options` is an instance of
     `options_type`, a frozen dataclass of str, bool and int fields made with `option`.
-    What it finds wrong with the model goes to `report`. Before it is called the core has
-    reported every construct outside `supports` in the machines that `machines(system)`
-    names, those it writes, and does not call it when there is one. `mapping` says what becomes
-    of each construct, for `swarmc targets`; `mapping_with` the same by the value of an option, as
-    `ros=2`, with which that is something else.
+    Problems of the model go to `report`. `machines(system)` are the machines that the target
+    writes: if one of them uses a construct outside `supports`, the core reports it and does not
+    call `emit`. `mapping` is the table of constructs that `swarmc targets` prints; `mapping_with`
+    gives other tables by the value of an option, such as `ros=2`.
     """
 
     target: str

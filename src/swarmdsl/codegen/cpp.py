@@ -1,6 +1,6 @@
-"""Expressions in C++ (C++11 and later): what roscpp and rclcpp code can hold.
+"""Expressions in C++ (C++11 and later), for roscpp and rclcpp.
 
-Needs `<algorithm>`, `<cmath>` and `<string>`. Numbers are computed as in the language:
+The code needs `<algorithm>`, `<cmath>` and `<string>`. Numbers behave as in the language:
 `/` is the division of real numbers, `%` has the sign of the divisor.
 """
 
@@ -20,7 +20,7 @@ _LARGEST_INT = 2**31 - 1
 
 
 def dialect(variable: Callable[[str], str], param: Callable[[str], str], event: str) -> Dialect:
-    """How expressions are written, given the texts for variables, params and the event."""
+    """Return the dialect, given the printers of variables and params and the event."""
     return Dialect(
         literal=literal,
         variable=variable,
@@ -40,7 +40,7 @@ def dialect(variable: Callable[[str], str], param: Callable[[str], str], event: 
 
 
 def literal(value: Literal) -> str:
-    """A literal; a duration in seconds, as `ros::Duration` takes it."""
+    """Return a C++ literal; durations in seconds, as in `ros::Duration`."""
     if value.type == DURATION:
         return repr(value.milliseconds / 1000)
     match value.value:
@@ -57,13 +57,13 @@ def literal(value: Literal) -> str:
 def _character(character: str) -> str:
     if character in '"\\?':  # `??/` would be a trigraph
         return f"\\{character}"
-    # Octal ends after three digits; a hexadecimal escape would take what follows it too.
+    # An octal escape ends after three digits; a hexadecimal one would include what follows.
     return (
         character if character.isprintable() else "".join(f"\\{b:03o}" for b in character.encode())
     )
 
 
 def _extreme(name: str, values: Sequence[str]) -> str:
-    """The least or greatest of several: real numbers, so that they are of one type."""
+    """Return the minimum or maximum of values cast to double, so that types agree."""
     numbers = ", ".join(f"static_cast<double>({value})" for value in values)
     return f"std::{name}({{{numbers}}})"

@@ -1,4 +1,4 @@
-"""From the IR to the files of each requested target, which its generator makes."""
+"""Run the generators of the requested targets on the IR."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from swarmdsl.codegen.features import unsupported
 from swarmdsl.codegen.options import options_of, parse_options
 from swarmdsl.ir import System
 
-# What a target cannot do, whatever it is asked for.
+# Errors of a target that no option avoids.
 _UNABLE = frozenset({"unsupported-construct", "bad-identifier", "generator-failed"})
 
 Output = dict[str, list[OutputFile]]
@@ -27,10 +27,10 @@ _Made = TypeVar("_Made")
 
 @dataclass(frozen=True)
 class Request:
-    """A target to build and its options, as text; `places` are those of the options.
+    """Target to build, with its options as strings and the `places` of the options.
 
-    One that is not `required` is left out, with a warning, when it cannot express the model
-    or does not work, as long as another one can.
+    If it is not `required` and cannot express the model or fails, it is left out with a warning,
+    as long as another target succeeds.
     """
 
     target: str
@@ -40,7 +40,7 @@ class Request:
 
 
 def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Output:
-    """What the requested targets make of the system; incomplete when errors were reported."""
+    """Return the files of the requested targets; incomplete if errors were reported."""
     output: Output = {}
     left_out: dict[str, Diagnostics] = {}
     merged = _merged(requests, report)
@@ -54,7 +54,7 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
         if files is not None:
             output[request.target] = files
     for target, found in left_out.items():
-        # Something is left out of what is built; where nothing is built, it is missing.
+        # A warning if another target is built, else the errors.
         if output:
             _report_left_out(target, found, report)
         else:
@@ -64,7 +64,7 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
 
 
 def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
-    """One request a target; two may add to each other but not differ."""
+    """Return one request a target; duplicates may add options but not contradict."""
     merged: dict[str, Request] = {}
     for request in requests:
         known = merged.setdefault(request.target, request)
@@ -85,7 +85,7 @@ def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
 def _emit_target(
     system: System, request: Request, built: Iterable[Request], report: Diagnostics
 ) -> list[OutputFile] | None:
-    """The files of one of the targets that are built."""
+    """Return the files of one of the `built` targets, or None if it fails."""
     generator = registry.load(request.target)
     if generator is None:
         hint = registry.similar_target(request.target)
@@ -117,7 +117,7 @@ def _emit_target(
 
 
 def _implied(generator: Generator, request: Request, built: Iterable[Request]) -> dict[str, str]:
-    """The options that are true because of what else is built."""
+    """Return the options that are true because of another target in the build."""
     options = options_of(generator)
     beside = {name: each.beside for name, each in options.items() if each.beside}
     if not beside:
@@ -129,7 +129,7 @@ def _implied(generator: Generator, request: Request, built: Iterable[Request]) -
 
 
 def _all(request: Request) -> Iterable[tuple[str, str]]:
-    """The options of a target, as they are without anything else being said or as given."""
+    """Return the options of a target: defaults, overridden by the given ones."""
     generator = registry.load(request.target)
     known = options_of(generator) if isinstance(generator, Generator) else {}
     return {**{name: str(each.default) for name, each in known.items()}, **request.options}.items()
@@ -138,12 +138,12 @@ def _all(request: Request) -> Iterable[tuple[str, str]]:
 def _run(
     generator: Generator, make: Callable[[], Iterable[_Made]], report: Diagnostics
 ) -> list[_Made] | None:
-    """What a generator makes; None when it fails."""
+    """Return the results of a generator's function, or None if it fails."""
     if generator.target in registry.BUILT_IN:
         return list(make())
     try:
         return list(make())
-    # A mistake in the code of others is not a bug of swarmdsl and must not look like one.
+    # A bug in third-party code must not look like one of swarmdsl.
     except (Exception, SystemExit) as error:
         reason = describe_exception(f"running the generator of target {generator.target}", error)
         _report_broken(generator.target, reason, report)
@@ -185,7 +185,7 @@ def _report_left_out(target: str, found: Diagnostics, report: Diagnostics) -> No
 
 
 def _check_collisions(output: Output, report: Diagnostics) -> None:
-    """Report files that would be the same file, or a file where another needs a folder."""
+    """Report equal paths, and files where another path needs a folder."""
     files: dict[str, OutputFile] = {}
     folders: dict[str, OutputFile] = {}
     for target, made in output.items():

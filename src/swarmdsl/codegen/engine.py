@@ -1,4 +1,4 @@
-"""Source code of the state machine engine, which generated packages carry a copy of."""
+"""Source code of the state machine engine, copied into generated packages."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Which constructs of state machines a system uses, and where.
+"""Uses of constructs of state machines, by feature and place.
 
-A target that cannot express one of them is stopped before its generator runs.
+If a target cannot express one of them, its generator does not run.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ _KINDS = {
 
 
 def used_features(system: System) -> Iterator[Use]:
-    """Every use of a feature, in document order."""
+    """Yield every use of a feature, in document order."""
     for machine in system.machines:
         yield from _in_machine(machine)
 
 
 def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) -> Iterator[Use]:
-    """The uses of what a target does not support, one a cause."""
+    """Yield the uses that a target does not support, one for each cause."""
     for machine in machines:
         causes = _causes_of_entering(machine)
         for feature, place in _in_machine(machine):
@@ -57,7 +57,7 @@ def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) 
 
 
 def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]]:
-    """What makes a transition lead into a state and is a use of a feature itself."""
+    """Map transitions into a state to the features that make them so."""
     histories = {state.id for state in machine.walk() if state.kind is StateKind.HISTORY}
     found: dict[Span | None, set[Feature]] = {}
     for state in machine.walk():
@@ -67,7 +67,7 @@ def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]
                 causes.add(Feature.INTERNAL)
             if state.id in histories or transition.target in histories:
                 causes.add(Feature.HISTORY)
-    # Transitions without a place cannot be told apart.
+    # Transitions without an origin cannot be distinguished.
     found.pop(None, None)
     return found
 
@@ -77,7 +77,7 @@ def _in_machine(machine: StateMachine) -> Iterator[Use]:
         yield Feature.PARAM, param.origin
     for variable in machine.variables:
         yield Feature.VARIABLE, variable.origin
-    # A state's id leads to the id of the state around it: None at the top.
+    # State id -> id of the enclosing state, None at the top.
     parents: dict[str, str | None] = {state.id: None for state in machine.states}
     for state in machine.walk():
         parents.update((child.id, state.id) for child in state.states)
@@ -111,7 +111,7 @@ def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
 
 
 def _around(state: str, parents: dict[str, str | None]) -> list[str | None]:
-    """The states that one is in, the nearest first; last the machine, as None."""
+    """Return the ids of the enclosing states, innermost first, then None."""
     found: list[str | None] = [parents[state]]
     while found[-1] is not None:
         found.append(parents[found[-1]])

@@ -1,4 +1,4 @@
-"""The options of a target: from text on a command line to the generator's options dataclass."""
+"""Options of a target: from strings to the generator's options dataclass."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _TAKES = {str: "text", int: "a whole number", bool: "`true` or `false`"}
 
 @dataclass(frozen=True)
 class Option:
-    """What can be said about an option of a target."""
+    """Description of an option of a target."""
 
     name: str
     type: type
@@ -33,11 +33,11 @@ class Option:
 
     @property
     def takes(self) -> str:
-        """The values it takes, in words."""
+        """Allowed values, for people."""
         return listed(list(self.choices)) if self.choices else _TAKES[self.type]
 
     def parse(self, text: str) -> str | bool | int | None:
-        """The value that a text stands for, None for one that the option does not take."""
+        """Return the value of a string, or None if the option does not allow it."""
         if self.choices and text not in self.choices:
             return None
         if self.type is bool:
@@ -48,7 +48,7 @@ class Option:
 
 
 def options_of(generator: Generator) -> dict[str, Option]:
-    """The options of a target by name."""
+    """Return the options of a target by name."""
     return _options(generator.options_type)
 
 
@@ -82,10 +82,10 @@ def parse_options(
     *,
     is_all: bool = True,
 ) -> object:
-    """The generator's options with what was given; defaults where that is wrong and reported.
+    """Return the generator's options; report wrong values and use defaults for them.
 
-    `places` are those of the values: in the project file, or on the command line. Where that is
-    not all, more can be given elsewhere.
+    `places` are the origins of the values: in the project file, or on the command line. If not
+    `is_all`, further options can be given elsewhere.
     """
     places = places or {}
     known = options_of(generator)
@@ -120,7 +120,7 @@ def _passes(
     place: Span | None,
     report: Diagnostics,
 ) -> bool:
-    """Whether the generator finds nothing wrong with a value; reported otherwise."""
+    """Return True if the generator accepts a value; report the fault otherwise."""
     if option.check is None:
         return True
     try:
@@ -128,7 +128,7 @@ def _passes(
     except Exception as error:
         if generator.target in BUILT_IN:
             raise
-        # A mistake in the code of others is not a bug of swarmdsl.
+        # A bug in third-party code is not one of swarmdsl.
         fault = describe_exception(f"checking an option of target {generator.target}", error)
         reason = f"its check of option `{option.name}` ends with {fault}"
         report.report("generator-failed", place, target=generator.target, reason=reason)

@@ -1,4 +1,4 @@
-"""Python source text: calls laid out as a formatter would, literals, model text in comments."""
+"""Python source text: calls laid out as by a formatter, literals, comments."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _STEP = "    "
 
 @dataclass(frozen=True)
 class Source:
-    """An expression that is Python text already."""
+    """Expression that is Python text already."""
 
     text: str
 
 
 @dataclass(frozen=True)
 class Call:
-    """A call; arguments are `Source`, `Call`, or plain values written as literals."""
+    """Call; arguments are `Source`, `Call`, or plain values written as literals."""
 
     function: str
     arguments: tuple[object, ...] = ()
@@ -33,32 +33,32 @@ class Call:
 def layout(
     value: object, indent: int = 0, before: str = "", after: str = "", width: int = WIDTH
 ) -> str:
-    """The value as an expression, broken over lines where it does not fit in one.
+    """Return the value as an expression, broken over lines if it is too long.
 
-    `indent` is the depth of the line it stands in, `before` and `after` what else is in it.
+    `indent` is the depth of its line, `before` and `after` are the rest of the line.
     """
     return _laid_out(_written(value), indent, before, after, width)
 
 
 def one_line(value: object) -> str:
-    """The value as an expression on one line."""
+    """Return the value as an expression on one line."""
     return _flat(_written(value))
 
 
 class _Written(NamedTuple):
-    """An expression on one line, and the parts that can have lines of their own."""
+    """Expression on one line, and the parts that can have lines of their own."""
 
     flat: str
     opening: str
     items: Sequence[tuple[str, _Written | str]]
-    """Each with what stands before it."""
+    """Each with its prefix."""
     closing: str
     together: str | None = None
-    """All items on one line, where they may share one: those of a call."""
+    """All items on one line; only arguments of a call may share one."""
 
 
 def _written(value: object) -> _Written | str:
-    """An expression; one without parts is only its text."""
+    """Return an expression; one without parts is only a string."""
     if isinstance(value, (str, int, float)):
         return repr(value)
     if isinstance(value, Source):
@@ -110,31 +110,31 @@ def _laid_out(written: _Written | str, indent: int, before: str, after: str, wid
 
 
 def comment_lines(text: str) -> list[str]:
-    """Text of the model as lines for comments."""
+    """Return text of the model as lines for comments."""
     return [line.rstrip() for line in text.strip().splitlines()]
 
 
 def comments(origin: Span | None, doc: str = "") -> tuple[str, ...]:
-    """Where something stands in the model and what is said of it there, a comment a line."""
+    """Return the origin and the documentation of an element as comment lines."""
     where = (TracedStr(source_place(origin), origin, holds=True),) if origin is not None else ()
     return (*where, *comment_lines(doc))
 
 
 def docstring(text: str) -> str:
-    """Text of the model as it can stand between triple quotes."""
+    """Return text of the model, escaped for triple quotes."""
     safe = text.strip().replace("\\", "\\\\").replace('"', '\\"')
     return "\n".join(line.rstrip() for line in safe.splitlines())
 
 
 def source_place(origin: Span | None) -> str:
-    """`file:line` of a place in the model, the file by its last name."""
+    """Return `file:line` of a place in the model, with the base name of the file."""
     if origin is None:
         return ""
     return f"{file_name(origin)}:{origin.line}"
 
 
 def file_name(origin: Span) -> str:
-    """The last name of the file a place is in, on one line."""
+    """Return the base name of the file of a place, on one line."""
     return _last_name(origin.source.name)
 
 

@@ -1,4 +1,4 @@
-"""Where generators come from: the built-in ones by a table, those of others by entry points."""
+"""Registry of targets: built-in ones, and third-party ones by entry points."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ BUILT_IN = {
     "composition": "swarmdsl.codegen.exchange.composition:generator",
     "frevo": "swarmdsl.codegen.exchange.frevo:generator",
 }
-# What other tools take besides; built only where somebody asks for it.
+# Formats of other tools, built on request only.
 ON_REQUEST = frozenset(
     {"skeleton", "yasmin", "amf", "swarmros", "parameters", "fitness", "composition", "frevo"}
 )
@@ -37,7 +37,7 @@ GROUP = "swarmdsl.generators"
 
 OPTION_TYPES = (str, bool, int)
 
-# Names that are tried for targets of ROS 1.
+# Names that users try for the target of ROS 1.
 ROS_1 = frozenset({"ros", "ros1", "ros-1", "ros_1"})
 
 # A target's name is also the name of its output folder.
@@ -46,40 +46,40 @@ _NAME = r"[a-z][a-z0-9_-]*"
 
 @dataclass(frozen=True)
 class Broken:
-    """A generator that is installed but cannot be used, and why."""
+    """Installed generator that cannot be used, with the reason."""
 
     reason: str
 
 
 def target_names() -> list[str]:
-    """The names of all targets there are, the built-in ones first."""
+    """Return the names of all targets, the built-in ones first."""
     return [*BUILT_IN, *sorted(_third_party().keys() - BUILT_IN.keys())]
 
 
 def has(name: str) -> bool:
-    """Whether there is a target of that name."""
+    """Return True if there is a target of that name."""
     return name in BUILT_IN or name in _third_party()
 
 
 def similar_target(name: str) -> str:
-    """Which targets may be meant by a name that none has."""
+    """Return a hint for the name of an unknown target."""
     if name.lower() in ROS_1:
         return "ROS 1 is target `smach`, and ROS 2 is `ros2`"
     return suggest(name, target_names(), "targets")
 
 
 def default_names() -> list[str]:
-    """The targets that are built where nobody says which."""
+    """Return the targets that are built if none is requested."""
     return [name for name in target_names() if name not in ON_REQUEST]
 
 
 def hidden_names() -> list[str]:
-    """Names that a package of others offers although they belong to a built-in target."""
+    """Return the built-in names that a third-party package offers, too."""
     return sorted(_third_party().keys() & BUILT_IN.keys())
 
 
 def load(name: str) -> Generator | Broken | None:
-    """The generator of a target, None when there is no such target."""
+    """Return the generator of a target, or None if there is no such target."""
     if name in BUILT_IN:
         module, _, attribute = BUILT_IN[name].partition(":")
         return _loaded(name, lambda: getattr(import_module(module), attribute))
@@ -94,12 +94,12 @@ def load(name: str) -> Generator | Broken | None:
 
 
 def _third_party() -> dict[str, list[EntryPoint]]:
-    # Imported here because it is slow and the built-in targets do without.
+    # Imported late: slow, and not needed for built-in targets.
     from importlib.metadata import entry_points
 
     by_name: dict[str, list[EntryPoint]] = {}
     for point in entry_points(group=GROUP):
-        # A package that is installed and on the path besides is listed twice.
+        # A package that is both installed and on the path is listed twice.
         same_name = by_name.setdefault(point.name, [])
         if point.value not in [known.value for known in same_name]:
             same_name.append(point)
@@ -110,7 +110,7 @@ def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
     try:
         found = load()
         fault = _fault(name, found)
-    # Whatever goes wrong in the code of others, `sys.exit` included, is theirs alone.
+    # Any failure of third-party code, `sys.exit` included, breaks only its own target.
     except (Exception, SystemExit) as error:
         return Broken(describe_exception(f"loading the generator of target {name}", error))
     if fault is not None:

@@ -1,11 +1,10 @@
-"""Which place in a model each line of a generated file comes from.
+"""Origins in the model of the lines of generated files.
 
-While a file is made, its text carries places: names of what the model declares are printed as
-`Placed`, templates mark other lines with `at`. Such a place holds for its line and for deeper
-ones right below. A comment that says where something comes from, as `comments` of
-`swarmdsl.codegen.python` makes them, holds for all that is as deep as it, until another place is
-as deep. What is not marked belongs to what stands around it, and in the end to nothing but the
-`origin` of the file.
+While a file is made, its text carries origins: names that the model declares are printed as
+`TracedStr`, templates mark other lines with `at`. Such an origin applies to its line and to deeper
+lines right below. The comment that names an origin, as `comments` of `swarmdsl.codegen.python`
+makes it, applies to all lines of its depth or deeper, until another origin of that depth. Unmarked
+lines belong to the enclosing origin, and at last to the `origin` of the file.
 """
 
 from __future__ import annotations
@@ -16,21 +15,21 @@ from typing import NamedTuple
 
 from swarmdsl.base.source import Span
 
-# Characters that Unicode keeps for such use inside of programs (the noncharacters).
+# Unicode reserves these noncharacters for internal use in programs.
 _MARK = re.compile("\ufdd0([0-9]+)\ufdd1")
 
 
 class Entry(NamedTuple):
-    """From `line` on, counted from 1, a file comes from `origin`; None where that is not known."""
+    """From `line` on, counted from 1, lines come from `origin`; None if unknown."""
 
     line: int
     origin: Span | None
 
 
 class TracedStr(str):
-    """A piece of a generated text that comes from a place in the model.
+    """String of a generated text with its origin in the model.
 
-    `holds` says that what follows does so too.
+    `holds` says that following lines have that origin, too.
     """
 
     __slots__ = ("holds", "origin")
@@ -38,7 +37,7 @@ class TracedStr(str):
     holds: bool
 
     def __new__(cls, text: str, origin: Span | None, *, holds: bool = False) -> TracedStr:
-        """The text with its place; None ends what holds for lines as deep as this one."""
+        """Attach an origin; None ends one that holds for lines of this depth."""
         made = super().__new__(cls, text)
         made.origin = origin
         made.holds = holds
@@ -46,27 +45,27 @@ class TracedStr(str):
 
 
 def at(origin: Span | None = None) -> TracedStr:
-    """Nothing to print, from a place: for a template to mark a line that prints something."""
+    """Return an empty string with an origin, with which a template marks its line."""
     return TracedStr("", origin)
 
 
 class MappedText(str):
-    """The text of a file that knows where its lines come from.
+    """Text of a file, with the origins of its lines.
 
-    As any `str`, what is made of it by methods of `str` knows nothing of that.
+    Methods of `str` return strings without origins.
     """
 
     __slots__ = ("entries",)
     entries: tuple[Entry, ...]
 
     def __new__(cls, text: str, entries: Iterable[Entry] = ()) -> MappedText:
-        """The text, with a table in the order of its lines."""
+        """Attach a table in the order of the lines."""
         made = super().__new__(cls, text)
         made.entries = tuple(entries)
         return made
 
     def rewritten(self, width: int, rewrite: Callable[[str], Sequence[str]]) -> MappedText:
-        """The text with others in place of each line that is too wide, at least one."""
+        """Return the text with each line that is too wide replaced by others."""
         lines: list[str] = []
         starts = []
         for line in self.splitlines():
@@ -80,17 +79,17 @@ class MappedText(str):
 
 
 def marked(text: TracedStr, printed: list[TracedStr]) -> str:
-    """A text as a template prints it: its place leaves a mark behind, and goes to `printed`."""
+    """Return the string with a mark that stands for it, and append it to `printed`."""
     printed.append(text)
     return f"{text}\ufdd0{len(printed) - 1}\ufdd1"
 
 
 def mapped(text: str, printed: Sequence[TracedStr]) -> MappedText:
-    """A text that was printed with marks, without them."""
+    """Return a text that was printed with marks as text with origins."""
     if not printed:
         return MappedText(text)
     entries: list[Entry] = []
-    # Places, from the outermost on, each with the least depth of the lines that it holds for.
+    # Enclosing origins, outermost first, each with the least depth of its lines.
     around: list[tuple[int, Span]] = []
     lines = []
     for number, line in enumerate(text.split("\n"), 1):

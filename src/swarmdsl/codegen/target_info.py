@@ -1,4 +1,4 @@
-"""What the targets are and what each can do, for people and for programs."""
+"""Descriptions of the targets, for people and for programs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.codegen.options import options_of
 
 
 def all_targets(report: Diagnostics) -> list[Generator]:
-    """Every target that works; one that does not is reported."""
+    """Return every target that works; report the others."""
     for name in registry.hidden_names():
         reason = "its name is that of a built-in target, which is used instead"
         report.report("broken-generator", name=name, reason=reason)
@@ -28,7 +28,7 @@ def all_targets(report: Diagnostics) -> list[Generator]:
 
 
 def one_target(name: str, report: Diagnostics) -> list[Generator]:
-    """The target of that name, if there is one and it works."""
+    """Return the target of that name in a list, or report why there is none."""
     generator = registry.load(name)
     if isinstance(generator, Generator):
         return [generator]
@@ -41,13 +41,13 @@ def one_target(name: str, report: Diagnostics) -> list[Generator]:
 
 
 def as_list(generators: Sequence[Generator]) -> str:
-    """One line a target."""
+    """Return one line for each target."""
     width = max((len(generator.target) for generator in generators), default=0)
     return "".join(f"{made.target:<{width}}  {made.summary}\n" for made in generators)
 
 
 def as_page(generator: Generator) -> str:
-    """All about one target."""
+    """Return the full description of one target."""
     return "\n".join(_page(generator)) + "\n"
 
 
@@ -76,7 +76,7 @@ def _page(generator: Generator) -> Iterator[str]:
 
 
 def _mappings(generator: Generator) -> dict[str, tuple[Mapped, ...]]:
-    """What becomes of constructs, by the value of an option with which that is so."""
+    """Return the tables of constructs, by the value of the option that selects them."""
     return {"": generator.mapping, **generator.mapping_with} if generator.mapping else {}
 
 
@@ -89,7 +89,7 @@ def _cannot_express(generator: Generator) -> list[str]:
 
 
 def as_json(generators: Sequence[Generator]) -> str:
-    """The same as a list of objects."""
+    """Return the descriptions as a JSON list of objects."""
     return json.dumps([_as_json(generator) for generator in generators], indent=2) + "\n"
 
 

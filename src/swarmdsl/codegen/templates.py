@@ -1,4 +1,4 @@
-"""Jinja templates, compiled once and kept between runs."""
+"""Jinja templates, compiled once and cached between runs."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ _PRINTED = "places that were printed"
 
 
 class Templates:
-    """The templates in a folder: what is undefined is an error, blocks leave no lines behind.
+    """Templates in a folder; undefined names are errors, blocks leave no empty lines.
 
-    In them, `at(origin)` marks a line as coming from a place in the model. Filters are
+    In them, `at(origin)` marks a line with an origin in the model. Filters are
     functions of a value, by their names; `repr` is one.
     """
 
@@ -38,9 +38,9 @@ class Templates:
         self._filters = filters
 
     def fill(self, name: str, /, **values: object) -> MappedText:
-        """What a template prints, with the places that its lines come from.
+        """Return the output of a template, with the origins of its lines.
 
-        Raises what Jinja does.
+        Raises the exceptions of Jinja.
         """
         printed: list[TracedStr] = []
         template = self._environment.get_template(name)
@@ -71,10 +71,10 @@ def _finalize(context: Context, value: object) -> object:
 
 
 class _Cache(FileSystemBytecodeCache):
-    """Compiled templates in files, which Jinja replaces at once; nothing where that fails."""
+    """Compiled templates in files that are replaced atomically; none if that fails."""
 
     def get_source_checksum(self, source: str) -> str:
-        # Another version may compile the same text in another way, as one without places did.
+        # Another version may compile the same text differently.
         return super().get_source_checksum(f"{__version__} with places {source}")
 
     def dump_bytecode(self, bucket: Bucket) -> None:
@@ -83,7 +83,7 @@ class _Cache(FileSystemBytecodeCache):
 
 
 def _cache() -> _Cache | None:
-    """The cache of the user, None where there is none or Python is to write no bytecode."""
+    """Return the user's cache; None if unavailable or Python writes no bytecode."""
     if sys.dont_write_bytecode:
         return None
     given = Path(os.environ.get("XDG_CACHE_HOME") or os.environ.get("LOCALAPPDATA") or "")

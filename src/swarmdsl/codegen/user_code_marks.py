@@ -1,7 +1,7 @@
-"""Whether a file of the user fits what is generated beside it.
+"""Marks that tell if a file of the user fits the current model.
 
-Such a file says with `swarmc:fits MARK` what it was written for: MARK stands for all of the model
-that its code builds on. The person who has adapted the code writes the new mark there.
+Such a file contains `swarmc:fits MARK`: MARK is a hash of the facts of the model that its code
+relies on. After adapting the code, the user writes the new mark.
 """
 
 from __future__ import annotations
@@ -14,26 +14,26 @@ _MARK = re.compile(rb"swarmc:fits ([0-9a-f]{8})\b")
 
 
 def mark_of(facts: Iterable[str]) -> str:
-    """The mark that stands for what code builds on, a fact a line."""
+    """Return the mark of facts, one a line."""
     return sha256("\n".join(facts).encode()).hexdigest()[:8]
 
 
 def fits(facts: Iterable[str]) -> str:
-    """What a file to fill in says of what code in it builds on: a line with the mark."""
+    """Return the line with the mark for a file that the user fills in."""
     return f"swarmc:fits {mark_of(facts)}"
 
 
 def mark_in(content: bytes) -> str | None:
-    """The mark in a file, None where it has none."""
+    """Return the mark in a file, or None."""
     found = _MARK.search(content)
     return found[1].decode() if found is not None else None
 
 
 def outdated(of_user: bytes, generated: bytes, base: bytes | None) -> tuple[str, str] | None:
-    """What the user's file is written for, as a mark, and what it should be; None where it fits.
+    """Return the mark in the user's file and the required one; None if they agree.
 
-    Where it has no mark any more, that of the text it was made from counts, `base`; of a file of
-    which that is not known, "".
+    If the user removed the mark, that of `base` counts, the text that the file was made from; if
+    that is unknown, the mark is "".
     """
     written, wanted = mark_in(of_user) or mark_in(base or b"") or "", mark_in(generated)
     if wanted is None or written == wanted:
@@ -42,5 +42,5 @@ def outdated(of_user: bytes, generated: bytes, base: bytes | None) -> tuple[str,
 
 
 def marked(content: bytes, mark: str) -> bytes:
-    """The file with another mark."""
+    """Return the file with another mark."""
     return _MARK.sub(f"swarmc:fits {mark}".encode(), content, count=1)

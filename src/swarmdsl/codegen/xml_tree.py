@@ -1,4 +1,4 @@
-"""Documents of XML as files."""
+"""XML files from lxml trees."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from swarmdsl.codegen.source_map import Entry, MappedText
 Places = dict[etree._Element, Span | None]
 """The places in a model that elements come from, with what is in them."""
 
-# libxml2 counts no further.
+# Greatest line number of libxml2.
 _MOST_LINES = 65535
 
 
 def add_comment(parent: etree._Element, text: str) -> None:
-    """A new comment, in which XML allows no `--` and no `-` at the end."""
+    """Append a comment, without `--` and a final `-`, which XML forbids."""
     if text:
         parent.append(etree.Comment(f" {comment_text(text)} "))
 
 
 def document(tree: etree._Element, places: Places | None = None) -> str:
-    """The file: declaration, two spaces a level, a newline at the end."""
+    """Return the file: declaration, two blanks a level, a newline at the end."""
     etree.indent(tree, "  ")
     text = etree.tostring(tree, encoding="unicode")
     text = f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
@@ -32,7 +32,7 @@ def document(tree: etree._Element, places: Places | None = None) -> str:
 
 
 def _entries(tree: etree._Element, text: str, places: Places) -> Iterator[Entry]:
-    """Where the lines come from: only a parser knows on which one an element begins."""
+    """Yield the origins of lines; the line of an element is known only to a parser."""
     read = etree.fromstring(text.encode(), etree.XMLParser(huge_tree=True))
     last = 0
     for element, again in zip(tree.iter(), read.iter(), strict=True):

@@ -17,7 +17,7 @@ Direction = Literal["in", "out", "inout"]
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """Where data enters or leaves; `topic` is the ROS topic behind the port."""
+    """Entry or exit of data; `topic` is the ROS topic behind the port."""
 
     name: str
     direction: Direction

@@ -5,8 +5,7 @@ Examples are the first state of a machine and the effects on entry of a state.
 
 from __future__ import annotations
 
-# By the name of the attribute or, where the node is a list of values, of the value; in the
-# order of the names.
+# By the name of the attribute or, if the node is a list of values, of the value; sorted by name.
 Docs = tuple[tuple[str, str], ...]
 
 

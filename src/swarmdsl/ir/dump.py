@@ -101,5 +101,5 @@ def _name(name: str) -> str:
     return name
 
 
-# The words of the model itself.
+# Expressions as in the model.
 _DIALECT = Dialect(_literal, _name, _name, "event", {}, {})

@@ -1,4 +1,4 @@
-"""Whole model, as generators see it."""
+"""The whole model, as generators see it."""
 
 from __future__ import annotations
 

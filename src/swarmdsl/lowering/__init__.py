@@ -98,7 +98,7 @@ def lower(
         name=name or first.package,
         interfaces=tuple(interfaces),
         events=(*events, *context.monitored),
-        # A part that is called like its component has the servers of the component.
+        # A part named like its component shares the component's servers.
         functions=_with_libraries({f.name: f for f in functions}.values(), project),
         components=tuple(components),
         members=tuple(members),

@@ -42,7 +42,7 @@ def lower_docs(items: Iterable[Node]) -> ir.Docs:
             case PartValue() | Setting():
                 found.setdefault(str(item.name), []).append(item.doc)
             case Documented() if type(item) in _ATTRIBUTES:
-                # Effects on entry may stand on several lines.
+                # Effects on entry may be on several lines.
                 found.setdefault(_ATTRIBUTES[type(item)], []).append(item.doc)
     joined = {name: "\n".join(filter(None, docs)) for name, docs in sorted(found.items())}
     return tuple((name, doc) for name, doc in joined.items() if doc)

@@ -185,7 +185,7 @@ class _Builder:
             kind=ir.StateKind.COMPOSITE,
             initial=inner.ids[_initial(machine)],
             states=self.states(machine, inner),
-            # Its variables start anew each time: a counter of tries, for instance.
+            # Its variables are initialized each time: a counter of tries, for instance.
             entry=(*_first_values(names, frame.context), *entry),
             submachine=frame.context.names[machine],
         )

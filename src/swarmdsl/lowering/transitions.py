@@ -35,7 +35,7 @@ from swarmdsl.syntax.ast import (
 
 @dataclass(frozen=True)
 class Frame:
-    """One use of a machine: the ids of its states there, and its names."""
+    """Use of a machine: the ids of its states there, and its names."""
 
     ids: Mapping[Vertex | Region, str]
     context: Context
@@ -78,7 +78,7 @@ def _transition(
         guard=lower_optional(transition.guard, context),
         effects=tuple(_effect(effect, context) for effect in transition.effects),
         target=_target(transition.target, frame) if transition.target is not None else None,
-        # Without a target a transition is internal anyway.
+        # A transition without a target is always internal.
         internal=transition.internal and transition.target is not None,
         doc=transition.doc,
         origin=transition.span,

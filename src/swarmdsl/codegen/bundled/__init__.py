@@ -1,6 +1,6 @@
-"""The bundled generators, one package a target.
+"""Bundled generators, one package a target.
 
-In a checkout they lie in the top-level folder `generators/`, in an installed
+In a checkout they are in the top-level folder `generators/`, in an installed
 package beside this file.
 """
 

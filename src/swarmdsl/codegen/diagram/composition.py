@@ -1,4 +1,4 @@
-"""A swarm as a diagram: its members, what they say to each other, and what is around them."""
+"""Diagram of a swarm: members, events between them, and environment."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.codegen.swarm_printer.expressions import expression
 
 
 def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
-    """Draw a swarm: a box for each role, with what such a member does."""
+    """Return the diagram of a swarm: a box for each role, with its behaviour."""
     members = {member.name: member for member in system.members}
     machines = {machine.name: machine for machine in system.machines}
     roles = [
@@ -47,7 +47,7 @@ def composition(swarm: ir.Swarm, system: ir.System) -> Diagram:
 
 
 class _Role:
-    """Members of one type in the swarm, and what their behaviour uses."""
+    """Role in the swarm, with the events that its behaviour uses."""
 
     def __init__(
         self, role: ir.Role, member: ir.Member, machine: ir.StateMachine | None, system: ir.System
@@ -110,7 +110,7 @@ class _Role:
 
 
 def _flows(roles: list[_Role], system: ir.System) -> Iterator[Edge]:
-    """The swarm events that members send and members wait for."""
+    """Yield an edge for each pair of roles that exchange swarm events."""
     for sender in roles:
         for receiver in roles:
             events = [
@@ -162,7 +162,7 @@ def _around(
 
 
 def _optimizations(swarm: ir.Swarm, system: ir.System) -> Iterator[tuple[str, ...]]:
-    """What may be changed to make the swarm better."""
+    """Yield a compartment for each optimization of the swarm."""
     for each in system.optimizations:
         if each.swarm != swarm.name:
             continue

@@ -1,6 +1,6 @@
-"""A diagram as plain data: nodes in nodes, and edges between them.
+"""Diagrams as plain data: nested nodes and edges.
 
-Every format is written from this; only SVG needs a layout on top.
+Every format is written from this; only SVG needs a layout as well.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ EdgeKind = Literal["transition", "initial", "connector", "composition", "associa
 
 @dataclass(frozen=True, slots=True)
 class Port:
-    """A port on the border of a node; `type` without its package, all of it in `doc`."""
+    """Port on the border of a node; `type` is short, `doc` has the full type."""
 
     id: str
     name: str
@@ -37,11 +37,11 @@ class Port:
 
 @dataclass(frozen=True, slots=True)
 class Node:
-    """A box or a pseudo-state, with the nodes inside it.
+    """Box or pseudo-state, with the nodes inside it.
 
-    `keyword` is what UML writes in guillemets, `compartments` are groups of lines below
-    the name, each with a line above it. Both and the nodes inside are left out if it is `folded`.
-    The last of these lines are the transitions `internal`, by their ids.
+    `keyword` is shown in guillemets, `compartments` are groups of lines below the name, separated
+    by rules. A `folded` node hides both and the nodes inside. The last of these lines are the
+    transitions `internal`, by their ids.
     """
 
     id: str
@@ -58,12 +58,12 @@ class Node:
 
     @property
     def foldable(self) -> bool:
-        """Whether it has an inside that can be hidden: states, or what stands below its name."""
+        """True if the node has states or compartments to hide."""
         return self.kind in _FOLDABLE and bool(self.nodes or self.compartments or self.folded)
 
     @property
     def hides_states(self) -> bool:
-        """Whether there are states in it that are not drawn here."""
+        """True if the node has states that are not drawn here."""
         return self.kind == "submachine" or (self.folded and self.kind in _STATES_INSIDE)
 
     def walk(self) -> Iterator[Node]:
@@ -75,9 +75,9 @@ class Node:
 
 @dataclass(frozen=True, slots=True)
 class Edge:
-    """From node `source` to node `target`, or from and to ports of them.
+    """Edge from node `source` to node `target`, or between ports of them.
 
-    `label` is in pieces that stay together where it is broken into lines.
+    `label` is in pieces, between which lines may break.
     """
 
     id: str
@@ -93,7 +93,7 @@ class Edge:
 
 @dataclass(frozen=True, slots=True)
 class Diagram:
-    """One picture: everything is in the frame, whose name is that of its subject."""
+    """Frame with the name of the subject, and its content."""
 
     kind: Kind
     name: str
@@ -102,5 +102,5 @@ class Diagram:
 
     @property
     def stem(self) -> str:
-        """What a file of it is called, without the suffix."""
+        """Name of a file with the diagram, without the suffix."""
         return f"{self.name}.{self.kind}"

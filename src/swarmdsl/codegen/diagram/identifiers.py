@@ -1,4 +1,4 @@
-"""Names for nodes and ports that every notation takes: letters, digits and `_`."""
+"""Identifiers that every notation allows: letters, digits and `_`."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import re
 
 from swarmdsl.codegen.diagram.graph import Diagram
 
-# Words that mean something at the start of a line of DOT, Mermaid or PlantUML.
+# Keywords at the start of a line of DOT, Mermaid or PlantUML.
 _RESERVED = """
 abstract accdescr acctitle actor agent artifact as boundary call card choice circle class
 classdef click cloud collections component control database default digraph direction edge else
@@ -18,7 +18,7 @@ state storage strict style subgraph title together usecase
 
 
 def identifiers(diagram: Diagram) -> dict[str, str]:
-    """A name for each node and port, from its id; none means two things."""
+    """Return a distinct identifier for each id of a node or port."""
     ids = [
         each
         for node in diagram.frame.walk()

@@ -1,4 +1,4 @@
-"""What a member is built of, as an internal block diagram."""
+"""Internal block diagram of a member."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from swarmdsl.codegen.diagram.labels import param_line, type_name, value_lines
 
 
 def internal(member: ir.Member, components: Mapping[str, ir.Component]) -> Diagram:
-    """Draw the parts of a member, their ports and connectors; `components` are by name."""
+    """Return the diagram of a member's parts; `components` are by name."""
     frame = Node(
         "",
         "frame",
@@ -47,7 +47,7 @@ def _part(part: ir.Part, component: ir.Component) -> Node:
 
 
 def _params(part: ir.Part, component: ir.Component) -> Iterable[str]:
-    """The params of a part with the values that they have there."""
+    """Return the params of a part, with the values set there."""
     own = dict(part.values)
     for param in component.params:
         if param.name in own:
@@ -89,5 +89,5 @@ def _edge(number: int, connector: ir.Connector) -> Edge:
 
 
 def _groups(*groups: Iterable[str]) -> tuple[tuple[str, ...], ...]:
-    """Those that are not empty."""
+    """Return the groups that are not empty."""
     return tuple(lines for group in groups if (lines := tuple(group)))

@@ -1,4 +1,4 @@
-"""What is written in diagrams: triggers, guards, effects and activities as the model has them."""
+"""Labels in diagrams: triggers, guards, effects and activities as in the model."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from swarmdsl.ir import (
 
 
 def transition_label(transition: Transition, owner: State) -> tuple[str, ...]:
-    """`trigger [guard] / effects` in pieces; a branch of a choice has no trigger."""
+    """Return `trigger [guard] / effects` in pieces; branches have no trigger."""
     pieces = []
     if transition.triggers:
         pieces.append(", ".join(_trigger(each, owner) for each in transition.triggers))
@@ -35,7 +35,7 @@ def transition_label(transition: Transition, owner: State) -> tuple[str, ...]:
 
 
 def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
-    """`/ x = 1, send Found`, an effect a piece."""
+    """Return `/ x = 1, send Found`, one piece for each effect."""
     if not effects:
         return ()
     *others, last = map(effect_text, effects)
@@ -44,7 +44,7 @@ def effects_label(effects: tuple[Effect, ...]) -> tuple[str, ...]:
 
 
 def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
-    """What a state does on entry, while it is active, and on exit; and what it stays for."""
+    """Return entry effects, activity, exit effects and internal transitions."""
     lines = []
     if entry:
         lines.append(f"entry {' '.join(effects_label(entry))}")
@@ -58,29 +58,29 @@ def behaviour_lines(state: State, entry: tuple[Effect, ...]) -> tuple[str, ...]:
 
 
 def internal_transitions(state: State) -> Iterator[tuple[str, Transition]]:
-    """The transitions that a state stays for, by the ids that traces have for them."""
+    """Yield the internal transitions, with their ids in traces."""
     for number, each in enumerate(state.transitions):
         if each.target is None:
             yield f"{state.id}->{number}", each
 
 
 def param_line(param: Param) -> str:
-    """A param with its type and default."""
+    """Return a param with its type and default."""
     return f"param {param.name} : {type_name(param.type)}{default(param.default)}"
 
 
 def variable_line(variable: Variable) -> str:
-    """A variable with its type and first value."""
+    """Return a variable with its type and initial value."""
     return f"var {variable.name} : {type_name(variable.type)}{default(variable.initial)}"
 
 
 def value_lines(values: Iterable[tuple[str, Expression]]) -> tuple[str, ...]:
-    """Values that are set, one a line."""
+    """Return values that are set, one a line."""
     return tuple(f"{name} = {expression(value)}" for name, value in values)
 
 
 def type_name(type_: Type) -> str:
-    """A type without its package: the picture is to be read from a distance."""
+    """Return a type without its package, to keep labels short."""
     match type_:
         case Array(element=element):
             return type_name(element) + str(type_).removeprefix(str(element))
@@ -103,7 +103,7 @@ def _trigger(trigger: Trigger, owner: State) -> str:
 
 
 def _of(state: str, owner: State, what: str) -> str:
-    """What happens to a state, with the name of the state where it is not the owner."""
+    """Return an event of a state, with the state's name unless it is the owner."""
     if state == owner.id:
         return what
     return f"{state.removeprefix(f'{owner.id}.')}.{what}"

@@ -27,10 +27,10 @@ _ARROWS = {
 
 
 def mermaid(diagram: Diagram) -> str:
-    """The text of a diagram."""
+    """Return the text of a diagram."""
     writer = _Writer(identifiers(diagram), diagram)
     lines = writer.statechart() if diagram.kind == "statechart" else writer.blocks()
-    # The preamble gives it a title: what it is, and of what.
+    # The preamble sets the title.
     title = f"{diagram.frame.keyword} {diagram.name}"
     return "\n".join(["---", f"title: {title}", "---", *lines, ""])
 
@@ -55,7 +55,7 @@ class _Writer:
             yield "  end note"
 
     def states(self, owner: Node) -> Iterator[str]:
-        """What is in a state; its start belongs there as well."""
+        """Yield the lines of the states in a state, with its initial state."""
         entries = {edge.source: edge for edge in self.diagram.edges if edge.kind == "initial"}
         for number, node in enumerate(owner.nodes):
             if owner.kind == "parallel" and number:
@@ -118,7 +118,7 @@ class _Writer:
 
 
 def _text(text: str) -> str:
-    """Text without the characters that mean something; line breaks are spaces."""
+    """Return text without special characters; line breaks become blanks."""
     return " ".join(text.split()).translate(_ENTITIES)
 
 

@@ -1,4 +1,4 @@
-"""Diagrams in the README of a generated package, as Mermaid: GitHub and GitLab draw them."""
+"""Mermaid diagrams in the README of a package; GitHub and GitLab draw them."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from swarmdsl.codegen.diagram.mermaid import mermaid
 from swarmdsl.codegen.diagram.statechart import statechart
 from swarmdsl.ir import State, StateMachine, System
 
-# What Mermaid draws at most, unless somebody has told it otherwise (`maxTextSize`, `maxEdges`).
+# Default limits of Mermaid (`maxTextSize`, `maxEdges`).
 _MOST_TEXT, _MOST_EDGES = 50_000, 500
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A diagram as a block of Markdown, and whose it is."""
+    """Diagram as a block of Markdown, with the name of its subject."""
 
     title: str
     block: str
 
 
 def pictures(system: System, machines: Sequence[StateMachine]) -> tuple[Picture, ...]:
-    """The swarms with members that run these machines, and the machines themselves.
+    """Return the swarms whose members run these machines, and the machines.
 
-    What is too large for Mermaid is left out.
+    Diagrams that are too large for Mermaid are left out.
     """
     return tuple(_drawn(system, machines))
 
 
 def member_pictures(system: System, members: Sequence[str]) -> tuple[Picture, ...]:
-    """Some members, each with its parts and what connects them.
+    """Return the internal diagrams of some members.
 
-    What is too large for Mermaid is left out.
+    Diagrams that are too large for Mermaid are left out.
     """
     components = {component.name: component for component in system.components}
     shown = (member for member in system.members if member.name in members)
@@ -54,13 +54,13 @@ def _drawn(system: System, machines: Sequence[StateMachine]) -> Iterator[Picture
             yield from _picture(f"Swarm `{swarm.name}`", composition(swarm, system))
     known = {machine.name: machine for machine in system.machines}
     for machine in machines:
-        # To draw it takes much longer than to see that it is too large.
+        # Drawing takes much longer than counting.
         if _fewest_edges(machine.states) <= _MOST_EDGES:
             yield from _picture(f"State machine `{machine.name}`", statechart(machine, known))
 
 
 def _fewest_edges(states: Iterable[State]) -> int:
-    """How many transitions are drawn at least: what is in a reused machine may not be."""
+    """Return a lower bound of the edges drawn, without reused machines."""
     return sum(
         sum(transition.target is not None for transition in state.transitions)
         + (_fewest_edges(state.states) if state.submachine is None else 0)

@@ -1,4 +1,4 @@
-"""A state machine as a diagram."""
+"""Diagram of a state machine."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _KINDS: dict[StateKind, NodeKind] = {
 
 
 def statechart(machine: StateMachine, machines: Mapping[str, StateMachine]) -> Diagram:
-    """Draw a machine; what it reuses is one state with a reference, as it has its own diagram.
+    """Return the diagram; a reused machine is one state that links to its own diagram.
 
     `machines` are those of the system by name.
     """
@@ -92,7 +92,7 @@ def _entry(owner: str, target: str, of: State | StateMachine) -> Edge:
 
 
 def _edges(state: State, shown: set[str]) -> Iterator[Edge]:
-    """The transitions of a state and of those inside it, as far as they are drawn."""
+    """Yield the transitions of a state and of those inside it that are drawn."""
     if state.id not in shown:
         return
     for number, each in enumerate(state.transitions):

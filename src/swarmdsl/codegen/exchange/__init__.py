@@ -1,1 +1,1 @@
-"""The exchange formats of the field, written from the IR."""
+"""Exchange formats of CPSwarm, FREVO and SCXML, written from the IR."""

@@ -1,6 +1,6 @@
 """Target `adf`: the functions of a robot as an Abstraction Description File.
 
-In the form of D5.4 (appendix), or in the one before it, that of the JSON schema
+The form is that of D5.4 (appendix), or the one before it, that of the JSON schema
 `ROS_abstraction-description`, which came with the CPSwarm modelling tool.
 """
 
@@ -30,7 +30,7 @@ _CATEGORIES = {"abstraction": "abstraction-lib", "swarm": "swarm-lib"}
 
 @dataclass(frozen=True)
 class Options:
-    """The options of the target."""
+    """Options of target `adf`."""
 
     functions: str = option(
         "all", "all functions, or those that no library has (missing)", choices=("all", "missing")
@@ -43,7 +43,7 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """One file with the functions of the system."""
+    """Yield a file with the functions of the system."""
     functions = [
         function
         for function in system.functions
@@ -75,7 +75,7 @@ def _function(function: Function, system: System, report: Diagnostics) -> dict[s
 def _param(param: Param, function: Function, report: Diagnostics) -> dict[str, Any]:
     class_ = value_class(param.type)
     described: dict[str, Any] = {"class": class_, "name": param.name}
-    # The node of a function in a library knows its defaults: a file that can be read is worth more.
+    # A library function's node knows its defaults: prefer a file that can be read.
     if param.default is not None and (class_ == "number" or not function.in_library):
         described |= value(param.default, report)
         if class_ != "number":
@@ -86,7 +86,7 @@ def _param(param: Param, function: Function, report: Diagnostics) -> dict[str, A
 
 
 def _components(system: System, report: Diagnostics) -> Iterator[dict[str, Any]]:
-    """Those that the schema has a category for; it has no controllers."""
+    """Return the components that the schema has a category for; not controllers."""
     for component in system.components:
         if component.kind == "controller":
             what = f"controller `{component.name}`"

@@ -1,6 +1,6 @@
-"""Target `amf`: the behaviours of the swarm library as an Algorithm Modelling File.
+"""Target `amf`: behaviours of the swarm library as an Algorithm Modelling File.
 
-Its shape is that of the JSON schema `ROS_algorithm-description`, which came with the CPSwarm
+Its form is that of the JSON schema `ROS_algorithm-description`, which came with the CPSwarm
 modelling tool: the functions of an ADF in its first generation, without params.
 """
 
@@ -15,7 +15,7 @@ from swarmdsl.ir import System
 
 
 def emit(system: System, options: NoOptions, report: Diagnostics) -> Iterator[OutputFile]:
-    """One file with the functions of category `swarm`."""
+    """Yield a file with the functions of category `swarm`."""
     functions = [function for function in system.functions if function.category == "swarm"]
     if functions:
         described = [by_schema(function, system, "amf", report) for function in functions]

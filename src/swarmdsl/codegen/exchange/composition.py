@@ -1,7 +1,7 @@
-"""Target `composition`: which members a swarm has, and a launch file for one of each role.
+"""Target `composition`: the members of a swarm, and a launch file for each role.
 
-The schema is `SwarmComposition` of the CPSwarm modelling tool. Its member has one number, and
-a launch file, which is started as often as that number says.
+The schema is `SwarmComposition` of the CPSwarm modelling tool. A member has a number and a launch
+file, which is started that many times.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from swarmdsl.syntax.types import INTEGERS, Primitive
 
 @dataclass(frozen=True)
 class Options:
-    """The options of the target."""
+    """Options of target `composition`."""
 
     package: str = option(
         "", "ROS package with the behaviours; the one that target smach writes when empty"
@@ -33,7 +33,7 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """For each swarm a folder with its composition and its launch files."""
+    """Yield a folder for each swarm: its composition and its launch files."""
     package = behaviours(system, options.package)
     members = {member.name: member for member in system.members}
     for swarm in system.swarms:
@@ -70,7 +70,7 @@ def _composition(swarm: Swarm, report: Diagnostics) -> etree._Element:
 def _launch(
     role: Role, member: Member, system: System, package: str, report: Diagnostics
 ) -> etree._Element:
-    """A node for the behaviour of one member and for each of its parts that has one."""
+    """Return a launch file with the node of a member and of each part that has one."""
     root = etree.Element("launch")
     add_comment(root, role.doc)
     etree.SubElement(root, "arg", name="id", default="0", doc="which one of the role it is")
@@ -86,7 +86,7 @@ def _launch(
 
 
 def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Diagnostics) -> None:
-    """The params that have a value when the model is compiled."""
+    """Add the params with a value that is known at compile time."""
     for given in params:
         if isinstance(given.value, str) and "$(" in given.value:
             report.report(
@@ -102,7 +102,7 @@ def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Di
 
 
 def _kind(type_: Type) -> str:
-    """A type as roslaunch has it: durations are numbers of seconds."""
+    """Return a type as roslaunch names it; durations are numbers of seconds."""
     name = type_.name if isinstance(type_, Primitive) else ""
     if name in INTEGERS:
         return "int"

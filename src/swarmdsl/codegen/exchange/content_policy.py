@@ -1,4 +1,4 @@
-"""Where the content of a call comes from, as D5.4 (5.2) names it; the model only implies it."""
+"""Source of the content of a call, by the policies of D5.4 (5.2)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swarmdsl.ir import Activity, Param, Policy
 
 
 def goal_policy(activity: Activity, params: Mapping[str, Param]) -> Policy:
-    """Where the goal or request comes from."""
+    """Return the source of the goal or request."""
     if activity.goal_callback is not None:
         return Policy.CALLBACK
     if not activity.arguments:
@@ -20,7 +20,7 @@ def goal_policy(activity: Activity, params: Mapping[str, Param]) -> Policy:
 
 
 def result_policy(activity: Activity) -> Policy:
-    """Where the result or response goes."""
+    """Return the destination of the result or response."""
     if activity.result_callback is not None:
         return Policy.CALLBACK
     return Policy.USERDATA if activity.results else Policy.EMPTY

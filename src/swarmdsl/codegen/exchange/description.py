@@ -1,7 +1,7 @@
-"""Functions and messages as the description files of CPSwarm have them, in two generations.
+"""Functions and messages as in CPSwarm's description files of two generations.
 
-Names and order of the keys are those of the files; what is empty has no key.
-Types are those of ROS 1, which has no bounds for texts and arrays.
+Names and order of the keys are those of the files; empty values have no key.
+Types are those of ROS 1, which has no bounds for strings and arrays.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ _PARADIGMS = {"action": "rosaction", "service": "rosservice"}
 
 @dataclass(frozen=True)
 class Generation:
-    """What differs between the generations of the files.
+    """Differences between the generations of the files.
 
-    `message` is the key of a message, `nested` says that the way of calling is one object;
-    `numbers` that values are read by a program which takes numbers only.
+    `message` is the key of a message; `nested` puts the call in one object; `numbers` restricts
+    values to numbers, for a program that takes nothing else.
     """
 
     message: str
@@ -54,7 +54,7 @@ D5_4 = Generation("msg", nested=True, numbers=True)
 def api(
     function: Function, system: System, generation: Generation, report: Diagnostics
 ) -> dict[str, Any]:
-    """The topics of a function and how it is called."""
+    """Return the topics of a function and its call."""
     communication = function.communication
     paradigm, definition = _PARADIGMS[communication.paradigm], _definition(communication, system)
     called = (
@@ -76,7 +76,7 @@ def api(
 def by_schema(
     function: Function, system: System, target: str, report: Diagnostics
 ) -> dict[str, Any]:
-    """A function as the schemas have it: without params, which is reported of one's own."""
+    """Return a function without params, as in the schemas; report own params."""
     for param in () if function.in_library else function.params:
         what = f"param `{param.name}` of a function"
         report.report("no-place", param.origin, target=target, what=what)
@@ -90,7 +90,7 @@ def by_schema(
 def topic(
     name: str, type_: Type, system: System, generation: Generation, report: Diagnostics
 ) -> dict[str, Any]:
-    """A topic and what its message is made of."""
+    """Return a topic and the content of its message."""
     described: dict[str, Any] = {"class": _class(type_)}
     message = system.interface(type_)
     if isinstance(message, Message):
@@ -100,7 +100,7 @@ def topic(
 
 
 def value(expression: Expression, report: Diagnostics) -> dict[str, Any]:
-    """The value, unless there is none, which is reported."""
+    """Return the value; report it if there is none."""
     try:
         return {"value": evaluate(expression, {})}
     except UndefinedValueError as fault:
@@ -115,7 +115,7 @@ def value(expression: Expression, report: Diagnostics) -> dict[str, Any]:
 
 
 def value_class(type_: Type) -> str:
-    """A type as the value of a param has it."""
+    """Return a type in the notation for values of params."""
     match type_:
         case Primitive(name=name):
             return _CLASSES.get(name, "number")
@@ -125,12 +125,12 @@ def value_class(type_: Type) -> str:
 
 
 def document(content: dict[str, Any]) -> str:
-    """The text of a file."""
+    """Return the text of a file."""
     return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def without_empty(**items: Any) -> dict[str, Any]:
-    """The items that say something."""
+    """Return the items that are not empty."""
     return {name: item for name, item in items.items() if item}
 
 
@@ -172,7 +172,7 @@ def _fields(fields: Iterable[Field]) -> list[dict[str, str]]:
 
 
 def _class(type_: Type) -> str:
-    """A type as ROS 1 writes it."""
+    """Return a type in the notation of ROS 1."""
     match type_:
         case Array(element=element, size=size, bounded=bounded):
             return f"{_class(element)}[{'' if size is None or bounded else size}]"

@@ -1,4 +1,4 @@
-"""Target `fitness`: each fitness as a Python script that computes it from the rosbag of a run.
+"""Target `fitness`: Python scripts that compute a fitness from a run's rosbag.
 
 The simulation managers of CPSwarm call it with the bag and limits of the run, and read
 `fitness=<number>` from its output.
@@ -29,16 +29,16 @@ _TIMES = ("time", "duration")
 
 
 def emit(system: System, options: NoOptions, report: Diagnostics) -> Iterator[OutputFile]:
-    """One script for each fitness."""
+    """Yield a script for each fitness."""
     for fitness in system.fitness:
         if _can_be_computed(fitness, report):
-            # Named as the managers have it; beside others it could hide a module of Python.
+            # The managers require this name; a shared folder could hide a module of Python.
             path = f"{snake_case(fitness.name)}/fitness.py"
             yield OutputFile(path, _script(fitness), executable=True, origin=fitness.origin)
 
 
 def _can_be_computed(fitness: Fitness, report: Diagnostics) -> bool:
-    """Whether all values can be known; what cannot is reported."""
+    """Return True if all values are known; report the others."""
     known = params_by_name(fitness.params)
     unknown = [
         param
@@ -61,7 +61,7 @@ def _can_be_computed(fitness: Fitness, report: Diagnostics) -> bool:
 
 
 def _is_plain(each: Field) -> bool:
-    """Whether a message of std_msgs has such `data`."""
+    """Return True for messages of std_msgs with such `data`."""
     match each.type:
         case Primitive():
             return True

@@ -1,7 +1,7 @@
-"""Target `frevo`: the problem and the configuration of a search with the optimiser FREVO.
+"""Target `frevo`: problem and configuration of a search with the optimiser FREVO.
 
 The configuration is that of FREVO 2, the problem a component of FREVO 1.
-How the search itself works is left as FREVO has it by default.
+The settings of the search itself are FREVO's defaults.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def _fitness_fault(value: str) -> str | None:
 
 @dataclass(frozen=True)
 class Options:
-    """The options of the target."""
+    """Options of target `frevo`."""
 
     package: str = option("", "ROS package with the behaviours; that of target smach when empty")
     candidates: int = option(10, "candidates of a generation", check=_count_fault)
@@ -72,7 +72,7 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """For each optimization a folder with both files."""
+    """Yield a folder for each optimization, with both files."""
     for optimization in system.optimizations:
         parameters = list(varied(optimization, system, options.package, "frevo", report))
         if not parameters:

@@ -1,4 +1,4 @@
-"""The problem that FREVO solves, as it describes one: `IComponent.dtd` of FREVO 1."""
+"""Problem description for FREVO: `IComponent.dtd` of FREVO 1."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def problem(
     places: Mapping[str, str],
     report: Diagnostics,
 ) -> str:
-    """The text of the file; `parameters` is how many are varied, `places` are properties."""
+    """Return the file; `parameters` is the number varied, `places` are properties."""
     package = swarm.name.lower()
     root = etree.Element("icomponent")
     config = etree.SubElement(root, "config")
@@ -62,7 +62,7 @@ def _add_environment(
 
 
 def _members(swarm: Swarm, optimization: Optimization, report: Diagnostics) -> int:
-    """How many there are; the least where that is open and not varied, which is reported."""
+    """Return the number of members; the least, with a report, if it is open."""
     counted = {count.role for count in optimization.counts}
     total = 0
     for role in swarm.roles:

@@ -1,7 +1,7 @@
-"""Target `parameters`: what an optimiser may vary, for the CPSwarm simulation orchestrator.
+"""Target `parameters`: search spaces for the CPSwarm simulation orchestrator.
 
 It reads a file `parameters.json` with these keys (schema `OptimisedParameter` of the modelling
-tool), in which a scale is a text.
+tool), in which a scale is a string.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from swarmdsl.ir import System
 
 @dataclass(frozen=True)
 class Options:
-    """The options of the target."""
+    """Options of target `parameters`."""
 
     package: str = option(
         "", "ROS package whose parameter file has the params; that of the behaviours when empty"
@@ -27,7 +27,7 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """One file for each optimization, in a folder with the name of its swarm."""
+    """Yield a file for each optimization, in a folder named after its swarm."""
     for optimization in system.optimizations:
         for name, value in optimization.settings:
             report.report(

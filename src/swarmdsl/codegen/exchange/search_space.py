@@ -1,4 +1,4 @@
-"""What an optimiser varies, as FREVO has it: whole numbers, each with a scale for its unit."""
+"""Search space for FREVO: integers, each with a scale for its unit."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from swarmdsl.codegen.shared.constants import constant
 from swarmdsl.ir import Expression, Optimization, ParamRange, Primitive, System
 from swarmdsl.syntax.types import INTEGERS
 
-# An `int` of Java.
+# Range of a Java `int`.
 LARGEST = 2**31 - 1
 
 
 @dataclass(frozen=True)
 class Varied:
-    """A parameter: `minimum` to `maximum`, times `scale`.
+    """Parameter from `minimum` to `maximum`, times `scale`.
 
-    `meta` says where its value is put: the command line, or the parameter file of a package.
+    `meta` is the destination of its value: the command line, or the parameter file of a package.
     """
 
     name: str
@@ -34,7 +34,7 @@ class Varied:
 def varied(
     optimization: Optimization, system: System, package: str, target: str, report: Diagnostics
 ) -> Iterator[Varied]:
-    """All that can be said in this way; the rest is reported."""
+    """Return the parameters that can be expressed; report the others."""
     package = behaviours(system, package)
     owners: dict[str, str] = {}
     for range_ in optimization.params:
@@ -67,24 +67,24 @@ def varied(
 
 
 def behaviours(system: System, package: str) -> str:
-    """The ROS package with the behaviours: the one that is named, else that of target smach."""
+    """Return the ROS package of the behaviours: the given one, or target smach's."""
     return package or f"{snake_case(system.name)}_behavior"
 
 
 def number(expression: Expression) -> float:
-    """The value of a number or, in seconds, of a duration, which a check has seen."""
+    """Return the value of a number, or of a duration in seconds; it is known."""
     value = constant(expression, {})
     assert isinstance(value, (int, float))
     return value
 
 
 def _exact(expression: Expression) -> Fraction:
-    """The value as it is written: 0.1 is a tenth."""
+    """Return the value as a decimal fraction: 0.1 is a tenth."""
     return Fraction(str(number(expression)))
 
 
 def _scale(range_: ParamRange, optimization: Optimization, system: System) -> Fraction | None:
-    """The step; that of whole numbers is 1 where none is given, others have none."""
+    """Return the step; without one it is 1 for integers and None for others."""
     if range_.step is not None:
         return _exact(range_.step)
     swarm = next(each for each in system.swarms if each.name == optimization.swarm)

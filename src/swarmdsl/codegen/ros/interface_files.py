@@ -1,4 +1,4 @@
-"""Interfaces as .msg, .srv and .action files, as ROS 1 or ROS 2 reads them.
+"""Interfaces as .msg, .srv and .action files of ROS 1 or ROS 2.
 
 ROS 1: https://wiki.ros.org/msg; ROS 2: https://docs.ros.org, "Interfaces".
 """
@@ -27,7 +27,7 @@ from swarmdsl.ir import (
 
 Generation = Literal[1, 2]
 Complain = Callable[[str, Span | None], None]
-"""Told of a construct that ROS does not have, and where it stands."""
+"""Called with a construct that ROS lacks, and its origin."""
 
 FOLDERS = {Message: "msg", Service: "srv", Action: "action"}
 TIMES = {"time": "builtin_interfaces/Time", "duration": "builtin_interfaces/Duration"}
@@ -44,13 +44,13 @@ _CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 wants capital letters, digits and
 
 
 def interface_path(interface: Interface) -> str:
-    """The path of its file in its package."""
+    """Return the path of the interface's file in its package."""
     folder = FOLDERS[type(interface)]
     return f"{folder}/{interface.type.name}.{folder}"
 
 
 def interface_parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
-    """The fields of each part of an interface, in the order of its file."""
+    """Return the fields of each part of an interface, in the order of its file."""
     match interface:
         case Message(fields=fields):
             return (fields,)
@@ -61,7 +61,7 @@ def interface_parts(interface: Interface) -> tuple[tuple[Field, ...], ...]:
 
 
 def named_types(type_: Type) -> Iterator[Named]:
-    """The message that is in a type, if there is one."""
+    """Yield the message type in a type, if there is one."""
     if isinstance(type_, Array):
         yield from named_types(type_.element)
     elif isinstance(type_, Named):
@@ -71,7 +71,7 @@ def named_types(type_: Type) -> Iterator[Named]:
 def invalid_names(
     interface: Interface, ros: Generation
 ) -> Iterator[tuple[str, str, str, Span | None]]:
-    """The names in it that ROS does not take: each with what it is, what ROS wants, its place."""
+    """Yield names that ROS rejects: name, use, hint, origin."""
     if not re.fullmatch(_INTERFACE, interface.type.name):
         use = "the name of an interface"
         yield interface.type.name, use, _INTERFACE_HINT, interface.origin
@@ -84,7 +84,7 @@ def invalid_names(
 
 
 def depends(interfaces: Iterable[Interface], ros: Generation) -> set[str]:
-    """The packages whose messages are in the fields, and those that every action needs."""
+    """Return the packages of field types, and those that every action needs."""
     found: set[str] = set()
     for interface in interfaces:
         for field in (field for part in interface_parts(interface) for field in part):
@@ -99,7 +99,7 @@ def depends(interfaces: Iterable[Interface], ros: Generation) -> set[str]:
 
 
 def definition(interface: Interface, ros: Generation, complain: Complain) -> str:
-    """The text of its file."""
+    """Return the text of the interface's file."""
     lines = _comments(interface.doc)
     if isinstance(interface, Message):
         for value in interface.constants:
@@ -128,13 +128,13 @@ def _constant(declared: Constant, ros: Generation, complain: Complain) -> str:
     elif isinstance(value, bool) and ros == 2:
         text = str(value).lower()
     if text != text.strip() or not text.isprintable():
-        # ROS takes what stands in the line, ROS 1 without the blanks around it.
+        # The value ends with the line, and ROS 1 strips blanks around it.
         complain("a constant with blanks around it or line breaks", declared.origin)
     return f"{_type(declared.type, '', ros, declared.origin, complain)} {declared.name}={text}"
 
 
 def _field(field: Field, package: str, ros: Generation, complain: Complain) -> Iterator[str]:
-    """The line of a field; ROS 1 has no bounds, so that comments say them."""
+    """Yield the line of a field; in ROS 1, comments give the bounds."""
     element, size = field.type, ""
     if isinstance(field.type, Array):
         element = field.type.element

@@ -1,4 +1,4 @@
-"""The packages that interfaces are in, as a generator writes them: what each needs, its files."""
+"""Packages of interfaces: their files and dependencies."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from swarmdsl.ir import Interface, Named, System
 
 @dataclass(frozen=True)
 class InterfacePackage:
-    """A package of interfaces; `depends` are those whose messages are in its fields."""
+    """Package of interfaces; `depends` are the packages of types in its fields."""
 
     name: str
     interfaces: tuple[Interface, ...]
@@ -32,7 +32,7 @@ class InterfacePackage:
 def group_by_package(
     interfaces: Iterable[Interface], ros: Generation
 ) -> tuple[InterfacePackage, ...]:
-    """The packages that the interfaces are in, in the order in which they first appear."""
+    """Return the packages of the interfaces, in the order of first appearance."""
     by_name: dict[str, list[Interface]] = {}
     for interface in interfaces:
         by_name.setdefault(interface.type.package, []).append(interface)
@@ -43,10 +43,10 @@ def group_by_package(
 
 
 def interfaces_to_write(system: System, others: str) -> list[Interface]:
-    """The interfaces that a target writes: the model's own, and those of the packages `others`.
+    """Return the interfaces to write: the model's own and those of packages `others`.
 
-    These are names with commas between them: packages that no workspace has, but that the model
-    or its libraries describe.
+    `others` are comma-separated packages that no workspace has, but that the model or its
+    libraries describe.
     """
     packages = others.split(",")
     return [
@@ -55,7 +55,7 @@ def interfaces_to_write(system: System, others: str) -> list[Interface]:
 
 
 def check_described(system: System, others: str, target: str, report: Diagnostics) -> None:
-    """Report what is used of packages that are to be written and nobody describes."""
+    """Report used interfaces of packages to write that nothing describes."""
     packages = others.split(",")
     used = [(event.type, event.origin) for event in system.events]
     used += ((each.communication.type, each.origin) for each in system.functions)
@@ -87,14 +87,14 @@ def third_party_packages(
 
 
 def is_fully_described(system: System, package: str) -> bool:
-    """Whether all is known that is used of a package of others, so that it can be written."""
+    """Return True if every used interface of a third-party package is known."""
     found = Diagnostics()
     check_described(system, package, "", found)
     return not found.has_errors
 
 
 def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:
-    """Report packages that need each other: each is built after those it depends on."""
+    """Report packages that depend on each other: they cannot be built in an order."""
     known = {package.name: package for package in packages}
     for name, way in cycles(
         known, lambda name: [(other, other) for other in known[name].depends if other in known]
@@ -110,7 +110,7 @@ def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagn
 def definition_files(
     package: InterfacePackage, ros: Generation, target: str, report: Diagnostics
 ) -> Iterator[OutputFile]:
-    """The .msg, .srv and .action files of a package."""
+    """Yield the .msg, .srv and .action files of a package."""
 
     def complain(construct: str, at: Span | None) -> None:
         report.report("unsupported-construct", at, target=target, construct=construct)

@@ -1,4 +1,4 @@
-"""What every generated package of ROS has: its manifest, and what a person can say about it."""
+"""Manifest of ROS packages, and the options that all of them share."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.base.records import dataclass
 from swarmdsl.base.xml_writer import Element, document
 from swarmdsl.codegen.api import option
 
-# What catkin_pkg demands of them.
+# Patterns that catkin_pkg requires.
 _VERSION = r"[0-9]+\.[0-9]+\.[0-9]+"
 _COPYRIGHT = r"[0-9]{4}(-[0-9]{4})? \S.*"
 _EMAIL = r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}"
@@ -28,13 +28,13 @@ def _email_fault(value: str) -> str | None:
 
 
 def packages_fault(value: str) -> str | None:
-    """What is wrong with names of packages with commas between them; None if nothing is."""
+    """Return the error in comma-separated package names, or None."""
     wrong = [name for name in value.split(",") if value and not is_ros_package_name(name)]
     return f"`{wrong[0]}` is not the name of a package of ROS" if wrong else None
 
 
 def copyright_fault(value: str) -> str | None:
-    """What is wrong with a year and the holder of a copyright, which may be empty; or None."""
+    """Return the error in a copyright (year and holder, or empty), or None."""
     if not value or (re.fullmatch(_COPYRIGHT, value) and value.isprintable()):
         return None
     return f"`{value}` is not a year and a name, as in `2026 Example Robotics`"
@@ -47,7 +47,7 @@ def _line_fault(name: str) -> Callable[[str], str | None]:
 
 @dataclass(frozen=True)
 class PackageOptions:
-    """The options of every target that writes packages of ROS."""
+    """Options of every target that writes ROS packages."""
 
     version: str = option("0.1.0", "version of the package", check=_version_fault)
     license: str = option("Apache-2.0", "license of the package", check=_line_fault("license"))
@@ -69,10 +69,10 @@ def manifest(
     build_type: str = "",
     region: str = "",
 ) -> str:
-    """The text of package.xml, of format 2 (REP 140, ROS 1) or 3 (REP 149, ROS 2).
+    """Return package.xml, of format 2 (REP 140, ROS 1) or 3 (REP 149, ROS 2).
 
-    `depends` are tags with what they name, in their order. Where `region` has a name, it is
-    that of lines that are the user's (`swarmdsl.output.user_regions`).
+    `depends` are tags and their values, in order. `region`, if given, names the lines that belong
+    to the user (`swarmdsl.output.user_regions`).
     """
     root = Element("package", {"format": str(format_)})
     if region:

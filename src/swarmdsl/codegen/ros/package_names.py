@@ -1,4 +1,4 @@
-"""Names in a package of Python modules for ROS, and of the interfaces beside it."""
+"""Names in a package of Python modules for ROS, and of its interfaces."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ _PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a
 
 @dataclass(frozen=True)
 class PackageNames:
-    """What a target cannot call things, and the reports of that.
+    """Names that a target allows, with the diagnostics for others.
 
-    `modules` are those of each of its packages; a package named as one of `imported` would hide
-    what the nodes import. `made_of` are the endings of the names that ROS gives to what it makes
-    of an interface, by the class of the interface.
+    `modules` are the modules of each of its packages; a package named like one of `imported` would
+    hide what the nodes import. `made_of` are the suffixes of the names that ROS generates from an
+    interface, by the class of the interface.
     """
 
     target: str
@@ -31,7 +31,7 @@ class PackageNames:
     made_of: Mapping[type, Sequence[str]]
 
     def package(self, system: System, option: str, report: Diagnostics) -> str:
-        """The name of the package: that of the option, else made from the system's."""
+        """Return the package name: the option's, else made from the system's name."""
         name = option or f"{snake_case(system.name)}_behavior"
         if not option and self.package_fault(name) is not None:
             hint = "give the package a name with the option `package`"
@@ -39,17 +39,17 @@ class PackageNames:
         return name
 
     def package_fault(self, name: str) -> str | None:
-        """Why a package cannot have this name; None if it can."""
+        """Return the reason why a package cannot have this name, or None."""
         if is_ros_package_name(name) and name not in self.imported:
             return None
         return f"`{name}` cannot be the name of the package: {_PACKAGE_NAMES}"
 
     def option_fault(self, name: str) -> str | None:
-        """The same of a name that may be empty, for one that is made from the model's."""
+        """Return the same for an option, which may be empty."""
         return self.package_fault(name) if name else None
 
     def of_modules(self, machines: Iterable[StateMachine], report: Diagnostics) -> dict[str, str]:
-        """The module of each machine, by the machine's name."""
+        """Return the module of each machine, by the machine's name."""
         names: dict[str, str] = {}
         owners: dict[str, StateMachine] = {}
         for machine in machines:
@@ -78,7 +78,7 @@ class PackageNames:
     def check_callback(
         self, name: str, signature: str, known: dict[str, str], at: Span | None, report: Diagnostics
     ) -> None:
-        """One callback cannot be called in two ways."""
+        """Check that a callback has one signature."""
         if known.setdefault(name, signature) != signature:
             use = f"a callback with the arguments ({known[name]}) and with ({signature})"
             self.bad(report, name, use, at)
@@ -90,10 +90,10 @@ class PackageNames:
         behavior: str,
         report: Diagnostics,
     ) -> None:
-        """Check the packages of interfaces beside the package `behavior`, and the names in them."""
+        """Check the packages of interfaces beside package `behavior`."""
         for package in packages:
             self._check_package(package, behavior, report)
-        # What packages elsewhere define cannot be in one that is generated.
+        # A generated package cannot contain interfaces that another package defines.
         own = [each for package in packages for each in package.interfaces if not each.external]
         generated = {behavior, *(interface.type.package for interface in own)}
         for interface in system.interfaces:

@@ -1,4 +1,4 @@
-"""Values of the model as parameters of ROS hold them."""
+"""Values of the model as ROS parameters."""
 
 from __future__ import annotations
 
@@ -18,10 +18,9 @@ _REAL = (*FLOATS, "duration")
 def parameter_value(
     value: Value, type_: Type, ros: int, at: Span | None, target: str, report: Diagnostics
 ) -> Value:
-    """A value of that type as a parameter holds it: a real number has a point.
+    """Return a value as a parameter of that type; numbers of real types become floats.
 
-    `at` is where it stands; a whole number that is too large for this generation of ROS is reported
-    there.
+    An integer that is too large for this generation of ROS is reported at `at`.
     """
     if isinstance(type_, Primitive) and type_.name in _REAL and isinstance(value, int):
         return float(value)
@@ -35,7 +34,7 @@ def parameter_value(
 
 
 def with_parameters(node: BehaviorNode, ros: int, target: str, report: Diagnostics) -> BehaviorNode:
-    """A node with the values of its params as parameters hold them."""
+    """Return a node with its params converted to ROS parameters."""
 
     def held(given: ParamValue) -> ParamValue:
         if given.value is None or given.expression is None:

@@ -1,4 +1,4 @@
-"""The values of expressions that are known when the model is compiled."""
+"""Values of expressions that are known at compile time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Value = bool | int | float | str
 
 
 class UnknownValueError(Exception):
-    """The value depends on what is not known yet."""
+    """The value is not known at compile time."""
 
 
 class UndefinedValueError(Exception):
@@ -29,7 +29,7 @@ class UndefinedValueError(Exception):
 
 
 def constant(expression: Expression, params: Mapping[str, Param]) -> Value | None:
-    """The value of an expression, as `evaluate` gives it; None where there is none."""
+    """Return the value of an expression as `evaluate` does, or None."""
     try:
         return evaluate(expression, params)
     except (UnknownValueError, UndefinedValueError):
@@ -37,21 +37,21 @@ def constant(expression: Expression, params: Mapping[str, Param]) -> Value | Non
 
 
 def evaluate(expression: Expression, params: Mapping[str, Param]) -> Value:
-    """The value of an expression of literals and of params with a default.
+    """Return the value of an expression of literals and params with a default.
 
-    Durations are in seconds, as rospy takes them. Raises UnknownValueError or UndefinedValueError.
+    Durations are in seconds, as in rospy. Raises UnknownValueError or UndefinedValueError.
     """
     value: Value = _value(expression, params)
     return value / 1_000_000_000 if expression.type == DURATION else value  # type: ignore[operator]
 
 
 def params_by_name(params: tuple[Param, ...]) -> dict[str, Param]:
-    """The params that an expression can mean."""
+    """Return the params that an expression can refer to, by name."""
     return {param.name: param for param in params}
 
 
 def _value(expression: Expression, params: Mapping[str, Param]) -> Any:
-    """The value; durations in nanoseconds."""
+    """Return the value; durations in nanoseconds."""
     match expression:
         case Literal(value=value):
             return value
@@ -92,7 +92,7 @@ def _apply(
 
 
 def _text(operand: Expression) -> str:
-    """An operand as a person knows it."""
+    """Return an operand as in the model."""
     if isinstance(operand, Literal) and operand.type != DURATION:
         return str(operand.value)
     return operand.origin.text if operand.origin is not None else repr(operand)

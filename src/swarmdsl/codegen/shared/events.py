@@ -1,6 +1,6 @@
-"""The events that triggers mean in a portable document.
+"""Events of triggers in a portable document.
 
-Events that the machine itself makes begin with a keyword of the language, so they differ
+Events that the machine itself raises begin with a keyword of the language, so they differ
 from every event of the model:
 
     do.<state>.<outcome>     the activity of a state ended; its data are the result
@@ -28,13 +28,13 @@ from swarmdsl.ir import (
 
 
 class Events:
-    """Names the events of a machine whose states have the XML ids `ids`."""
+    """Names of the events of a machine whose states have the XML ids `ids`."""
 
     def __init__(self, machine: StateMachine, ids: Mapping[str, str]) -> None:
         self.ids = ids
         self.states = {state.id: state for state in machine.walk()}
-        # States of which some transition wants to know in which final state they are.
-        self.told_apart = {
+        # States with a transition that depends on their final state.
+        self.by_final_state = {
             trigger.state
             for state in self.states.values()
             for transition in state.transitions
@@ -43,12 +43,12 @@ class Events:
         }
 
     def of_transition(self, transition: Transition, state: State) -> list[str]:
-        """The events that trigger a transition; an empty one where it needs none."""
+        """Return the events that trigger a transition; [""] if it needs none."""
         triggers = transition.triggers
         return [each for trigger in triggers for each in self.of_trigger(trigger, state)] or [""]
 
     def of_trigger(self, trigger: Trigger, state: State) -> list[str]:
-        """The events that a trigger of this state means."""
+        """Return the events that a trigger of this state stands for."""
         match trigger:
             case EventTrigger(event=event):
                 return [event]
@@ -62,31 +62,31 @@ class Events:
                 return self._done(owner) if final is None else [self.final(final)]
 
     def outcome(self, state: State, outcome: str) -> str:
-        """The event of how the activity of a state ended."""
+        """Return the event for an outcome of a state's activity."""
         return f"do.{self.ids[state.id]}.{outcome}"
 
     def stored(self, state: State) -> str:
-        """The event of an activity that succeeded and whose result is stored."""
+        """Return the event for an activity that succeeded and stored its result."""
         return f"gives.{self.ids[state.id]}.succeeded"
 
     def timer(self, state: State, delay: Expression) -> str:
-        """The event of a delay that has passed."""
+        """Return the event for a delay that has passed."""
         return f"after.{self.ids[state.id]}.{delays(state).index(delay) + 1}"
 
     def final(self, final: str) -> str:
-        """The event of a final state that was entered."""
+        """Return the event for a final state that was entered."""
         return f"final.{self.ids[final]}"
 
     def _done(self, owner: str) -> list[str]:
-        if owner not in self.told_apart:
+        if owner not in self.by_final_state:
             return [f"done.state.{self.ids[owner]}"]
-        # `done.state` would come second, when what the first event led to is over already.
+        # `done.state` would come second, after the transition on the first event.
         inside = self.states[owner].states
         return [self.final(each.id) for each in inside if each.kind is StateKind.FINAL]
 
 
 def delays(state: State) -> list[Expression]:
-    """The different delays of a state: transitions after the same time share a timer."""
+    """Return the distinct delays of a state: equal ones share a timer."""
     return list(
         dict.fromkeys(
             trigger.delay
@@ -98,6 +98,6 @@ def delays(state: State) -> list[Expression]:
 
 
 def _handles_preempted(state: State) -> bool:
-    """Whether a state tells an activity that gave up from one that failed."""
+    """Return True if a state distinguishes preempted from aborted activities."""
     given_up = OutcomeTrigger(state.id, "preempted")
     return any(given_up in transition.triggers for transition in state.transitions)

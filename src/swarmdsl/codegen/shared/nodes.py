@@ -1,4 +1,4 @@
-"""The ROS nodes of a member: one for each machine that it or a part of it runs."""
+"""ROS nodes of a member: one for each machine that it or a part of it runs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.ir import Component, Expression, Member, Param, Part, StateMachine
 
 @dataclass(frozen=True)
 class ParamValue:
-    """What the model gives a param of a machine; `value` is None where nothing is known yet."""
+    """Value of a machine's param in the model; `value` is None if not known yet."""
 
     param: Param
     expression: Expression | None
@@ -22,10 +22,10 @@ class ParamValue:
 
 @dataclass(frozen=True)
 class BehaviorNode:
-    """A machine that runs, what its node is called, and the values of its params there.
+    """Node that runs a machine, with the values of its params.
 
     `part` is the part of the member whose behaviour it is; None for that of the member itself.
-    `remaps` are those of the topics that connectors put elsewhere.
+    `remaps` are the topics that connectors replace.
     """
 
     name: str
@@ -36,7 +36,7 @@ class BehaviorNode:
 
 
 def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
-    """The nodes for the behaviour of a member, and of those of its parts that have one."""
+    """Yield the nodes for the behaviours of a member and of its parts."""
     machines = {machine.name: machine for machine in system.machines}
     components = {component.name: component for component in system.components}
     if member.behavior is not None:
@@ -55,19 +55,19 @@ def behavior_nodes(member: Member, system: System) -> Iterator[BehaviorNode]:
 
 
 def bringup_package(system: System) -> str:
-    """The package that target `skeleton` writes to start the nodes of members' components."""
+    """Return the package of target `skeleton` that starts members' components."""
     return f"{snake_case(system.name)}_bringup"
 
 
 def has_node(component: Component) -> bool:
-    """Whether a component needs a node besides that of its behaviour."""
+    """Return True if a component needs a node besides that of its behaviour."""
     return bool(component.ports or component.operations)
 
 
 def behavior_name(part: Part, component: Component, member: Member) -> str:
-    """What the node with the behaviour of a part is called.
+    """Return the name of the node with the behaviour of a part.
 
-    It has the part's name, unless that is what the node for its ports and operations is called.
+    It is the part's name, unless the node for its ports and operations has that name.
     """
     if not has_node(component):
         return part.name
@@ -80,9 +80,9 @@ def _given(
     values: Mapping[str, Expression],
     around: Mapping[str, Param],
 ) -> tuple[ParamValue, ...]:
-    """The params that the machine has, with the values of its owner, else its own.
+    """Return the params of the machine, with the values of its owner, else its own.
 
-    `values` are those of a part, in which params of the member, `around`, can be meant.
+    `values` are those of a part, which may refer to params of the member, `around`.
     """
     known = {**params_by_name(machine.params), **params_by_name(params)}
     given = {**{param.name: param.default for param in params}, **values}

@@ -1,8 +1,8 @@
-"""Internal transitions of a parallel state that lead into one of its regions.
+"""Internal transitions of a parallel state into one of its regions.
 
-SCXML has internal transitions of compound states only, so each stands in the region that it
-leads into. What remains of it in the parallel state does nothing, and keeps those after it
-from being taken.
+SCXML has internal transitions of compound states only, so each moves to the region that it
+leads into. In the parallel state a transition without content remains, which keeps those
+after it from being taken.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from swarmdsl.syntax.types import BOOL
 
 
 def entered_region(transition: Transition, state: State) -> State | None:
-    """The region that an internal transition of a parallel state leads into."""
+    """Return the region that an internal transition of a parallel state enters."""
     if state.kind is not StateKind.PARALLEL or not transition.internal:
         return None
     target = f"{transition.target}."
@@ -26,18 +26,17 @@ def entered_region(transition: Transition, state: State) -> State | None:
 def region_transitions(
     region: State, around: State, events: Events
 ) -> Iterator[tuple[str, Expression | None, Transition, int]]:
-    """What such a region takes itself: the event, empty for none, the guard, the transition, which.
+    """Yield the transitions that move to a region: event, guard, transition, index.
 
-    The last is the number of the transition among those of the parallel state.
-
-    A region takes its own before those of the parallel state: the earlier ones there must not
-    be enabled.
+    The event is empty if there is none; the index is among the transitions of the parallel state.
+    A region takes its own transitions before those of the parallel state, so the guards exclude
+    the earlier ones there.
     """
     for index, transition in enumerate(around.transitions):
         if entered_region(transition, around) is not region:
             continue
         for event in events.of_transition(transition, around):
-            # One that is never taken is written too: it comes back when the document is read.
+            # One that is never taken is written too, so that importing the document restores it.
             refused = [
                 Unary("not", earlier.guard or Literal(True, BOOL), BOOL)
                 for earlier in around.transitions[:index]
@@ -47,6 +46,6 @@ def region_transitions(
 
 
 def _all(guards: Iterable[Expression], last: Expression | None) -> Expression | None:
-    """The conjunction of guards; None when there is none."""
+    """Return the conjunction of guards; None if there is none."""
     given = [*guards, *([last] if last is not None else [])]
     return reduce(lambda left, right: Binary("and", left, right, BOOL), given) if given else None

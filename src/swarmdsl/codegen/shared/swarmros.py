@@ -17,7 +17,7 @@ from swarmdsl.codegen.shared.constants import Value, constant
 from swarmdsl.codegen.shared.topic_uses import Use, uses
 from swarmdsl.ir import CommunicationSettings, Member, Message, Named, System
 
-# What the bridge knows an event by: its name and who sent it.
+# The bridge identifies an event by its name and sender.
 _HEADER = Named("swarmros", "EventHeader")
 _TECHNOLOGY = "zyre"
 _PARAMETERS = ("ifname", "port")
@@ -39,20 +39,20 @@ def bridge_files(system: System, report: Diagnostics) -> Iterator[OutputFile]:
 
 
 def _bridged(system: System, used: Iterable[Use]) -> set[str]:
-    """The topics of swarm events, and those that somebody hears behind the bridge."""
+    """Return the topics of swarm events, and those with subscribers after the bridge."""
     declared = {event.topic for event in system.events if event.swarm}
     return declared | {_suffix(use) for use in used if use.heard and _suffix(use) != use.topic}
 
 
 def _suffix(use: Use) -> str:
-    """The topic on the sender's side; nothing where what is heard did not cross the bridge."""
+    """Return the topic at the sender, without the prefix of incoming events."""
     if not use.heard:
         return use.topic
     return use.topic.removeprefix(incoming_topic("", swarm=True))
 
 
 def _can_cross(use: Use, system: System, report: Diagnostics) -> bool:
-    """Whether the bridge takes the message; reported otherwise."""
+    """Return True if the bridge takes the message; report it otherwise."""
     if use.heard and _suffix(use) == use.topic:
         return False  # a topic of the robot itself
     message = system.interface(use.type)
@@ -93,7 +93,7 @@ def _file(member: Member, crossing: list[Use], report: Diagnostics) -> Iterator[
     yield from _list(
         "outgoingEvents", [{"message": type_, "source": topic} for topic, type_ in sent.items()]
     )
-    # The sender names an event as its topic.
+    # The sender uses the topic as the event's name.
     yield from _list(
         "incomingEvents",
         [{"suffix": topic, "message": type_, "name": topic} for topic, type_ in heard.items()],
@@ -134,5 +134,5 @@ def _items(group: Group, indent: str) -> Iterator[str]:
 
 
 def _text(text: str) -> str:
-    """A text in quotes, with what cannot stand in it by its number."""
+    """Return a quoted string, with special characters by number."""
     return '"' + _SPECIAL.sub(lambda found: f"\\x{ord(found[0]):02x}", text) + '"'

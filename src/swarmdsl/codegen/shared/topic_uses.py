@@ -1,4 +1,4 @@
-"""The ROS topics that a member uses: by its behaviour, its ports and the functions it calls."""
+"""ROS topics that a member uses in its behaviour, ports and functions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from swarmdsl.ir import (
 
 @dataclass(frozen=True)
 class Use:
-    """Messages that are heard on a topic or sent on it; `origin` is what names the topic."""
+    """Subscription to a topic or publication on it; `origin` names the topic."""
 
     topic: str
     type: Type
@@ -31,7 +31,7 @@ class Use:
 
 
 def uses(member: Member, system: System) -> Iterator[Use]:
-    """Each use once, in the order of the model."""
+    """Yield each use once, in the order of the model."""
     components = {component.name: component for component in system.components}
     machines = {machine.name: machine for machine in system.machines}
     owners: list[Member | Component] = [member]

@@ -24,14 +24,14 @@ class Wiring:
     ports: Mapping[PortRef, Port]
 
     def topic(self, port: PortRef) -> str:
-        """The topic that a port is on."""
+        """Return the topic of a port."""
         for group in self.member.port_groups:
             if port in group.ports:
                 return group.topic
         return self.ports[port].topic
 
     def remaps(self, part: str) -> Remaps:
-        """The remappings of a part's node."""
+        """Return the remappings of a part's node."""
         made = {port.topic: self.topic(ref) for ref, port in self.ports.items() if ref.part == part}
         return tuple((name, topic) for name, topic in made.items() if name != topic)
 

@@ -1,4 +1,4 @@
-"""What a state or a transition does, as text of the model: effects and activities."""
+"""Print effects and activities."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swarmdsl.ir import Activity, Assignment, Effect, Expression, Send
 
 
 def effect_text(effect: Effect) -> str:
-    """`x = 1` or `send Found(id = 7)`."""
+    """Return `x = 1` or `send Found(id = 7)`."""
     match effect:
         case Assignment(variable=variable, path=path, value=value):
             return f"{'.'.join((variable, *path))} = {expression(value)}"
@@ -18,7 +18,7 @@ def effect_text(effect: Effect) -> str:
 
 
 def activity_text(activity: Activity, function: str) -> str:
-    """`go(height = 2) gives (id => found)` with the function by the given name."""
+    """Return `go(height = 2) gives (id => found)`, the function by the given name."""
     text = function
     if activity.goal_callback is not None:
         text += f"(by {activity.goal_callback})"
@@ -35,5 +35,5 @@ def activity_text(activity: Activity, function: str) -> str:
 
 
 def arguments(values: Iterable[tuple[str, Expression]]) -> str:
-    """`height = 2, name = "a"`."""
+    """Return `height = 2, name = "a"`."""
     return ", ".join(f"{name} = {expression(value)}" for name, value in values)

@@ -1,4 +1,4 @@
-"""Components and members as text, without what they inherit."""
+"""Print components and members, without inherited items."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 
 def print_component(component: Component, system: System, names: Names) -> list[str]:
-    """A component with its operations."""
+    """Print a component with its operations."""
     base = next((each for each in system.components if each.name == component.base), None)
     return documented(
         component.doc,
@@ -48,7 +48,7 @@ def print_component(component: Component, system: System, names: Names) -> list[
 
 
 def print_member(member: Member, system: System, names: Names) -> list[str]:
-    """A member with its parts and connectors."""
+    """Print a member with its parts and connectors."""
     base = next((each for each in system.members if each.name == member.base), None)
     return documented(
         member.doc,
@@ -71,14 +71,14 @@ def print_member(member: Member, system: System, names: Names) -> list[str]:
 
 
 def own(items: Sequence[T], inherited: Sequence[T], owner: Component | Member) -> Sequence[T]:
-    """The items after those that are inherited."""
+    """Return the items after the inherited ones."""
     if items[: len(inherited)] != inherited:
         raise UnprintableError(f"`{owner.name}` lacks something of `{owner.base}`")
     return items[len(inherited) :]
 
 
 def own_params(owner: Component | Member, base: Component | Member | None) -> list[Param]:
-    """The params that are new, or replace an inherited one."""
+    """Return the params that are new, or replace an inherited one."""
     inherited = base.params if base is not None else ()
     names = [param.name for param in inherited]
     if [param.name for param in owner.params[: len(names)]] != names:

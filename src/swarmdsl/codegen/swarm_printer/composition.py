@@ -1,4 +1,4 @@
-"""Swarms, environments, fitness and optimizations as text."""
+"""Print swarms, environments, fitness and optimizations."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _ONE = Multiplicity(1, 1)
 
 
 def print_swarm(swarm: Swarm) -> list[str]:
-    """A swarm with its roles."""
+    """Print a swarm with its roles."""
     roles = [
         line
         for role in swarm.roles
@@ -46,7 +46,7 @@ def print_swarm(swarm: Swarm) -> list[str]:
 
 
 def print_environment(environment: Environment) -> list[str]:
-    """An environment, lengths in metres."""
+    """Print an environment, lengths in metres."""
     lines = []
     if environment.world is not None:
         world = [f"world {quoted(environment.world)}"]
@@ -58,7 +58,7 @@ def print_environment(environment: Environment) -> list[str]:
 
 
 def print_fitness(fitness: Fitness, names: Names) -> list[str]:
-    """A fitness with its inputs and params."""
+    """Print a fitness with its inputs and params."""
     inputs = [
         line
         for each in fitness.inputs
@@ -71,7 +71,7 @@ def print_fitness(fitness: Fitness, names: Names) -> list[str]:
 
 
 def print_optimization(optimization: Optimization) -> list[str]:
-    """What an optimiser may vary."""
+    """Print an optimization with its search space."""
     lines = []
     for name, value in optimization.settings:
         lines += documented(doc_of(optimization.docs, name), [f"{name} {expression(value)}"])
@@ -88,6 +88,6 @@ def _range(values: CountRange | ParamRange) -> str:
 
 
 def _metres(length: float) -> str:
-    """A length as a decimal number: without exponent, and without `.0`."""
+    """Return a length as a decimal number: without exponent, and without `.0`."""
     text = f"{Decimal(repr(length)):f}"
     return f"{text.removesuffix('.0')} m"

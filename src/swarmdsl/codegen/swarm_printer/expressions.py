@@ -1,4 +1,4 @@
-"""Expressions as the language writes them."""
+"""Print expressions in the language."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from swarmdsl.syntax.types import DURATION
 
 
 def expression(value: Expression, named: Callable[[str], str] = str) -> str:
-    """An expression with the parentheses that it needs; `named` writes variables and params."""
+    """Return an expression with minimal parentheses; `named` prints names."""
     return translate(value, Dialect(_literal, named, named, "event", {}, {}))
 
 
 def delay(value: Expression) -> str:
-    """The same after `after`, where a `/` would begin the effects of the transition."""
+    """Return an expression after `after`, where a `/` would begin the effects."""
     text = expression(value)
     return f"({text})" if "/" in text or "%" in text else text
 
 
 def default(value: Expression | None) -> str:
-    """` = value`, or nothing."""
+    """Return ` = value`, or nothing."""
     return "" if value is None else f" = {expression(value)}"
 
 
@@ -43,7 +43,7 @@ def _literal(literal: Literal) -> str:
 
 
 def _duration(nanoseconds: int) -> str:
-    """A length of time in the longest unit of which it is a whole number, else in `us`."""
+    """Return a duration in the longest unit that divides it, else in `us`."""
     if nanoseconds < 0:
         return f"-{_duration(-nanoseconds)}"
     if nanoseconds == 0:

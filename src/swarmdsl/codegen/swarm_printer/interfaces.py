@@ -1,4 +1,4 @@
-"""Messages, services, actions, events and functions as text."""
+"""Print messages, services, actions, events and functions."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from swarmdsl.ir import (
 
 
 def print_interface(interface: Interface, names: Names) -> list[str]:
-    """A message, service or action; an enum is a message of constants."""
+    """Print a message, service or action; an enum is a message of constants."""
     name = str(interface.type) if interface.external else interface.type.name
     match interface:
         case Message(fields=fields, constants=constants):
@@ -39,14 +39,14 @@ def print_interface(interface: Interface, names: Names) -> list[str]:
 
 
 def print_event(event: Event, names: Names) -> list[str]:
-    """An event; one that stands for a monitored topic is declared like any other."""
+    """Print an event; that of a monitored topic is declared like any other."""
     swarm = "swarm " if event.swarm else ""
     on = on_topic(event.topic, event.name)
     return documented(event.doc, [f"{swarm}event {event.name} : {names.type(event.type)}{on}"])
 
 
 def print_function(function: Function, names: Names) -> list[str]:
-    """A function with how it is called."""
+    """Print a function with its call."""
     return documented(
         function.doc,
         block(
@@ -61,7 +61,7 @@ def print_function(function: Function, names: Names) -> list[str]:
 
 
 def print_params(params: Iterable[Param], names: Names) -> list[str]:
-    """Params, one a line."""
+    """Print params, one a line."""
     return [
         line
         for param in params
@@ -72,7 +72,7 @@ def print_params(params: Iterable[Param], names: Names) -> list[str]:
 
 
 def on_topic(topic: str, name: str) -> str:
-    """` on "topic"`, or nothing where the topic follows from the name."""
+    """Return ` on "topic"`, or nothing if the name implies the topic."""
     return "" if topic == snake_case(name) else f" on {quoted(topic)}"
 
 
@@ -96,7 +96,7 @@ def _fields(fields: Iterable[Field], names: Names) -> list[str]:
 
 
 def _parts(parts: dict[str, tuple[Field, ...]], names: Names) -> list[str]:
-    """The parts of a service or action that have fields."""
+    """Yield the parts of a service or action that have fields."""
     return [
         line
         for part, fields in parts.items()

@@ -1,4 +1,4 @@
-"""Lines and blocks of a .swarm file, the same for all that is printed."""
+"""Lines and blocks of a .swarm file."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t"}
 
 
 class UnprintableError(ValueError):
-    """There is no text that means this: no model leads to such a system."""
+    """No text has this meaning: no model leads to such a system."""
 
 
 def documented(doc: str, lines: Iterable[str]) -> list[str]:
-    """Lines with their documentation before them."""
+    """Return lines with their documentation before them."""
     comment = [f"/// {line}".rstrip() for line in doc.split("\n")] if doc else []
     return [*comment, *lines]
 
 
 def block(head: str, *groups: Iterable[str]) -> list[str]:
-    """`head { ... }`, a blank line between groups of lines; empty groups leave no trace."""
+    """Return `head { ... }`, with a blank line between non-empty groups of lines."""
     body: list[str] = []
     for lines in map(list, groups):
         if lines and body:
@@ -31,10 +31,10 @@ def block(head: str, *groups: Iterable[str]) -> list[str]:
 
 
 def indented(lines: Iterable[str]) -> list[str]:
-    """Lines one level further in."""
+    """Return lines one level deeper."""
     return [f"{_INDENT}{line}" if line else "" for line in lines]
 
 
 def quoted(text: str) -> str:
-    """Text in double quotes."""
+    """Return a string in double quotes."""
     return '"' + "".join(_ESCAPES.get(character, character) for character in text) + '"'

@@ -1,4 +1,4 @@
-"""State machines as text."""
+"""Print state machines."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from swarmdsl.ir import (
 
 
 def print_machine(machine: StateMachine, reuse: Reuse, names: Names) -> list[str]:
-    """A machine; states that reuse another one say so."""
+    """Print a machine; states that reuse another one name it."""
     place = top(machine)
     endless = "endless " if machine.endless else ""
     printer = _Printer(reuse, names)
@@ -58,7 +58,7 @@ def _variable(variable: Variable, names: Names) -> list[str]:
 
 @dataclass(frozen=True)
 class _Printer:
-    """Prints the states of one machine."""
+    """Printer of the states of one machine."""
 
     reuse: Reuse
     names: Names
@@ -109,13 +109,13 @@ class _Printer:
         return block(f"state {state.name}", [*self._own(state), *transitions])
 
     def _content(self, state: State, place: Place) -> tuple[list[str], list[str]]:
-        """The initial state and the states of a composite state or region."""
+        """Return the initial state and the states of a composite state or region."""
         assert state.initial is not None
         initial = place.path(state.initial, (level(state),))
         return _initial(state, initial), self.states(state.states, place.inside(state))
 
     def _own(self, state: State) -> list[str]:
-        """What a state does: its activity, and its effects on entry and exit."""
+        """Return the activity and the effects on entry and exit of a state."""
         lines = []
         if state.activity is not None:
             function = self.names.function(state.activity.function)
@@ -143,7 +143,7 @@ def _transition(
     if transition.triggers:
         parts.append(_triggers(transition.triggers, state))
     elif guard is None or target is None:
-        # A state that does nothing and has nothing in it is complete at once.
+        # A state without activity and content is complete at once.
         if state.kind is not StateKind.SIMPLE or state.activity is not None:
             raise UnprintableError(f"a transition of `{state.id}` waits for nothing")
         parts.append("on done")

@@ -1,4 +1,4 @@
-"""How things of a system are called in its text."""
+"""Names in the text of a system."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ from swarmdsl.syntax.types import PRIMITIVES
 
 @dataclass(frozen=True)
 class Names:
-    """`own` are the interfaces that the model declares itself.
+    """Names that differ between text and system.
 
-    `operations` are the functions that components and parts offer, as `Component.operation`.
+    `own` are the interfaces that the model declares itself; `operations` the functions that
+    components and parts offer, as `Component.operation`.
     """
 
     own: frozenset[Named]
     operations: Mapping[str, str]
 
     def type(self, type_: Type) -> str:
-        """A type as written in the model."""
+        """Return a type as written in the model."""
         match type_:
             case Array(element=element, size=size, bounded=bounded):
                 return f"{self.type(element)}[{'<=' if bounded else ''}{size or ''}]"
@@ -30,13 +31,13 @@ class Names:
                 return str(type_)
 
     def function(self, name: str) -> str:
-        """A function that a state does, as written there."""
+        """Return a function as written in a state."""
         return self.operations.get(name, name)
 
 
 def make_names(system: System) -> Names:
-    """Gather what has another name in the text than in the system."""
-    # The last one counts, and a component may be asked in every machine.
+    """Collect the names that differ between text and system."""
+    # The last one counts: every machine can call a component.
     owners: list[Part | Component] = [*all_parts(system), *system.components]
     return Names(
         frozenset(known.type for known in system.interfaces if not known.external),
@@ -49,16 +50,16 @@ def make_names(system: System) -> Names:
 
 
 def all_parts(system: System) -> list[Part]:
-    """The parts of all members."""
+    """Yield the parts of all members."""
     return [part for member in system.members for part in member.parts]
 
 
 def own_operations(component: Component, system: System) -> tuple[str, ...]:
-    """The functions that a component offers itself, without those of its base."""
+    """Return the functions that a component offers itself, without its base's."""
     base = next((each for each in system.components if each.name == component.base), None)
     return component.operations[len(base.operations) if base is not None else 0 :]
 
 
 def operation_name(function: Function) -> str:
-    """What a function is called in the component that offers it."""
+    """Return the name of a function in the component that offers it."""
     return function.communication.name.rpartition("/")[2]

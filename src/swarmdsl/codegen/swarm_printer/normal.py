@@ -1,14 +1,13 @@
-"""The form of a system that one file can say.
+"""Normal form of a system that one file can express.
 
-What lowering made of one file is in this form already, but for the last two points, which
-are rare there too:
+Lowering one file yields this form already, except for the last two points, which are rare:
 
-- The interfaces of the model belong to the package of the system. Where another package
-  declares that name as well, the package stands before it, as in names of other declarations.
+- The interfaces of the model belong to the package of the system. If another package
+  declares the same name, the package becomes a prefix, as in names of other declarations.
 - A member or component has each param that its behaviour needs a value for. Lowering drops
-  the default of a machine where its members do not agree on one.
-- Where the states of a reused machine are not those that lowering puts in place, the
-  machine they come from is forgotten (`State.submachine`).
+  the default of a machine if its members do not agree on one.
+- If the states of a reused machine differ from those that lowering expands, the origin of
+  the states is dropped (`State.submachine`).
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ Owner = TypeVar("Owner", Component, Member)
 
 
 def normalized(system: System) -> System:
-    """The system as it comes back from its text."""
+    """Return the system as its text is lowered."""
     return _known_reuse(_given_params(_one_package(system)))
 
 
@@ -73,7 +72,7 @@ def _one_package(system: System) -> System:
 
 
 def _renamed(node: Any, types: Mapping[Named, Named]) -> Any:
-    """The same with other names of interfaces."""
+    """Return the system with interfaces renamed."""
     if isinstance(node, Named):
         return types.get(node, node)
     if isinstance(node, tuple):
@@ -97,7 +96,7 @@ def _given_params(system: System) -> System:
 
 
 def _completed(owners: tuple[Owner, ...], needed: Mapping[str, list[Param]]) -> tuple[Owner, ...]:
-    """The owners with the params their behaviours need, inherited ones first."""
+    """Return the owners with the params of their behaviours, inherited ones first."""
     before = {owner.name: owner for owner in owners}
     done: dict[str, tuple[Param, ...]] = {}
 

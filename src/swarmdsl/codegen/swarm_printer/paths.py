@@ -1,7 +1,7 @@
-"""Names by which a transition finds its target, by the rules of `link_machines`.
+"""Paths from a transition to its target, by the rules of the linker.
 
-The first name of a path is looked for among the states in sight, the nearest level first;
-each further one inside the state that the one before means.
+The first name of a path is looked up among the visible states, the nearest level first;
+each further one inside the state before it.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ Level = Mapping[str, Sequence[State]]
 
 @dataclass(frozen=True)
 class Place:
-    """Where in a machine something stands.
+    """Position in a machine.
 
-    `outer` are the states in sight, the nearest first, `beside` those in all regions of the
-    parallel states around. `chains` lead to each state by id, from the outermost around it,
-    regions left out.
+    `outer` are the visible states, the nearest first, `beside` those in all regions of the
+    enclosing parallel states. `chains` lead to each state by id, from its outermost ancestor,
+    without regions.
     """
 
     chains: Mapping[str, tuple[State, ...]]
@@ -30,21 +30,21 @@ class Place:
     beside: tuple[Level, ...] = ()
 
     def inside(self, state: State) -> Place:
-        """The place where the states in a state or region stand."""
+        """Return the place of the states in a state or region."""
         if state.kind is StateKind.PARALLEL:
             return replace(self, beside=(level(state), *self.beside))
         return replace(self, outer=(level(state), *self.outer))
 
     def from_state(self, state: State) -> tuple[Level, ...]:
-        """What the transitions of a state have in sight."""
+        """Return the scope of the transitions of a state."""
         return (*self.outer, level(state), *self.beside)
 
     def from_choice(self) -> tuple[Level, ...]:
-        """What the branches of a choice have in sight."""
+        """Return the scope of the branches of a choice."""
         return (*self.outer, *self.beside)
 
     def path(self, target: str, levels: Iterable[Level]) -> str:
-        """The shortest path to a state by its id."""
+        """Return the shortest path to a state by its id."""
         chain = self.chains[target]
         for start in reversed(range(len(chain))):
             way = chain[start:]
@@ -54,14 +54,14 @@ class Place:
 
 
 def top(machine: StateMachine) -> Place:
-    """The place of the outermost states of a machine."""
+    """Return the place of the outermost states of a machine."""
     chains: dict[str, tuple[State, ...]] = {}
     _collect(machine.states, (), chains)
     return Place(chains, (_by_name(machine.states),))
 
 
 def level(state: State) -> Level:
-    """The states inside another; regions are no level, a reused machine is closed."""
+    """Yield the states inside another, through regions; reused machines are closed."""
     if state.submachine is not None:
         return {}
     if state.kind is StateKind.PARALLEL:

@@ -1,6 +1,6 @@
-"""Which states are those of another machine, and with which values of its params.
+"""Recover reused machines, with the values of their params.
 
-Lowering puts a reused machine in place: this finds out again what was written.
+Lowering expands a reused machine; this is the inverse.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _OPERATIONS = (Unary, Binary, Call, FieldAccess)
 
 @dataclass(frozen=True)
 class Use:
-    """How a state reuses a machine: the params it binds, and its own effects on entry."""
+    """Reuse of a machine by a state: bound params, and own effects on entry."""
 
     bindings: tuple[tuple[str, Expression], ...]
     entry: tuple[Effect, ...]
@@ -56,14 +56,14 @@ class Use:
 
 @dataclass(frozen=True)
 class Reuse:
-    """How a machine is written: its own variables, and the states that reuse others, by id."""
+    """Source form of a machine: own variables, and reusing states by id."""
 
     variables: tuple[Variable, ...]
     uses: Mapping[str, Use]
 
 
 def find_reuse(machine: StateMachine, machines: Mapping[str, StateMachine]) -> Reuse | None:
-    """What of a machine is its own; None when it is not made as lowering makes it."""
+    """Return the source form; None if lowering cannot have made the machine."""
     states = list(_reusing(machine.states))
     if any(state.submachine not in machines for state in states):
         return None
@@ -88,14 +88,14 @@ def find_reuse(machine: StateMachine, machines: Mapping[str, StateMachine]) -> R
 def own_variables(
     machine: StateMachine, machines: Mapping[str, StateMachine]
 ) -> tuple[Variable, ...]:
-    """The variables of a machine before those of the machines it reuses."""
+    """Return the variables before those of reused machines."""
     reused = (machines[state.submachine or ""] for state in _reusing(machine.states))
     end = len(machine.variables) - sum(len(each.variables) for each in reused)
     return machine.variables[: max(end, 0)]
 
 
 def _reusing(states: tuple[State, ...]) -> Iterator[State]:
-    """The states that reuse a machine, without those inside such a machine."""
+    """Yield the states that reuse a machine, without those inside such a machine."""
     for state in states:
         if state.submachine is not None:
             yield state
@@ -104,7 +104,7 @@ def _reusing(states: tuple[State, ...]) -> Iterator[State]:
 
 
 def _entered_from_outside(state: State, machine: StateMachine) -> bool:
-    """Whether a transition leads into a state from elsewhere."""
+    """Return True if a transition leads into a state from elsewhere."""
     inside = {each.id for each in state.walk()} - {state.id}
     return any(
         transition.target in inside
@@ -117,7 +117,7 @@ def _entered_from_outside(state: State, machine: StateMachine) -> bool:
 def _names(
     machine: StateMachine, prefix: str, machines: Mapping[str, StateMachine], taken: set[str]
 ) -> Iterator[str]:
-    """The names that lowering gives the variables of a machine at a state of id `prefix`."""
+    """Return the lowered names of a machine's variables at state `prefix`."""
     for variable in own_variables(machine, machines):
         name = f"{snake_case(prefix)}_{variable.name}" if prefix else variable.name
         while name in taken:
@@ -135,7 +135,7 @@ def _use(
     variables: tuple[Variable, ...],
     machines: Mapping[str, StateMachine],
 ) -> Use | None:
-    """What makes the states of a machine those inside `state`, None when nothing does."""
+    """Return the reuse whose expansion is `state`, or None."""
     if [_nameless(each) for each in template.variables] != [_nameless(each) for each in variables]:
         return None
     names = {
@@ -164,7 +164,7 @@ def _nameless(variable: Variable) -> Variable:
 def _bindings(
     template: StateMachine, bound: Mapping[str, Expression]
 ) -> tuple[tuple[str, Expression], ...] | None:
-    """The values of a machine's params, without those that are the default anyway."""
+    """Return the values of a machine's params that differ from the defaults."""
     bindings = []
     for param in template.params:
         value = bound.get(param.name)
@@ -178,7 +178,7 @@ def _bindings(
 
 
 def _any_value(param: Param) -> Literal | None:
-    """A value for a param that is never read; None where its type has no literals."""
+    """Return a value for a param that is never read; None if its type has no literal."""
     values: dict[Type, Literal] = {
         BOOL: Literal(False, BOOL),
         STRING: Literal("", STRING),
@@ -191,9 +191,9 @@ def _any_value(param: Param) -> Literal | None:
 
 @dataclass(frozen=True)
 class _Match:
-    """Compares states of a machine with those put in place below state `prefix`.
+    """Comparison of a machine's states with those expanded below state `prefix`.
 
-    `variables` says what variables are called there, `bound` gathers what stands for params.
+    `variables` gives the names of its variables there; `bound` collects the values of params.
     """
 
     prefix: str

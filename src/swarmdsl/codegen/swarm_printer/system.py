@@ -1,4 +1,4 @@
-"""A whole system as text."""
+"""Print a whole system."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _PACKAGE_NAME = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*", re.ASCII)
 
 
 def print_system(system: System) -> str:
-    """The system as one file.
+    """Return the system as one file.
 
-    A package whose name the language does not have is left out: the file must be called so.
+    A package whose name is not valid in the language is left out: the file must have that name.
     """
     system = normalized(system)
     declarations = list(_declarations(system, make_names(system)))
@@ -41,10 +41,10 @@ def print_system(system: System) -> str:
 
 
 def _declarations(system: System, names: Names) -> Iterator[list[str]]:
-    """The lines of each declaration.
+    """Yield the lines of each declaration.
 
-    A component brings functions and services with it, its operations. It stands after those
-    before them, so that all come back in their order. The functions of parts are the last.
+    A component declares its operations, which are functions and services. Declarations before those
+    are printed before it, so that lowering restores their order. The functions of parts come last.
     """
     offered = set(names.operations)
     known = set(offered)
@@ -65,7 +65,7 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
     for component in system.components:
         yield print_component(component, system, names)
         for name in component.operations:
-            # Not there any more where another component has its servers in the same namespace.
+            # Missing if another component has its servers in the same namespace.
             if name not in known:
                 continue
             known.remove(name)
@@ -92,13 +92,13 @@ def _declarations(system: System, names: Names) -> Iterator[list[str]]:
 
 
 def _taken(items: deque[T], wanted: Callable[[T], bool]) -> Iterator[T]:
-    """Take the items at the start that are wanted."""
+    """Take the leading items that are wanted."""
     while items and wanted(items[0]):
         yield items.popleft()
 
 
 def _is_package_name(name: str) -> bool:
-    """Whether it can stand after `package`."""
+    """Return True if a name is valid after `package`."""
     return _PACKAGE_NAME.fullmatch(name) is not None and name.partition(".")[0] not in RESERVED
 
 

@@ -104,7 +104,7 @@ class _Maker:
         entry: list[Effect] = []
         leave: list[Effect] = []
         final = state.kind is StateKind.FINAL
-        if final and around is not None and around.id in self.events.told_apart:
+        if final and around is not None and around.id in self.events.by_final_state:
             entry.append(_raise(self.events.final(state.id)))
         if state.entry:
             entry.append(self.effects(state.entry))

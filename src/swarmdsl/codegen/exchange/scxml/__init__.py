@@ -18,7 +18,7 @@ PROFILES = ("both", "portable", "cpswarm")
 
 @dataclass(frozen=True)
 class Options:
-    """The options of target `scxml`."""
+    """Options of target `scxml`."""
 
     profile: str = option(
         "both", "W3C SCXML (portable), the CPSwarm dialect (cpswarm) or both", PROFILES
@@ -26,8 +26,8 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """The files of each machine."""
-    # Imported here because other targets use single modules of this package, which need no XML.
+    """Yield the files of each machine."""
+    # Imported late: other targets use single modules of this package without XML.
     from swarmdsl.codegen.exchange.scxml.portable import portable
     from swarmdsl.codegen.xml_tree import document
 
@@ -61,7 +61,7 @@ def _in_dialect(
 def _report_left_out(
     path: str, machine: StateMachine, found: Diagnostics, report: Diagnostics
 ) -> None:
-    """Warn that one of two files is missing, at the first thing that stands in its way."""
+    """Warn that one of two files is missing, at the first cause."""
     from swarmdsl.codegen.exchange.scxml.cpswarm_messages import HELP
 
     first, *others = _errors(found)

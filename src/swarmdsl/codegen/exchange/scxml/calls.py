@@ -1,7 +1,7 @@
-"""The call of a function in the words of the CPSwarm dialect (D5.4, 5.2).
+"""Calls of functions in the CPSwarm dialect (D5.4, 5.2).
 
-The dialect knows goals that are empty, constant, taken from userdata key by key, or made by a
-callback. What is none of these becomes a callback that a person completes.
+The dialect has goals that are empty, constant, taken from userdata key by key, or made by a
+callback. Any other goal becomes a callback for the user to complete.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ from swarmdsl.syntax.types import DURATION
 
 @dataclass(frozen=True)
 class Call:
-    """An activity as the dialect says it.
+    """Activity in terms of the dialect.
 
     `goal_items` are the values of a fixed goal, in Python, or the fields of one from userdata;
-    `mappings` are pairs of a field and the userdata key it is kept in. `completion` is what a
-    person has to write into the callback for the goal, field by field; empty when nothing.
+    `mappings` are pairs of a field and the userdata key that stores it. `completion` lists the
+    fields that the user has to fill in the goal callback; it may be empty.
     """
 
     function: Function
@@ -47,12 +47,12 @@ class Call:
 
     @property
     def is_action(self) -> bool:
-        """Whether the function is called as an action, not as a service."""
+        """True if the function is an action, not a service."""
         return self.function.communication.paradigm == "action"
 
 
 def call_of(activity: Activity, machine: StateMachine, system: System) -> Call:
-    """The call that an activity makes."""
+    """Return the call of an activity."""
     function = system.function(activity.function)
     params = params_by_name(machine.params)
     goal, items, from_goal = _goal(activity, function, params, system)
@@ -76,7 +76,7 @@ def call_of(activity: Activity, machine: StateMachine, system: System) -> Call:
 def _goal(
     activity: Activity, function: Function, params: Mapping[str, Param], system: System
 ) -> tuple[Policy, tuple[str, ...] | None, tuple[tuple[str, str], ...]]:
-    """Policy, items (None where the dialect cannot say it) and mappings of a goal."""
+    """Return policy, items (None if the dialect has none) and mappings of a goal."""
     policy = goal_policy(activity, params)
     if policy is Policy.FIXED:
         return policy, _fixed(activity, function, params, system), ()
@@ -95,9 +95,9 @@ def _goal(
 def _fixed(
     activity: Activity, function: Function, params: Mapping[str, Param], system: System
 ) -> tuple[str, ...] | None:
-    """All fields of the goal in their order, as the constructor of a ROS message takes them."""
+    """Return all fields of the goal, in the order of the message's constructor."""
     described = system.interface(function.communication.type)
-    # The generator makes a request of the wrong class out of constants.
+    # The generator creates a request of the wrong class from constants.
     if not isinstance(described, Action):
         return None
     given = dict(activity.arguments)
@@ -124,13 +124,13 @@ def _default(field: Field) -> str | None:
 
 
 def _differ(goal: tuple[tuple[str, str], ...], results: tuple[tuple[str, str], ...]) -> bool:
-    """Whether one field would have to be kept in two places."""
+    """Return True if a field would have to be stored in two places."""
     kept = dict(goal)
     return any(kept.get(field, key) != key for field, key in results)
 
 
 def _python(value: Expression, params: Mapping[str, Param]) -> str:
-    """What stands for a value in a goal callback; a param is its default."""
+    """Return a value in a goal callback; a param is replaced by its default."""
     known = constant(value, params)
     if known is not None:
         return repr(known)

@@ -1,8 +1,8 @@
-"""The CPSwarm profile: SCXML as the CPSwarm code generator reads it.
+"""The CPSwarm profile: SCXML for the CPSwarm code generator.
 
-What this dialect cannot say, or what would break that generator, is reported. Its rules give
-the files their form: ids are made Python names, so they differ in more than case; types are
-`package/Class`; texts come to stand in single quotes, unescaped; every call has a result.
+Constructs that this dialect lacks, or that would break that generator, are reported. The
+generator's rules determine the form: ids become Python names, so they differ in more than case;
+types are `package/Class`; strings end up in single quotes, unescaped; every call has a result.
 """
 
 from __future__ import annotations
@@ -51,9 +51,9 @@ _UNSUPPORTED = {
 def cpswarm(
     machine: StateMachine, system: System, report: Diagnostics, places: Places
 ) -> etree._Element | None:
-    """The document of a machine; None when the dialect cannot express it, which is reported.
+    """Return the document of a machine, or None if it cannot be expressed (reported).
 
-    `places` gets those that its elements come from.
+    The origins of its elements are added to `places`.
     """
     found = Diagnostics()
     written = without_first_values(machine)
@@ -71,7 +71,7 @@ def _document(
 ) -> etree._Element:
     shaped = shape(machine, report)
     writer = _Writer(machine, system, shaped, report, places)
-    # SMACH starts with the first state; so does the list of elements.
+    # SMACH starts with the first state, so it is the first element.
     document = root(
         {None: SCXML, "cpswarm": CPSWARM},
         version="1.0",
@@ -87,19 +87,19 @@ def _document(
 
 
 def file_name(machine: StateMachine) -> str:
-    """The file a machine is written to."""
+    """Return the name of a machine's file."""
     return f"{machine.name}.cpswarm.xml"
 
 
 class _Ids:
-    """Ids for elements, no two of which are the same Python variable in lower case."""
+    """Ids of elements, distinct as Python variables in lower case."""
 
     def __init__(self) -> None:
         # The generator's own variable for the machine is `top_sm`.
         self.taken = {"top"}
 
     def new(self, *candidates: str) -> str:
-        """The first of the candidates that is free, or the last with a number."""
+        """Return the first free candidate, or the last one with a number."""
         last = candidates[-1]
         numbered = (f"{last}{number}" for number in range(2, len(self.taken) + 3))
         free = next(name for name in (*candidates, *numbered) if name.casefold() not in self.taken)
@@ -129,7 +129,7 @@ class _Writer:
             for v in vertices
         }
         self.own = own
-        # Whoever goes to a state goes to the outermost element made of it.
+        # A transition to a state leads to the outermost element made from it.
         self.entries: dict[str, str] = {}
         for vertex in vertices:
             self.entries.setdefault(vertex.state.id, own[vertex.state.id, vertex.suffix])
@@ -183,8 +183,8 @@ class _Writer:
         add_comment(element, activity.doc)
         model = add(element, "datamodel")
         if call.is_action and any(port.direction == "in" for port in call.function.ports):
-            # Asks for a skeleton. The generator fails at a function without inputs, and
-            # makes an action server of a service.
+            # Requests a skeleton. The generator fails on a function without inputs, and
+            # creates an action server for a service.
             add_text(add(model, "data", id="adf"), "name", call.function.name)
         invoked = add(model, "data", id="invoke")
         body = add(invoked, "rosaction" if call.is_action else "rosservice")
@@ -211,7 +211,7 @@ class _Writer:
             if result.path:
                 _refuse(self.report, "a result stored in a field of a variable", result.origin)
         if call.is_action and call.result is Policy.CALLBACK:
-            # The generator gives the callback another name than the one it calls.
+            # The generator defines the callback under another name than it calls.
             _refuse(self.report, "a callback for the result of an action", activity.origin)
         if call.completion:
             goal = "goal" if call.is_action else "request"

@@ -1,4 +1,4 @@
-"""What is said of the CPSwarm profile: that it is the profile's, and by way of which states."""
+"""Diagnostics of the CPSwarm profile, at the states of the model."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ HELP = "`--option scxml.profile=portable` asks for SCXML without it"
 
 
 def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
-    """What was found when the file of a machine was made, in words of the profile."""
+    """Return the diagnostics of a machine's file, in words of the profile."""
     uses: dict[Span, State] = {}
     for place, state in _reused(machine):
         uses.setdefault(place, state)
     for each in found:
         if each.name in ("unsupported-construct", "bad-identifier"):
-            # The message begins with the target, which has another profile.
+            # The message begins with the target, which also has the portable profile.
             each = replace(
                 each, message=f"the CPSwarm profile of {each.message}", help=each.help or HELP
             )
@@ -32,9 +32,9 @@ def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[D
 
 
 def without_first_values(machine: StateMachine) -> StateMachine:
-    """The machine without the effects that give variables of reused machines their first value.
+    """Return the machine without effects that initialize reused machines' variables.
 
-    The model does not have them as effects, and what is missing is said of the variable.
+    The model has no such effects: reports are about the variable instead.
     """
     places = {variable.origin for variable in machine.variables}
 
@@ -48,7 +48,7 @@ def without_first_values(machine: StateMachine) -> StateMachine:
 
 
 def _reused(machine: StateMachine) -> Iterator[tuple[Span, State]]:
-    """The places in machines that are reused, each with the outermost state that reuses it."""
+    """Yield each place in reused machines with the outermost reusing state."""
     declared = {variable.origin for variable in machine.variables}
 
     def visit(states: Iterable[State]) -> Iterator[tuple[Span, State]]:
@@ -64,7 +64,7 @@ def _reused(machine: StateMachine) -> Iterator[tuple[Span, State]]:
 
 
 def _places(node: Any) -> Iterator[Span]:
-    """The places of a node of the IR and of all nodes in it."""
+    """Yield the places of an IR node and of all nodes in it."""
     if isinstance(node, Span):
         yield node
     elif isinstance(node, tuple):

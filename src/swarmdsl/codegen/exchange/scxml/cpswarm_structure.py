@@ -1,13 +1,13 @@
-"""A machine as the CPSwarm dialect shapes it: which elements there are and what leads where.
+"""Structure of a machine in the CPSwarm dialect: elements and transitions.
 
 The dialect describes SMACH containers. A `<state>` with children is a state machine that ends
 with an outcome of one of its states; a `<parallel>` ends as soon as one child does. So
 
-- an event is waited for by a monitor beside the state: both stand in `<Name>Threads`;
-- a composite state with transitions stands in such a `<parallel>` too, because a container
+- an event is awaited by a monitor beside the state: both are in `<Name>Threads`;
+- a composite state with transitions is in such a `<parallel>` too, because a container
   with transitions of its own has no other outcomes (a `preempted` inside would have no way out);
 - a transition that leaves a container, to its final state or further out, is left out: its
-  outcome is then the outcome of the container, and a transition of that leads on.
+  outcome becomes the outcome of the container, and a transition on that continues.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ TARGET = "scxml"
 
 @dataclass(frozen=True)
 class Monitor:
-    """Waits for an event beside a state."""
+    """Wait for an event beside a state."""
 
     state: State
     event: str
@@ -44,9 +44,9 @@ class Monitor:
 
 @dataclass(frozen=True)
 class Vertex:
-    """A `<state>`, or a `<parallel>` of what is done in a state and what is waited for.
+    """A `<state>`, or a `<parallel>` of a state's activity and its monitors.
 
-    `suffix` tells apart the elements that come from one state (`Threads`, `Behavior`);
+    `suffix` distinguishes the elements of one state (`Threads`, `Behavior`);
     `transitions` lead from an event of the dialect to a state of the machine.
     """
 
@@ -57,7 +57,7 @@ class Vertex:
     transitions: tuple[tuple[str, str], ...] = ()
 
     def walk(self) -> Iterator[Vertex]:
-        """Yield it and the vertices in it, in document order."""
+        """Yield the vertex and all inside it, in document order."""
         yield self
         for child in self.children:
             if isinstance(child, Vertex):
@@ -66,7 +66,7 @@ class Vertex:
 
 @dataclass(frozen=True)
 class _Signal:
-    """`name` (an outcome, or an event of the dialect) ends a vertex and leads to `target`."""
+    """Outcome or event `name` that ends a vertex and leads to `target`."""
 
     name: str
     target: str
@@ -74,13 +74,13 @@ class _Signal:
 
 
 def event_name(event: str) -> str:
-    """`MissionStart` is `missionStart` in the dialect."""
+    """Convert an event name: `MissionStart` becomes `missionStart`."""
     first, *others = snake_case(event).split("_")
     return first + "".join(word.capitalize() for word in others)
 
 
 def shape(machine: StateMachine, report: Diagnostics) -> tuple[Vertex, ...]:
-    """The elements of a machine; what the dialect cannot express is reported."""
+    """Return the elements of a machine; report what the dialect cannot express."""
     return _Shaper(machine, report).top()
 
 
@@ -100,11 +100,11 @@ class _Shaper:
     def _inside(
         self, states: Iterable[State], initial: str | None, origin: Span | None
     ) -> tuple[tuple[Vertex, ...], list[_Signal]]:
-        """What is in a container, and what ends it."""
+        """Return the content of a container, and the signals that end it."""
         inside = [state for state in states if state.kind is not StateKind.FINAL]
         if initial not in [state.id for state in inside]:
             self._refuse(Feature.INTO_STATE.value, origin)
-        # SMACH starts with the state that was added first.
+        # SMACH starts with the first state added.
         inside.sort(key=lambda state: state.id != initial)
         shaped = [self._vertex(state) for state in inside]
         return tuple(vertex for vertex, _ in shaped), [end for _, ends in shaped for end in ends]
@@ -154,10 +154,10 @@ class _Shaper:
         return self._threads(Vertex(state, "", True, tuple(children)), ends)
 
     def _threads(self, vertex: Vertex, ends: list[_Signal]) -> tuple[Vertex, list[_Signal]]:
-        """A parallel vertex with its transitions, and what ends the container around it."""
+        """Return a parallel vertex with its transitions, and the signals that leave it."""
         staying = [end for end in ends if self._is_sibling(end, vertex.state)]
         leaving = [
-            # A SMACH concurrence has the outcomes that are named on it, and `aborted`.
+            # A SMACH concurrence has its declared outcomes, and `aborted`.
             replace(end, name="aborted") if staying or end.name not in OUTCOMES else end
             for end in ends
             if end not in staying
@@ -170,7 +170,7 @@ class _Shaper:
         return replace(vertex, transitions=transitions), leaving
 
     def _own_signals(self, state: State) -> list[_Signal]:
-        """What the state's own events and outcomes lead to; the first transition counts."""
+        """Return the signals of the state's own transitions; the first of a name counts."""
         around = self._around(state.id)
         signals: dict[str, _Signal] = {}
         for transition in state.transitions:
@@ -193,7 +193,7 @@ class _Shaper:
         return list(signals.values())
 
     def _waits(self, state: str | None, event: str) -> bool:
-        """Whether a state around another waits for the event."""
+        """Return True if an enclosing state waits for the event."""
         return state is not None and event in [
             monitor.event for monitor in _monitors(self.states[state])
         ]
@@ -201,7 +201,7 @@ class _Shaper:
     def _followed(
         self, ends: list[_Signal], container: str, transitions: tuple[Transition, ...]
     ) -> list[_Signal]:
-        """The ends of a container with its own final states replaced by what follows them."""
+        """Return the signals, with those to own final states led on to what follows."""
         followed = []
         for end in ends:
             target: str | None = end.target
@@ -215,7 +215,7 @@ class _Shaper:
         return self._distinct(followed)
 
     def _distinct(self, signals: list[_Signal]) -> list[_Signal]:
-        """The signals without repetition; one that leads to two places is reported."""
+        """Return the signals once each; report one with two targets."""
         known: dict[str, _Signal] = {}
         for signal in signals:
             first = known.setdefault(signal.name, signal)
@@ -229,7 +229,7 @@ class _Shaper:
         return same and target.kind is not StateKind.FINAL
 
     def _around(self, state: str) -> list[str | None]:
-        """The containers around a state, None being the machine."""
+        """Return the containers around a state, None being the machine."""
         around: list[str | None] = []
         inner: str | None = state
         while inner is not None:
@@ -242,7 +242,7 @@ class _Shaper:
 
 
 def _after(final: str, container: str, transitions: tuple[Transition, ...]) -> str | None:
-    """What follows when a container has reached a final state."""
+    """Return the target of the transition on a final state of a container, if any."""
     completions = {DoneTrigger(container, None), DoneTrigger(container, final)}
     for transition in transitions:
         if completions.intersection(transition.triggers):
@@ -261,7 +261,7 @@ def _monitors(state: State) -> tuple[Monitor, ...]:
 
 
 def _waits_only(region: State) -> State | None:
-    """The state of a region that only waits for events to end it: monitors do that alone."""
+    """Return the state of a region that only awaits events, for monitors to do."""
     inside = [state for state in region.states if state.kind is not StateKind.FINAL]
     if len(inside) != 1 or inside[0].kind is not StateKind.SIMPLE or inside[0].activity is not None:
         return None

@@ -1,4 +1,4 @@
-"""Expressions and first values in ECMAScript, the data model of portable documents."""
+"""Expressions and initial values in ECMAScript, for portable documents."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from swarmdsl.ir.expression_printer import Dialect, ecmascript_literal, translat
 
 
 def dialect(data: Mapping[str, str]) -> Dialect:
-    """How expressions are written where variables and params have the `<data>` ids of `data`."""
+    """Return the dialect, in which variables and params have the ids of `data`."""
     return Dialect(
         literal=ecmascript_literal,
         variable=data.__getitem__,
@@ -46,7 +46,7 @@ def dialect(data: Mapping[str, str]) -> Dialect:
     )
 
 
-# What ECMAScript has `Infinity` or `NaN` for has no value in the language: it is an error.
+# `Infinity` and `NaN` of ECMAScript are errors in the language.
 _NO_VALUE = "null.value"
 
 
@@ -57,7 +57,7 @@ def _quotient(left: str, right: str) -> str:
 
 
 def _modulo(left: str, right: str) -> str:
-    """The remainder with the sign of the divisor; that of `%` has the sign of the dividend."""
+    """Return the remainder with the sign of the divisor, unlike ECMAScript's `%`."""
     if _is_number(right):
         return f"(({left} % {right}) + {right}) % {right}"
     result = f"b != 0 ? ((a % b) + b) % b : {_NO_VALUE}"
@@ -72,12 +72,12 @@ def _root(values: Sequence[str]) -> str:
 
 
 def _is_number(text: str) -> bool:
-    """Whether it is a literal above 0: a model in which one is 0 or less there is an error."""
+    """Return True for a number literal; checks report a model where it is not above 0."""
     return re.fullmatch(r"[0-9.]+(e[-+]?[0-9]+)?", text) is not None
 
 
 def stored(expression: Expression, words: Dialect) -> str:
-    """A value that is assigned or sent: of a message or an array, a copy, as ROS has it."""
+    """Return a value to assign or send; messages and arrays are copied, as in ROS."""
     text = translate(expression, words)
     kept = isinstance(expression, (VariableRef, ParamRef, EventData, FieldAccess))
     if kept and not isinstance(expression.type, Primitive):
@@ -86,7 +86,7 @@ def stored(expression: Expression, words: Dialect) -> str:
 
 
 def needs_data(machine: StateMachine) -> bool:
-    """Whether the machine is more than SCXML's null data model can say."""
+    """Return True if SCXML's null data model does not suffice for the machine."""
     if machine.variables or machine.params:
         return True
     if any(isinstance(effect, Assignment) or effect.arguments for effect in effects_of(machine)):
@@ -103,7 +103,7 @@ def _is_computed(trigger: Trigger) -> bool:
 
 
 def first_value(type_: Type, system: System) -> str:
-    """The value of a variable to which the model gives none: ROS's default for its type."""
+    """Return ROS's default for the type of a variable without initial value."""
     value = json.dumps(default_value(type_, system))
-    # An engine that evaluates the text as a program would take the brace for a block.
+    # An engine that evaluates the string as a program would read the brace as a block.
     return f"({value})" if value.startswith("{") else value

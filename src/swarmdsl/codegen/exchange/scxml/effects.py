@@ -1,4 +1,4 @@
-"""The effects of a machine: where they are."""
+"""Traversal of the effects of a machine."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from swarmdsl.ir import Effect, StateMachine
 
 
 def effects_of(machine: StateMachine) -> Iterator[Effect]:
-    """All effects: of transitions, on entry and on exit."""
+    """Yield all effects: of transitions, on entry and on exit."""
     for state in machine.walk():
         yield from state.entry
         yield from state.exit

@@ -1,7 +1,7 @@
-"""What states and data are called in a portable SCXML document.
+"""Ids of states and data in a portable SCXML document.
 
-All ids of an XML document share one space. Ids of states have no dots: SCXML matches event
-names by their dotted prefixes, so `done.state.A` would also stand for a state `A.B`.
+All ids of an XML document share one namespace. Ids of states have no dots: SCXML matches event
+names by their dotted prefixes, so `done.state.A` would also match a state `A.B`.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections import Counter
 
 from swarmdsl.ir import StateMachine
 
-# What cannot be the name of a variable in ECMAScript, or is the name of one of SCXML's own.
+# Reserved words of ECMAScript, and SCXML's own variables.
 _RESERVED = re.compile(
     "arguments|await|break|case|catch|class|const|continue|debugger|default|"
     "delete|do|else|enum|eval|export|extends|false|finally|for|function|"
@@ -22,7 +22,7 @@ _RESERVED = re.compile(
 
 
 def data_ids(machine: StateMachine) -> dict[str, str]:
-    """The `<data>` id of each variable and param: its name, or one much like it."""
+    """Return the `<data>` id of each variable and param: its name if possible."""
     names = [param.name for param in machine.params]
     names += [variable.name for variable in machine.variables]
     ids: dict[str, str] = {}
@@ -35,7 +35,7 @@ def data_ids(machine: StateMachine) -> dict[str, str]:
 
 
 def state_ids(machine: StateMachine, taken: set[str]) -> dict[str, str]:
-    """The XML id of each state: its name where that is unique, else its path."""
+    """Return the XML id of each state: its name if unique, else its path."""
     named = Counter(state.name for state in machine.walk())
     ids: dict[str, str] = {}
     for state in machine.walk():

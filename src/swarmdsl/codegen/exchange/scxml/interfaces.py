@@ -1,4 +1,4 @@
-"""The interfaces that a machine uses: what its events, calls and data carry."""
+"""Interfaces that a machine uses in events, calls and data."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.ir.expression_printer import translate
 
 
 def describe_interfaces(root: etree._Element, types: Iterable[Type], system: System) -> None:
-    """Describe those that the model describes, and those that their fields are made of."""
+    """Add the used interfaces that the model describes, and those in their fields."""
     known: dict[Type, Interface] = {each.type: each for each in system.interfaces}
     used: set[Type] = set()
     waiting = list(types)

@@ -1,7 +1,8 @@
-"""What SCXML has no words for: ROS, types and documentation, in a namespace of our own.
+"""Elements for ROS, types and documentation, in a namespace of our own.
 
-The elements stand directly below `<scxml>` and `<state>`; engines skip them, and a reader
-finds in them what the IR had. Expressions are in the document's data model.
+SCXML has no words for them. The elements are directly below `<scxml>` and `<state>`; engines
+skip them, and an importer restores the IR from them. Expressions are in the document's data
+model.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ from swarmdsl.ir.expression_printer import Dialect, translate
 def describe_machine(
     root: etree._Element, machine: StateMachine, system: System, data: Mapping[str, str]
 ) -> None:
-    """Say of the machine, and of the events and functions that it uses, what SCXML cannot."""
+    """Add the types and docs of the machine, its events and functions."""
     add_payload(root, "model", package=system.name)
     add_doc(root, machine.doc)
     _add_initial(root, machine.docs)
@@ -88,13 +89,13 @@ def describe_machine(
 def describe_state(
     element: etree._Element, state: State, machine: StateMachine, dialect: Dialect
 ) -> None:
-    """Say of a state what SCXML cannot."""
+    """Add the activity and docs of a state."""
     add_doc(element, state.doc)
     _add_initial(element, state.docs)
     name = state.name if state.name != element.get("id") else None
     kind = state.kind.value if state.kind is StateKind.CHOICE else None
     if name or kind:
-        # Not called `state`: there are engines that do not look at namespaces.
+        # Not called `state`: some engines ignore namespaces.
         add_payload(element, "vertex", name=name, kind=kind)
     if state.submachine is not None:
         add_payload(element, "submachine", name=state.submachine)
@@ -103,7 +104,7 @@ def describe_state(
 
 
 def _add_initial(parent: etree._Element, docs: Docs) -> None:
-    """What is said of the first state; not called `initial`, as above."""
+    """Add the docs of the first state; not called `initial`, as above."""
     text = doc_of(docs, "initial")
     if text:
         add_doc(add_payload(parent, "first"), text)

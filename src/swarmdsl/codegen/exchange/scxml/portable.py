@@ -1,8 +1,8 @@
 """The portable profile: a state machine as W3C SCXML that any engine can run.
 
-The effects of entering a state come before its delays start and its activity does: both may
-use what the effects store. Each group is an element of its own, because an effect that fails
-keeps those after it in the same element from being done.
+Effects on entry come before delays start and the activity runs: both may use stored values.
+Each group is an element of its own, because an effect that fails skips those after it in the
+same element.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from swarmdsl.ir import (
 )
 from swarmdsl.ir.expression_printer import Dialect, translate
 
-# The type of a <send> that leaves the machine: it is the business of the host.
+# Type of a <send> that leaves the machine: the host handles it.
 SEND_TYPE = "urn:swarmdsl:swarm"
 
 _TAGS = {
@@ -46,7 +46,7 @@ _TAGS = {
 
 
 def portable(machine: StateMachine, system: System, places: Places | None = None) -> etree._Element:
-    """The document of a machine; `places` gets those that its elements come from."""
+    """Return the document of a machine; `places` gets the origins of elements."""
     places = {} if places is None else places
     data = data_ids(machine)
     ids = state_ids(machine, set(data.values()))
@@ -110,7 +110,7 @@ class _StateWriter:
         if (
             state.kind is StateKind.FINAL
             and around is not None
-            and around.id in self.events.told_apart
+            and around.id in self.events.by_final_state
         ):
             add(add(element, "onentry"), "raise", event=self.events.final(state.id))
         if state.entry:
@@ -134,11 +134,11 @@ class _StateWriter:
         leave = add(element, "onexit")
         for delay in waiting:
             event = self.events.timer(state, delay)
-            # A time that is over before it begins is over at once, as in the other targets.
+            # A negative delay is 0, as in the other targets.
             length = translate(delay, self.dialect)
             given = {"delayexpr": f'Math.max(0, Math.ceil({length})) + "ms"'}
             if isinstance(delay, Literal):
-                # Some engines take whole numbers only; none may fire too early.
+                # Some engines accept integers only; round up, so that none fires too early.
                 given = {"delay": f"{math.ceil(delay.milliseconds)}ms"}
             add(entry, "send", event=event, id=event, **given)
             add(leave, "cancel", sendid=event)
@@ -147,7 +147,7 @@ class _StateWriter:
         end = OutcomeTrigger(state.id, "succeeded")
         results = state.activity is not None and state.activity.results
         taken = [each for each in state.transitions if end in each.triggers]
-        # Guards and effects on exit must see the result; other triggers of a transition bring none.
+        # Guards and effects on exit must see the result; other triggers have none.
         first = any(each.guard is not None or len(each.triggers) > 1 for each in taken)
         first = first or self._is_left_with_effects(state)
         done = self.events.stored(state)
@@ -161,10 +161,10 @@ class _StateWriter:
                 for trigger in transition.triggers
                 for event in self.events.of_trigger(trigger, state)
             ]
-            # No element: there, an engine would try to do what it does not know.
+            # Not an element: an engine would try to execute it.
             add_comment(element, transition.doc)
             if entered_region(transition, state) is not None:
-                # What it does stands in the region. Here it keeps those after it from being taken.
+                # Its effects are in the region. Here it keeps later transitions from being taken.
                 kept = self._add_transition(element, events, transition.guard)
                 self.places[kept] = transition.origin
                 continue
@@ -208,7 +208,7 @@ class _StateWriter:
         assert state.activity is not None
         for mapping in state.activity.results:
             location = self._location(mapping.variable, mapping.path)
-            # Not copied: a result is in nobody else's hands.
+            # Not copied: nothing else refers to a result.
             add(element, "assign", location=location, expr=f"{self.dialect.event}.{mapping.field}")
 
     def _add_effects(self, element: etree._Element, effects: Iterable[Effect]) -> None:

@@ -1,6 +1,6 @@
-"""What the code generated from the CPSwarm dialect does not do with userdata.
+"""Userdata that code generated from the CPSwarm dialect does not set up.
 
-It gives no key a first value, and its containers pass no key on.
+It gives keys no initial value, and its containers pass no key on.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from swarmdsl.ir import Activity, StateMachine, Variable, reads
 
 
 def missing(machine: StateMachine, shaped: Iterable[Vertex]) -> Iterator[tuple[Variable, str]]:
-    """The variables that need a line by hand, and what for."""
+    """Yield the variables that need a line by hand, with the reason."""
     calls = list(_calls(shaped, None))
     for variable in machine.variables:
         name = variable.name
@@ -25,7 +25,7 @@ def missing(machine: StateMachine, shaped: Iterable[Vertex]) -> Iterator[tuple[V
 
 
 def _calls(vertices: Iterable[Vertex], container: Vertex | None) -> Iterator[tuple[int, Activity]]:
-    """The activities, each with the container it is called in."""
+    """Yield the activities, each with its container."""
     for vertex in vertices:
         if vertex.children:
             yield from _calls([v for v in vertex.children if isinstance(v, Vertex)], vertex)
