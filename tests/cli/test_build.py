@@ -96,7 +96,7 @@ def test_an_option_is_shown_as_it_was_written(swarmc, good):
     ran = swarmc("build", good, "-t", "smach", "--option", "smach.email=me")
     assert ran.code == 2
     assert ran.out == (
-        "error[SW0904]: target `smach`: `me` is no e-mail address\n"
+        "error[SW0904]: target `smach`: `me` is not an e-mail address\n"
         " --> <command line>:1:10\n"
         "  |\n"
         "1 | --option smach.email=me\n"
@@ -108,7 +108,7 @@ def test_an_option_is_shown_as_it_was_written(swarmc, good):
 def test_what_is_on_the_command_line_is_in_no_file_that_a_program_could_open(swarmc, good, format_):
     option = ("--option", "smach.email=me")
     ran = swarmc("build", good, "-t", "smach", *option, "--format", format_)
-    assert "`me` is no e-mail address" in ran.out
+    assert "`me` is not an e-mail address" in ran.out
     assert "command" not in ran.out
 
 

@@ -30,18 +30,18 @@ def test_one_target(swarmc):
 @pytest.mark.parametrize("target", ["scxml", "ros2", "smach"])
 def test_what_a_table_rejects_is_not_said_to_be_expressed(swarmc, target):
     page = swarmc("targets", target).out
-    assert ("but for what is rejected below\n" in page) == ("rejected  " in page)
+    assert ("except what is rejected below\n" in page) == ("rejected  " in page)
 
 
 def test_a_target_that_has_to_be_asked_for_says_so(swarmc):
-    assert "built where it is asked for: `--target amf`" in swarmc("targets", "amf").out
+    assert "built on request only: `--target amf`" in swarmc("targets", "amf").out
     assert "asked for" not in swarmc("targets", "adf").out
 
 
 def test_what_depends_on_an_option(swarmc):
     page = swarmc("targets", "smach").out
     assert "takes `true` or `false`; default: false; counts only with `ros=2`" in page
-    _, for_ros_1, for_ros_2 = page.split("what becomes of the constructs of a model")
+    _, for_ros_1, for_ros_2 = page.split("translation of the constructs of a model")
     assert for_ros_2.startswith(" with `smach.ros=2`\n")
     assert "`On(events.`" in for_ros_1
     (found,) = json.loads(swarmc("targets", "smach", "--format", "json").out)

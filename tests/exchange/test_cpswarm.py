@@ -347,7 +347,7 @@ def canonical(text: str | bytes) -> str:
     return str(etree.canonicalize(stripped, strip_text=True))
 
 
-WAY_OUT = "`--option scxml.profile=portable` asks for SCXML without it"
+WAY_OUT = "`--option scxml.profile=portable` builds SCXML without it"
 
 UNSUPPORTED = {
     "a guard": "state A { on Found [event.level > 3] -> B }",
@@ -367,7 +367,7 @@ UNSUPPORTED = {
     """,
     "a transition without a target": "state A { on Low / n = 1 on Start -> B }",
     "a transition without a trigger": "state A { [n > 3] -> B on Start -> B }",
-    "a transition into the inside of a state": """
+    "a transition into a nested state": """
         state A { on Start -> W.I }
         state W { initial I state I { on Abort -> E } final E on done -> B }
     """,
@@ -398,7 +398,7 @@ UNSUPPORTED = {
           on done.F -> A
         }
     """,
-    "a second way out of a state that waits for an event": """
+    "a second exit from a state that waits for an event": """
         state A {
           initial I
           state I { do land on succeeded -> E on aborted -> I on Start -> I }
@@ -406,7 +406,7 @@ UNSUPPORTED = {
           on done -> B
         }
     """,
-    "an event that is waited for on two levels": """
+    "an event awaited on two levels": """
         state A {
           initial I
           state I { do land on succeeded -> E on aborted -> I on Start -> I }
@@ -451,7 +451,7 @@ def test_by_way_of_which_state_a_construct_comes_in(compiled: Compile, findings:
     assert of_inner.message == of_m.message
     assert of_inner.related == ()
     ((place, message),) = [(label.span.text, label.message) for label in of_m.related]
-    assert (place, message) == ("Second", "comes into `M` as part of this state")
+    assert (place, message) == ("Second", "included in `M` by this state")
     left_out = [each for each in findings(system, "both") if "`M.c" in each.message]
     assert [each.related for each in left_out] == [of_m.related]
 
@@ -477,7 +477,7 @@ def test_variables_of_a_reused_machine(compiled: Compile, findings: Findings) ->
     found = [each for each in findings(system, "cpswarm") if "`M.c" in each.message]
 
     assert [each.name for each in found] == ["complete-by-hand"]
-    assert found[0].message.endswith("nothing gives `userdata.second_name` its first value")
+    assert found[0].message.endswith("`userdata.second_name` has no initial value")
     assert [label.span.text for label in found[0].related] == ["Second"]
 
 
@@ -534,11 +534,11 @@ def test_a_constant_beside_a_variable_is_work_for_a_person(
 @pytest.mark.parametrize(
     ("variables", "state", "what"),
     [
-        ("var s : string", "do drive(speed = 0.0, name = s)", "its first value"),
+        ("var s : string", "do drive(speed = 0.0, name = s)", "no initial value"),
         (
             'var s : string = "x"',
             "do drive(speed = 0.0, name = s) gives (name => s)",
-            "its first value",
+            "no initial value",
         ),
         ("var n : int32 = 3", "do go gives (count => n)", None),
         ("", "do ask(times = 3)", "the callback for the request of `A` is empty"),

@@ -153,7 +153,7 @@ def test_the_problem(compiled: Compile) -> None:
 @pytest.mark.parametrize(
     ("option", "value", "fault"),
     [
-        ("candidates", "0", "`0` is no number from 1 to 2147483647"),
+        ("candidates", "0", "`0` is not a number from 1 to 2147483647"),
         ("enough", "much", "`much` is no number"),
         ("enough", "inf", "`inf` is not finite"),
     ],

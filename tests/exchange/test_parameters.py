@@ -92,11 +92,11 @@ def test_what_has_no_place(compiled: Compile) -> None:
         system,
         (
             "uav.altitude in 1.0 .. 20.0",
-            "between its bounds are values without number, and the optimiser counts",
+            "the range is continuous, and the optimiser needs discrete values",
         ),
         (
             "uav.patience in 10 s .. 20 s step 3 s",
-            "a value is a whole number times the step, and the number has 32 bits",
+            "a value is a 32-bit integer times the step",
         ),
         (
             "other.tries in 1 .. 4",

@@ -36,7 +36,7 @@ def test_no_such_target():
         ("1 / 0", "ZeroDivisionError: division by zero"),
         ("other = 1", "AttributeError"),
         ("generator = 7", "an object of class `int`, not a `Generator`"),
-        (GOOD.format(target="other"), "it calls itself `other`"),
+        (GOOD.format(target="other"), "its `target` is `other`"),
         (
             GOOD.format(target="x").replace("[])", "[], api_version=99)"),
             "version 99 of the generator API, not 1",
@@ -59,7 +59,7 @@ def test_no_such_target():
             "from dataclasses import dataclass\nfrom swarmdsl.codegen.api import option\n"
             "@dataclass\nclass O:\n  a: int = option(1, '', only='b=2')\n"
             + GOOD.format(target="x").replace("[])", "[], options_type=O)"),
-            "option `a` counts only with an option `b`, which is not there",
+            "option `a` counts only with an option `b`, which does not exist",
         ),
     ],
 )

@@ -221,12 +221,12 @@ def test_what_ros_makes_of_an_action_is_described_with_it(reported: Reported) ->
     [
         ("package", "Bad Name", "cannot be the name of the package"),
         ("package", "rclpy", "cannot be the name of the package"),
-        ("version", "1", "is no version"),
-        ("email", "me", "is no e-mail address"),
+        ("version", "1", "is not a version"),
+        ("email", "me", "is not an e-mail address"),
         ("copyright", "Me", "is not a year and a name"),
         ("license", " ", "needs a text on one line"),
         ("lifecycle", "perhaps", "lifecycle"),
-        ("interfaces", "a_msgs,Bad", "`Bad` is not the name of a package"),
+        ("interfaces", "a_msgs,Bad", "`Bad` is not a valid ROS package name"),
     ],
 )
 def test_options_are_checked(reported: Reported, option: str, value: str, part: str) -> None:

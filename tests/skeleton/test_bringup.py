@@ -162,7 +162,7 @@ swarm Search { uav : Uav }
 @pytest.mark.parametrize(
     ("model", "line", "message"),
     [
-        (TIED, 12, "a connector that parts `stereo.left` from `stereo.seen`"),
+        (TIED, 12, "a connector that separates `stereo.left` from `stereo.seen`"),
         (THROUGH, 8, "a connection of the member's ports `first` and `third`"),
     ],
 )

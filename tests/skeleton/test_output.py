@@ -294,7 +294,7 @@ def test_whole_numbers_that_no_parameter_holds(emit: Emit, ros: str, bits: int) 
     assert emit(model, ros=ros)[1] == []
     (found,) = emit(model.replace(f"{{ high = {greatest}", f"{{ high = {greatest + 1}"), ros=ros)[1]
     assert found.message == f"{CANNOT}a param of {greatest + 1}"
-    assert found.help == f"a whole number in a parameter of ROS {ros} is at most {greatest}"
+    assert found.help == f"an integer parameter of ROS {ros} is at most {greatest}"
 
 
 def test_words_of_cpp_are_no_fields(emit: Emit) -> None:

@@ -68,7 +68,7 @@ def test_unsupported(reported: Reported) -> None:
             f"{_machine(SMALL)}\nstruct S {{ x : int32 }}\nmessage p/T {{ x : int32 }}",
             "p/T",
             "p",
-            "a package of others: a package of that name is generated",
+            "a third-party package: a generated package has that name",
         ),
         (
             f"{_machine(SMALL)}\nstruct S {{ x : int32 }}".replace("package p", "package smach"),
@@ -119,10 +119,10 @@ def test_bad_package_option(reported: Reported) -> None:
     ("option", "value", "fault"),
     [
         ("package", "smach", "`smach` cannot be the name of the package"),
-        ("version", "1.0", "`1.0` is no version: three numbers, as in `1.2.0`"),
-        ("version", "1.0.0\n", "`1.0.0\n` is no version"),
-        ("email", "somebody", "`somebody` is no e-mail address"),
-        ("email", "a b@example.org", "`a b@example.org` is no e-mail address"),
+        ("version", "1.0", "`1.0` is not a version: expected three numbers, such as `1.2.0`"),
+        ("version", "1.0.0\n", "`1.0.0\n` is not a version"),
+        ("email", "somebody", "`somebody` is not an e-mail address"),
+        ("email", "a b@example.org", "`a b@example.org` is not an e-mail address"),
         ("maintainer", " ", "option `maintainer` needs a text on one line"),
         ("license", "MIT\x01", "option `license` needs a text on one line"),
     ],
@@ -185,7 +185,7 @@ def test_packages_whose_interfaces_need_each_other(tmp_path: Path) -> None:
         f"event E : A\nstatemachine M {{ {SMALL} }}\n"
     )
     found = _built(tmp_path, {"a": first, "b": "package b\nstruct B { more : a/C }\n"})
-    construct = "packages whose interfaces need each other (a -> b -> a)"
+    construct = "packages whose interfaces depend on each other (a -> b -> a)"
     message = f"target `smach` cannot express {construct}"
     assert found == [("unsupported-construct", message, "A")]
 

@@ -87,9 +87,9 @@ def load(name: str) -> Generator | Broken | None:
     if not found:
         return None
     if not re.fullmatch(_NAME, name):
-        return Broken("its name is not made of lower-case letters, digits, `-` and `_`")
+        return Broken("its name has other characters than lower-case letters, digits, `-` and `_`")
     if len(found) > 1:
-        return Broken(f"it is offered more than once, as {' and '.join(p.value for p in found)}")
+        return Broken(f"it is offered more than once: {' and '.join(p.value for p in found)}")
     return _loaded(name, found[0].load)
 
 
@@ -125,7 +125,7 @@ def _fault(name: str, found: object) -> str | None:
     if found.api_version != API_VERSION:
         return f"it is made for version {found.api_version} of the generator API, not {API_VERSION}"
     if found.target != name:
-        return f"it calls itself `{found.target}`"
+        return f"its `target` is `{found.target}`"
     if not (isinstance(found.options_type, type) and is_dataclass(found.options_type)):
         return "its `options_type` is not a dataclass"
     types = get_type_hints(found.options_type)
@@ -136,5 +136,7 @@ def _fault(name: str, found: object) -> str | None:
             return f"its option `{option}` has no default"
         other = about.get("metadata", {}).get("only", "").partition("=")[0]
         if other and other not in types:
-            return f"its option `{option}` counts only with an option `{other}`, which is not there"
+            return (
+                f"its option `{option}` counts only with an option `{other}`, which does not exist"
+            )
     return None

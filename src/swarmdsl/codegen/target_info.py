@@ -54,7 +54,7 @@ def as_page(generator: Generator) -> str:
 def _page(generator: Generator) -> Iterator[str]:
     yield f"{generator.target}: {generator.summary}"
     if generator.target in registry.ON_REQUEST:
-        yield f"\nbuilt where it is asked for: `--target {generator.target}`, or in swarm.toml"
+        yield f"\nbuilt on request only: `--target {generator.target}`, or in swarm.toml"
     if options := options_of(generator).values():
         yield f"\noptions, given as `--option {generator.target}.NAME=VALUE`"
         for option in options:
@@ -64,12 +64,12 @@ def _page(generator: Generator) -> Iterator[str]:
     missing = _cannot_express(generator)
     mappings = _mappings(generator)
     refused = any(row.support is Support.REJECTED for rows in mappings.values() for row in rows)
-    but = ", but for what is rejected below" if refused else ""
+    but = ", except what is rejected below" if refused else ""
     yield "\ncannot express" if missing else f"\ncan express every construct of state machines{but}"
     yield from (f"  {construct}" for construct in missing)
     for with_, mapping in mappings.items():
         with_ = with_ and f" with `{generator.target}.{with_}`"
-        yield f"\nwhat becomes of the constructs of a model{with_}"
+        yield f"\ntranslation of the constructs of a model{with_}"
         wide = max(len(each.construct) for each in mapping)
         for each in mapping:
             yield f"  {each.construct:<{wide}}  {each.support.value:<8}  {each.means}"

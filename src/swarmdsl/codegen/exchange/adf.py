@@ -33,11 +33,11 @@ class Options:
     """Options of target `adf`."""
 
     functions: str = option(
-        "all", "all functions, or those that no library has (missing)", choices=("all", "missing")
+        "all", "all functions, or those in no library (missing)", choices=("all", "missing")
     )
     form: str = option(
         "d5.4",
-        "that of D5.4, or that of the modelling tool's schema, which has sensors and actuators too",
+        "that of D5.4, or of the modelling tool's schema, which adds sensors and actuators",
         choices=("d5.4", "schema"),
     )
 

@@ -27,9 +27,7 @@ from swarmdsl.syntax.types import INTEGERS, Primitive
 class Options:
     """Options of target `composition`."""
 
-    package: str = option(
-        "", "ROS package with the behaviours; the one that target smach writes when empty"
-    )
+    package: str = option("", "ROS package with the behaviours; that of target smach if empty")
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
@@ -94,7 +92,7 @@ def _add_params(node: etree._Element, params: tuple[ParamValue, ...], report: Di
                 given.expression.origin if given.expression is not None else None,
                 target="composition",
                 what=f"the value of `{given.param.name}`",
-                notes=("`$(` stands for something else in a launch file",),
+                notes=("`$(` begins a substitution in a launch file",),
             )
         elif given.value is not None:
             type_, text = _kind(given.param.type), _text(given.value)
@@ -115,7 +113,7 @@ def _text(value: Value) -> str:
 
 generator = Generator(
     target="composition",
-    summary="which members a swarm has, as XML, and launch files for them",
+    summary="the members of a swarm as XML, and launch files for them",
     emit=emit,
     options_type=Options,
 )

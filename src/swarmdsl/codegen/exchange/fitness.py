@@ -48,12 +48,12 @@ def _can_be_computed(fitness: Fitness, report: Diagnostics) -> bool:
     structured = [each for each in fitness.inputs if not _is_plain(each)]
     for param in unknown:
         what = f"param `{param.name}`, which has no value"
-        hint = "give it one: the script is not written without"
+        hint = "give it a value: the script is not written otherwise"
         report.report("no-place", param.origin, target="fitness", what=what, help=hint)
     for each in structured:
         what = f"input `{each.name}` of type `{each.type}`"
-        note = "what a script reads is a number, a text, a time or many numbers"
-        hint = "measure fields of it: the script is not written with it"
+        note = "a script reads a number, a string, a time or an array of numbers"
+        hint = "measure fields of it: the script is not written otherwise"
         report.report(
             "no-place", each.origin, target="fitness", what=what, notes=(note,), help=hint
         )

@@ -44,7 +44,7 @@ _EXECUTOR = {
 
 
 def _count_fault(value: int) -> str | None:
-    return None if 1 <= value <= LARGEST else f"`{value}` is no number from 1 to {LARGEST}"
+    return None if 1 <= value <= LARGEST else f"`{value}` is not a number from 1 to {LARGEST}"
 
 
 def _fitness_fault(value: str) -> str | None:
@@ -58,16 +58,14 @@ def _fitness_fault(value: str) -> str | None:
 class Options:
     """Options of target `frevo`."""
 
-    package: str = option("", "ROS package with the behaviours; that of target smach when empty")
+    package: str = option("", "ROS package with the behaviours; that of target smach if empty")
     candidates: int = option(10, "candidates of a generation", check=_count_fault)
     generations: int = option(
-        10, "generations, where the model says no evaluations", check=_count_fault
+        10, "generations, if the model sets no evaluations", check=_count_fault
     )
-    timeout: int = option(120, "seconds that a simulation may take", check=_count_fault)
-    enough: str = option(
-        "", "fitness with which the search ends before its time", check=_fitness_fault
-    )
-    ros: str = option("/opt/ros/noetic", "where ROS is installed, for the problem")
+    timeout: int = option(120, "time limit of a simulation, in seconds", check=_count_fault)
+    enough: str = option("", "fitness at which the search stops early", check=_fitness_fault)
+    ros: str = option("/opt/ros/noetic", "folder of the ROS installation, for the problem")
     workspace: str = option("", "the ROS workspace, for the problem")
 
 
@@ -102,13 +100,15 @@ def _configuration(
         generations = evaluations // candidates - 1
         made = (generations + 1) * candidates
         if made != evaluations:
-            note = f"there are {candidates} candidates at a time: {made} evaluations are written"
+            note = (
+                f"there are {candidates} candidates in a generation: {made} evaluations are written"
+            )
             _report(f"{evaluations} evaluations", given.origin, report, note)
     seed = 0
     if (given := settings.get("seed")) is not None:
         seed = int(number(given))
         if seed > LARGEST:
-            note = "the number has 32 bits: the last 31 of them are written"
+            note = "FREVO's seed has 32 bits: the lower 31 bits are written"
             _report(f"seed {seed}", given.origin, report, note)
             seed &= LARGEST
     return {

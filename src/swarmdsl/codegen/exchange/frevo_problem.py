@@ -57,7 +57,7 @@ def _add_environment(
     if environment.world is not None:
         _add(properties, "propentry", "environment", environment.world)
     if environment.size is not None:
-        note = "a problem has the name of a world, which has a size of its own"
+        note = "a problem names a world, which defines its own size"
         _report(f"the size of environment `{environment.name}`", environment.origin, report, note)
 
 

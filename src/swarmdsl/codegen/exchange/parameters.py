@@ -22,7 +22,7 @@ class Options:
     """Options of target `parameters`."""
 
     package: str = option(
-        "", "ROS package whose parameter file has the params; that of the behaviours when empty"
+        "", "ROS package whose parameter file has the params; that of the behaviours if empty"
     )
 
 
@@ -54,7 +54,7 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
 
 generator = Generator(
     target="parameters",
-    summary="what an optimiser may vary, for the CPSwarm simulation orchestrator",
+    summary="search spaces of optimizations, for the CPSwarm simulation orchestrator",
     emit=emit,
     options_type=Options,
 )

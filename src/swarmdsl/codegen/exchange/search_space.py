@@ -45,13 +45,13 @@ def varied(
             continue
         scale = _scale(range_, optimization, system)
         if scale is None:
-            note = "between its bounds are values without number, and the optimiser counts"
-            hint = "say which there are: `step 0.1`"
+            note = "the range is continuous, and the optimiser needs discrete values"
+            hint = "add a step: `step 0.1`"
             _report(range_.param, range_.origin, target, report, note, hint)
             continue
         lowest, highest = (_exact(end) / scale for end in (range_.lower, range_.upper))
         if lowest.denominator != 1 or max(-lowest, highest) > LARGEST:
-            note = "a value is a whole number times the step, and the number has 32 bits"
+            note = "a value is a 32-bit integer times the step"
             hint = "let the range begin at a multiple of the step"
             _report(range_.param, range_.origin, target, report, note, hint)
             continue
@@ -59,7 +59,7 @@ def varied(
         yield Varied(range_.param, meta, int(lowest), int(highest // 1), float(scale))
     for count in optimization.counts:
         if count.role in owners:
-            note = "a param that is varied has that name too"
+            note = "another varied param has that name"
             _report(count.role, count.origin, target, report, note)
             continue
         fewest, most = int(number(count.lower)), int(number(count.upper))

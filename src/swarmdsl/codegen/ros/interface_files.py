@@ -36,11 +36,11 @@ _INTERFACE = r"[A-Z][A-Za-z0-9]*"
 _INTERFACE_HINT = "a ROS interface starts with a capital letter and has letters and digits only"
 _FIELD = {1: r"[A-Za-z][A-Za-z0-9_]*", 2: r"[a-z](_?[a-z0-9])*"}
 _FIELD_HINT = {
-    1: "ROS wants letters, digits and `_`, and a letter first",
-    2: "ROS 2 wants lower-case letters, digits and single `_`",
+    1: "ROS requires letters, digits and `_`, and a letter first",
+    2: "ROS 2 requires lower-case letters, digits and single `_`",
 }
 _CONSTANT = {1: _FIELD[1], 2: r"[A-Z](_?[A-Z0-9])*"}
-_CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 wants capital letters, digits and single `_`"}
+_CONSTANT_HINT = {1: _FIELD_HINT[1], 2: "ROS 2 requires capital letters, digits and single `_`"}
 
 
 def interface_path(interface: Interface) -> str:

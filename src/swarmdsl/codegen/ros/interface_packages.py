@@ -96,14 +96,15 @@ def is_fully_described(system: System, package: str) -> bool:
 def check_order(packages: Iterable[InterfacePackage], target: str, report: Diagnostics) -> None:
     """Report packages that depend on each other: they cannot be built in an order."""
     known = {package.name: package for package in packages}
-    for name, way in cycles(
+    for name, path in cycles(
         known, lambda name: [(other, other) for other in known[name].depends if other in known]
     ):
+        chain = " -> ".join([name, *path])
         report.report(
             "unsupported-construct",
             known[name].interfaces[0].origin,
             target=target,
-            construct=f"packages whose interfaces need each other ({' -> '.join([name, *way])})",
+            construct=f"packages whose interfaces depend on each other ({chain})",
         )
 
 

@@ -20,24 +20,24 @@ _EMAIL = r"[a-zA-Z0-9._%+-]+@[a-zA-Z0-9._%+-]+\.[a-zA-Z]{2,6}"
 def _version_fault(value: str) -> str | None:
     if re.fullmatch(_VERSION, value):
         return None
-    return f"`{value}` is no version: three numbers, as in `1.2.0`"
+    return f"`{value}` is not a version: expected three numbers, such as `1.2.0`"
 
 
 def _email_fault(value: str) -> str | None:
-    return None if re.fullmatch(_EMAIL, value) else f"`{value}` is no e-mail address"
+    return None if re.fullmatch(_EMAIL, value) else f"`{value}` is not an e-mail address"
 
 
 def packages_fault(value: str) -> str | None:
     """Return the error in comma-separated package names, or None."""
     wrong = [name for name in value.split(",") if value and not is_ros_package_name(name)]
-    return f"`{wrong[0]}` is not the name of a package of ROS" if wrong else None
+    return f"`{wrong[0]}` is not a valid ROS package name" if wrong else None
 
 
 def copyright_fault(value: str) -> str | None:
     """Return the error in a copyright (year and holder, or empty), or None."""
     if not value or (re.fullmatch(_COPYRIGHT, value) and value.isprintable()):
         return None
-    return f"`{value}` is not a year and a name, as in `2026 Example Robotics`"
+    return f"`{value}` is not a year and a name, such as `2026 Example Robotics`"
 
 
 def _line_fault(name: str) -> Callable[[str], str | None]:

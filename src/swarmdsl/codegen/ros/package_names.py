@@ -12,7 +12,7 @@ from swarmdsl.codegen.ros.interface_files import Generation, invalid_names
 from swarmdsl.codegen.ros.interface_packages import InterfacePackage, check_order
 from swarmdsl.ir import Interface, StateMachine, System
 
-_PACKAGE_NAMES = "it is of lower-case letters, digits and `_`, and not that of a Python module"
+_PACKAGE_NAMES = "use lower-case letters, digits and `_`, and no name of a Python module"
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ class PackageNames:
         generated = {behavior, *(interface.type.package for interface in own)}
         for interface in system.interfaces:
             if interface.external and interface.type.package in generated:
-                use = "a package of others: a package of that name is generated"
+                use = "a third-party package: a generated package has that name"
                 self.bad(report, interface.type.package, use, interface.origin)
         check_order(packages, self.target, report)
 
@@ -123,7 +123,7 @@ class PackageNames:
             self.bad(report, name, "the name of a ROS package", at, help=_PACKAGE_NAMES)
         elif name == behavior:
             use = "the package of its interfaces: the package with the behaviour has that name"
-            hint = "give that one another name with the option `package`"
+            hint = "rename that one with the option `package`"
             self.bad(report, name, use, at, help=hint)
         owners: dict[str, Interface] = {}
         for interface in package.interfaces:

@@ -27,7 +27,7 @@ def parameter_value(
     greatest = 2 ** (_BITS[ros] - 1) - 1
     if isinstance(value, int) and not -greatest - 1 <= value <= greatest:
         bound = f"at least {-greatest - 1}" if value < 0 else f"at most {greatest}"
-        way_out = f"a whole number in a parameter of ROS {ros} is {bound}"
+        way_out = f"an integer parameter of ROS {ros} is {bound}"
         construct = f"a param of {value}"
         report.report("unsupported-construct", at, target=target, construct=construct, help=way_out)
     return value

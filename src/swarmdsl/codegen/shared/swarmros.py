@@ -113,7 +113,7 @@ def _settings(member: Member, report: Diagnostics) -> Group:
             communication.origin,
             target="swarmros",
             what=f"technology `{communication.technology}`",
-            notes=(f"the bridge reaches others by `{_TECHNOLOGY}`, which is written",),
+            notes=(f"the bridge supports `{_TECHNOLOGY}` only, which is written",),
         )
     values = {name: constant(value, {}) for name, value in communication.values}
     return {name: value for name, value in values.items() if value is not None}

@@ -66,7 +66,7 @@ def _impossible(wired: Wiring) -> Iterator[tuple[Connector, str, str]]:
             connector = _connector_at(wired, ref) or _connector_at(wired, other)
             assert connector is not None
             construct = (
-                f"a connector that parts `{other}` from `{ref}`, "
+                f"a connector that separates `{other}` from `{ref}`, "
                 f"which are on one topic, `{port.topic}`"
             )
             yield connector, construct, "give the ports topics of their own"

@@ -35,7 +35,7 @@ def _literal(literal: Literal) -> str:
         case int() if literal.type == DURATION:
             return _duration(literal.value)
         case float() if not isfinite(literal.value):
-            raise UnprintableError(f"{literal.value} is no number that can be written")
+            raise UnprintableError(f"{literal.value} is not a number that can be written")
         case str():
             return quoted(literal.value)
         case value:

@@ -10,7 +10,7 @@ from swarmdsl.base.records import fields_of, is_dataclass, replace
 from swarmdsl.base.source import Span
 from swarmdsl.ir import State, StateMachine
 
-HELP = "`--option scxml.profile=portable` asks for SCXML without it"
+HELP = "`--option scxml.profile=portable` builds SCXML without it"
 
 
 def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
@@ -26,7 +26,7 @@ def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[D
             )
         use = uses.get(each.primary.span) if each.primary is not None else None
         if use is not None and use.origin is not None:
-            message = f"comes into `{machine.name}` as part of this state"
+            message = f"included in `{machine.name}` by this state"
             each = replace(each, related=(*each.related, Label(use.origin, message)))
         yield each
 

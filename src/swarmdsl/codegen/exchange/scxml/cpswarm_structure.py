@@ -165,7 +165,7 @@ class _Shaper:
         leaving = self._distinct(leaving)
         if any(end.name == "aborted" for end in staying):
             for end in leaving:
-                self._refuse("a second way out of a state that waits for an event", end.origin)
+                self._refuse("a second exit from a state that waits for an event", end.origin)
         transitions = tuple((end.name, end.target) for end in staying)
         return replace(vertex, transitions=transitions), leaving
 
@@ -184,7 +184,7 @@ class _Shaper:
                     case EventTrigger(event=event):
                         name = event_name(event)
                         if any(self._waits(outer, event) for outer in around):
-                            self._refuse("an event that is waited for on two levels", origin)
+                            self._refuse("an event awaited on two levels", origin)
                     case OutcomeTrigger(outcome=outcome):
                         name = outcome
                     case _:

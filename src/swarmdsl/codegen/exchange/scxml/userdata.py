@@ -19,7 +19,7 @@ def missing(machine: StateMachine, shaped: Iterable[Vertex]) -> Iterator[tuple[V
         reading = {place for place, activity in calls if name in _read(activity)}
         writing = {place for place, activity in calls if name in _written(activity)}
         if reading and (variable.initial is not None or not writing):
-            yield variable, f"nothing gives `userdata.{name}` its first value"
+            yield variable, f"`userdata.{name}` has no initial value"
         if len(reading | writing) > 1:
             yield variable, f"no container has `{name}` among its input and output keys"
 
