@@ -29,15 +29,15 @@ async def test_what_is_tried_for_a_rename_is_gone_afterwards(client, editor, fol
     assert await editor.told(document) == []
 
 
-async def test_supposing_leaves_every_text_as_it_was(folder):
+async def test_overriding_leaves_every_text_as_it_was(folder):
     path = folder / "patrol.swarm"
     text = "\ufeff" + MODEL.replace("\n", "\r\n")
     workspace = Workspace([folder], texts={path: text})
-    with workspace.supposing({path: "event Other : Nothing", folder / "rover.swarm": "!"}):
+    with workspace.overriding({path: "event Other : Nothing", folder / "rover.swarm": "!"}):
         assert workspace.report.has_errors
     assert not workspace.report.has_errors
-    assert workspace._desk.edited(path) == text
-    assert workspace._desk.edited(folder / "rover.swarm") is None
+    assert workspace._store.edited(path) == text
+    assert workspace._store.edited(folder / "rover.swarm") is None
 
 
 async def test_mistakes_in_the_project_file(client, editor, folder):

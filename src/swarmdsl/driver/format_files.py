@@ -1,4 +1,4 @@
-"""Files on disk and their canonical layout: what would change, and writing it."""
+"""Format files on disk: compute the changes and write them."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _LINE_END = re.compile(rb"\r\n|\n|\r")
 
 
 def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
-    """The layout of a file with this content; None when it has errors, which are reported.
+    """Compute the layout of a file; None if it has errors, which are reported.
 
-    Its line ends stay what the first of them is; a byte order mark goes.
+    All line ends become like the first one; a byte order mark is removed.
     """
     source = decoded(Path(name), content, None, report)
     text = formatted(source, report) if source is not None else None
@@ -36,7 +36,7 @@ def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
 
 
 def layouts_of(paths: Iterable[Path], report: Diagnostics) -> tuple[list[Layout], int]:
-    """The layouts of files and of those in folders, and how many have errors."""
+    """Compute the layouts of files and folders, and count the files with errors."""
     layouts, wrong = [], 0
     known = set()
     for path in expanded(paths, report):
@@ -54,11 +54,11 @@ def layouts_of(paths: Iterable[Path], report: Diagnostics) -> tuple[list[Layout]
 
 
 def write(layouts: Sequence[Layout], report: Diagnostics) -> bool:
-    """Replace the files by what they should be, all or none; False when that is impossible."""
+    """Replace all files or none; return False if that fails."""
     try:
         with Staging() as staging:
             for layout in layouts:
-                # A link stays one: what it leads to is replaced.
+                # Replace the target of a symbolic link, not the link.
                 place = Path(os.path.realpath(layout.name))
                 staging.add(place, layout.after, mode=stat.S_IMODE(place.stat().st_mode))
             for _ in staging.move_in_place():

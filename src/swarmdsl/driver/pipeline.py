@@ -1,4 +1,4 @@
-"""The pipeline: from .swarm files to packages on disk, one line a phase."""
+"""Pipeline from .swarm files to packages on disk."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from swarmdsl.base.records import dataclass, replace
 from swarmdsl.driver.config.settings import Settings
 from swarmdsl.project.loader import Project, load
 
-# A check needs no more; the other phases are imported where they begin.
+# Later phases are imported where they begin: `check` does not need them.
 if TYPE_CHECKING:
     from swarmdsl.codegen.emit import Request
     from swarmdsl.ir import System
@@ -25,9 +25,9 @@ _DEFAULTS = Settings()
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a run; `valid` is the project where its model has no errors.
+    """Result of a run; `valid` is the project if its model has no errors.
 
-    `name` is that of the system, if one is given.
+    `name` is the configured name of the system.
     """
 
     report: Diagnostics
@@ -38,14 +38,14 @@ class Result:
 
     @cached_property
     def system(self) -> System | None:
-        """The model as a generator sees it, made when it is asked for; None if it has errors."""
+        """The lowered model; None if it has errors."""
         from swarmdsl.lowering import lower
 
         return lower(self.valid, self.name) if self.valid is not None else None
 
 
 def check(paths: Sequence[Path], settings: Settings = _DEFAULTS) -> Result:
-    """Find everything that is wrong with the model in these files and what they import."""
+    """Check a model and the files that it imports."""
     report = Diagnostics(settings.levels)
     project = load(paths, report, settings.libraries)
     if not paths:
@@ -64,14 +64,14 @@ def build(
     settings: Settings = _DEFAULTS,
     how: How | None = None,
 ) -> Result:
-    """Check the model and write what the requested targets make of it below `out`."""
+    """Check a model and write the output of the requested targets below `out`."""
     return generate(check(paths, settings), requests, out, how)
 
 
 def generate(
     checked: Result, requests: Sequence[Request], out: Path, how: How | None = None
 ) -> Result:
-    """Write what the requested targets make of a checked model below `out`, if it is valid."""
+    """Write the output of the requested targets below `out` if the model is valid."""
     from swarmdsl.codegen.emit import emit
     from swarmdsl.output import How, write
 
@@ -79,7 +79,7 @@ def generate(
         return checked
     report, found = checked.report, Diagnostics()
     files = emit(checked.system, requests, found)
-    # In a workspace, places are in pieces of files.
+    # Spans in a workspace are relative to fragments of files.
     report.include(placed(one, lambda span: span.absolute) for one in found)
     if report.has_errors:
         return checked

@@ -1,4 +1,4 @@
-"""The project file: what a run takes from `swarm.toml` unless the command line says it."""
+"""Project file `swarm.toml`: defaults for the command line."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from swarmdsl.project.read_source import read_source
 
 
 def find_settings(paths: Sequence[Path], report: Diagnostics) -> Settings:
-    """The settings for these files and folders: defaults where there is no project file.
+    """Return the settings for files and folders; defaults without a project file.
 
-    Incomplete when errors were reported.
+    Incomplete if errors were reported.
     """
     path = find_file(paths[0] if paths else Path())
     return read_project(path, report) if path is not None else Settings()
 
 
 def read_project(path: Path, report: Diagnostics, source: Source | None = None) -> Settings:
-    """What a project file says, or a `source` in its place.
+    """Read a project file, or `source` in its place.
 
-    Incomplete when errors were reported.
+    Incomplete if errors were reported.
     """
-    # What reads TOML takes a while to import.
+    # Imported here because the TOML parser is slow to import.
     from swarmdsl.driver.config.schema import read_settings
     from swarmdsl.driver.config.toml import parse_toml
 
@@ -36,7 +36,7 @@ def read_project(path: Path, report: Diagnostics, source: Source | None = None) 
 
 
 def find_file(start: Path) -> Path | None:
-    """The project file in the folder of `start` or in the closest one above it."""
+    """Find the project file in the folder of `start` or the closest one above."""
     for found in places(start):
         if os.path.isfile(found):  # noqa: PTH113
             return Path(found if start.is_absolute() else os.path.relpath(found))
@@ -44,8 +44,8 @@ def find_file(start: Path) -> Path | None:
 
 
 def places(start: Path) -> Iterator[str]:
-    """Where the project file of `start` is looked for; the first there is counts."""
-    # As text: what was given may be no path that can be looked up.
+    """Yield the candidate paths of the project file, the closest first."""
+    # As a string: the argument may not be a path that the system can look up.
     absolute = os.path.abspath(start)  # noqa: PTH100
     for folder in (Path(absolute), *Path(absolute).parents):
         yield os.path.join(folder, FILE_NAME)  # noqa: PTH118

@@ -1,6 +1,6 @@
-"""What the command line asks for, on top of what the project file says.
+"""Settings and build requests from the command line and the project file.
 
-What cannot be meant is a UsageError.
+Raises UsageError for invalid options.
 """
 
 from __future__ import annotations
@@ -24,22 +24,22 @@ if TYPE_CHECKING:
 def run_settings(
     paths: tuple[Path, ...], levels: Mapping[Level, Iterable[str]], report: Diagnostics
 ) -> Settings:
-    """The settings of a run: those of the project, and over them those given here."""
+    """Return the settings of the project, overridden by the command line."""
     given = named_levels(levels)
     found = find_settings(paths, report)
     return replace(found, sources=paths or found.sources, levels={**found.levels, **given})
 
 
 def requests(targets: Iterable[str], options: Iterable[str], settings: Settings) -> list[Request]:
-    """The targets to build: those named, else those of the project, else what all use.
+    """Return the targets to build: named or configured ones, else the defaults.
 
-    An option on the command line wins over the same one in the project file.
+    An option on the command line overrides the one in the project file.
     """
     named = list(dict.fromkeys(targets))
     from swarmdsl.codegen import registry
     from swarmdsl.codegen.emit import Request
 
-    # Only a target that somebody asked for must be able to express the model.
+    # Only an explicitly requested target must be able to express the model.
     required = bool(named or settings.targets)
     built = named or list(settings.targets) or registry.default_names()
     given: dict[str, dict[str, str]] = {target: {} for target in built}
@@ -70,17 +70,17 @@ def requests(targets: Iterable[str], options: Iterable[str], settings: Settings)
 
 
 def _place(option: str) -> Span:
-    """The place of an option, which is shown as it is written."""
+    """Return the span of an option, as it is written."""
     source = Source(COMMAND_LINE, f"--option {option}")
     return Span(source, len(source.text) - len(option), len(source.text))
 
 
 def named_levels(levels: Mapping[Level, Iterable[str]]) -> dict[str, Level]:
-    """The level of each diagnostic that is named; UsageError for what none has."""
+    """Map each named diagnostic to its level; raise UsageError for an unknown one."""
     found: dict[str, Level] = {}
     if not any(levels.values()):
         return found
-    # Imported here because most runs name none, and need no catalogue.
+    # Imported here because most runs name no level and do not need the catalog.
     from swarmdsl.driver.config.lint import find_diagnostic, may_have, similar_diagnostic
 
     for level, words in levels.items():

@@ -1,4 +1,4 @@
-"""Which warnings are meant by a word, for the project file and for the command line."""
+"""Look up diagnostics by name or code, for lint levels."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _NAMES = {entry.code: name for name, entry in CODES.items()}
 
 
 def find_diagnostic(word: str) -> str | None:
-    """The name of the diagnostic meant by a name or a code; None for none."""
+    """Return the name of a diagnostic, given its name or code; None if unknown."""
     if word == ALL_WARNINGS:
         return word
     code = find_code(word)
@@ -19,15 +19,15 @@ def find_diagnostic(word: str) -> str | None:
 
 
 def _is_error(name: str) -> bool:
-    """Whether it is an error, whose level is fixed."""
+    """Return True if it is an error, whose level is fixed."""
     return name != ALL_WARNINGS and CODES[name].severity == "error"
 
 
 def may_have(name: str, level: Level) -> bool:
-    """Whether a diagnostic can be given a level; errors are denied as it is."""
+    """Return True if a diagnostic can have a level; errors can only be denied."""
     return level is Level.DENY or not _is_error(name)
 
 
 def similar_diagnostic(word: str) -> str | None:
-    """A question that names the diagnostic most like a word."""
+    """Return a hint with the most similar diagnostic."""
     return did_you_mean(word, [ALL_WARNINGS, *CODES, *_NAMES])

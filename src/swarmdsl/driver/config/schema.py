@@ -1,4 +1,4 @@
-"""What may stand in a project file, and what it means."""
+"""Schema of the project file."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _KEYS: dict[str, tuple[str, ...]] = {
 }
 _PACKAGE = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(\.[A-Za-z_][A-Za-z0-9_]*)*")
 
-# In the order of `isinstance`: a bool is an int, a datetime a date.
+# In the order of `isinstance`: a bool is an int, a datetime is a date.
 _KINDS: dict[type | tuple[type, ...], str] = {
     str: "text",
     bool: "a truth value",
@@ -40,7 +40,7 @@ _KINDS: dict[type | tuple[type, ...], str] = {
 
 
 def read_settings(document: Document, folder: Path, report: Diagnostics) -> Settings:
-    """The settings in a document; paths in it start from `folder`."""
+    """Read settings from a document; its paths are relative to `folder`."""
     return _Reader(document, folder, report).read()
 
 
@@ -120,7 +120,7 @@ class _Reader:
         return {name: self._pair_place(("targets", target, name)) for name in options}
 
     def _options(self, keys: Keys, known: dict[str, Option]) -> Iterator[tuple[str, str]]:
-        """The options of a target as they are written on a command line."""
+        """Return the options of a target as strings, as on a command line."""
         table = self._get(keys)
         if not isinstance(table, dict):
             self._report_wrong(keys, "a table of options", _kind(table))
@@ -160,7 +160,7 @@ class _Reader:
         return {name: level for name, (level, _) in given.items()}
 
     def _table(self, name: str, known: Iterable[str] | None = None) -> dict[str, Any]:
-        """A table at the top, empty when it is not there; its keys checked if `known`."""
+        """Return a top-level table, empty if missing; check its keys against `known`."""
         table = self._document.values.get(name, {})
         if not isinstance(table, dict):
             self._report_wrong((name,), f"a table: `[{name}]`", _kind(table))
@@ -181,7 +181,7 @@ class _Reader:
                 )
 
     def _items(self, keys: Keys) -> Iterator[Keys]:
-        """Where the items of a list are."""
+        """Yield the keys of the items of a list."""
         value = self._get(keys)
         if not isinstance(value, list):
             self._report_wrong(keys, "a list of texts", _kind(value))

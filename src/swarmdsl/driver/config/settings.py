@@ -1,4 +1,4 @@
-"""What a project file can say, as plain data."""
+"""Settings of a project file, as plain data."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ FILE_NAME = "swarm.toml"
 
 @dataclass(frozen=True)
 class Settings:
-    """The settings of a project; the defaults are those of a folder without project file.
+    """Settings of a project; the defaults apply without a project file.
 
-    `sources` are compiled when no file is named, `libraries` searched for packages.
-    `targets` are built when none is named, with these options, which stand in `places`; none
-    stands for all.
+    `sources` are compiled if no file is named, `libraries` are searched for packages. `targets`,
+    with their options, are built if none is named; if empty, all default targets. `places` has the
+    spans of the options.
     """
 
     name: str | None = None

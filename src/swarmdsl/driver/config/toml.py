@@ -1,8 +1,7 @@
-"""TOML to values, each with its place in the text.
+"""Parse TOML into values with their source spans.
 
-tomli reads the values and finds what is wrong with the text, but does not keep places. So
-the text is read a second time for these alone, when tomli has accepted it; no more is told
-apart here than has to be.
+tomli parses and validates the document but keeps no positions. A second, lenient scan of the
+accepted source finds these.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
 
 Keys = tuple[str | int, ...]
-"""The way from the top of a document to a value: names of keys, positions in arrays."""
+"""Path from the top of a document to a value: keys and array indices."""
 
 _BETWEEN = re.compile(r"(?:[ \t\r\n]+|#[^\n]*)*")
 _WORD_OF_KEY = re.compile(r"""[A-Za-z0-9_-]+|"(?:\\.|[^"\\\n])*"|'[^'\n]*'""")
@@ -31,12 +30,12 @@ _WORD_OF_VALUE = re.compile(
     re.VERBOSE,
 )
 
-# How tomli begins to say that something is given twice, or inside of what is closed.
+# How tomli begins the message about a redefinition.
 _OVERWRITING = ("cannot overwrite", "cannot declare", "cannot mutate", "duplicate inline table")
 
 
 class Place(NamedTuple):
-    """Where a value stands, and the key before it; the same for an item of an array."""
+    """Span of a value and of the key before it; the same span for an array item."""
 
     key: Span
     value: Span
@@ -44,7 +43,7 @@ class Place(NamedTuple):
 
 @dataclass(frozen=True)
 class Document:
-    """A TOML document; `places` has the place of every key and item in it."""
+    """TOML document; `places` has the spans of every key and item."""
 
     source: Source
     values: dict[str, Any]
@@ -52,7 +51,7 @@ class Document:
 
 
 def parse_toml(source: Source, report: Diagnostics) -> Document | None:
-    """The document that a source holds; None when it is not TOML, which is reported."""
+    """Parse a document; None if it is not TOML, which is reported."""
     try:
         values = tomli.loads(source.text)
     except (ValueError, RecursionError) as error:
@@ -70,7 +69,7 @@ def parse_toml(source: Source, report: Diagnostics) -> Document | None:
 
 
 def _last_key(source: Source, end: int) -> Span:
-    """The key of the pair, or of the header but for its brackets, that ends at `end`."""
+    """Return the key of the pair or table header that ends at `end`."""
     reader = _Places(source, end)
     with suppress(_Over):
         reader.find()
@@ -78,26 +77,26 @@ def _last_key(source: Source, end: int) -> Span:
 
 
 class _Over(Exception):  # noqa: N818 - no error
-    """The text is over in the middle of something."""
+    """End of input inside a construct."""
 
 
 class _Places:
-    """Reads a text that TOML allows, as far as `end`."""
+    """Scan valid TOML up to `end`."""
 
     def __init__(self, source: Source, end: int) -> None:
         self._source = source
         self._end = end
         self._at = 0
         self._stop = 0
-        """Where the last word ended."""
+        """End of the last token."""
         self._places: dict[Keys, Place] = {}
         self._tables: dict[Keys, int] = {}
-        """How many tables there are so far in each array of tables."""
+        """Number of tables so far in each array of tables."""
         self.last_key = Span(source, end, end)
-        """The key of what ended last."""
+        """Key of the last completed pair or header."""
 
     def find(self) -> dict[Keys, Place]:
-        """The places of all keys and items. Raises _Over."""
+        """Return the spans of all keys and items. Raises _Over."""
         above: Keys = ()
         self._skip()
         while self._at < self._end:
@@ -190,5 +189,5 @@ def _whole(parts: list[Span]) -> Span:
 
 
 def _name(part: Span) -> str:
-    """The name that a part of a key stands for, which may be quoted."""
+    """Return the name in a key part, which may be quoted."""
     return part.text if part.text[0] not in "\"'" else next(iter(tomli.loads(f"{part.text} = 0")))

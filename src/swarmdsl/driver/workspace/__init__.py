@@ -1,9 +1,8 @@
-"""A model that is edited: what is wrong with it, known anew after each edit in little time.
+"""Incremental checking of a model that is edited.
 
-An edit touches few declarations. These are parsed, linked and checked again, and so are those
-that were linked or checked with one of them, or that name something whose meaning the edit may
-have changed. The rest stays as it is; rules about all declarations together run each time. What
-comes of it is what `compiler.check` would say of the same texts.
+An edit touches few declarations. These are parsed, linked and checked again, together with their
+users and all that mention a name that may resolve differently now. Checks of the whole model run
+each time. The diagnostics are the same as those of `pipeline.check`.
 """
 
 from __future__ import annotations
@@ -26,9 +25,15 @@ from swarmdsl.analysis.resolve.linker import link
 from swarmdsl.base.diagnostics.collector import MOST_HINTS, Diagnostic, Diagnostics, placed
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver.config.settings import Settings
-from swarmdsl.driver.workspace.documents import Desk
-from swarmdsl.driver.workspace.fragments import Unit, with_users
-from swarmdsl.driver.workspace.invalidation import Change, affected, declared_twice, packages, sight
+from swarmdsl.driver.workspace.documents import DocumentStore
+from swarmdsl.driver.workspace.fragments import Fragment, with_users
+from swarmdsl.driver.workspace.invalidation import (
+    Change,
+    affected,
+    ambiguous_interfaces,
+    packages,
+    visible_names,
+)
 from swarmdsl.driver.workspace.relink import link_outside
 from swarmdsl.project.libraries import imported_name
 from swarmdsl.project.loader import File, Project, expanded, load
@@ -37,15 +42,15 @@ from swarmdsl.syntax.parse import no_garbage_collection
 
 _DEFAULTS = Settings()
 _NO_TEXTS: Mapping[Path, str] = {}
-# What looks for names that may be meant, as long as there are not too many of them.
-_HINTED = ("unresolved-name", "unknown-field", "unknown-param")
+# Diagnostics with a hint, which only the first few of them get.
+_HINTED_DIAGNOSTICS = ("unresolved-name", "unknown-field", "unknown-param")
 
 
 class Workspace:
-    """The files of a model, those they import, and what is wrong with them.
+    """The files of a model, the files that they import, and their diagnostics.
 
-    `paths` are files and folders, as for `compiler.check`; `texts` are taken for the contents of
-    files. What does not lie `within` some folders is not read, nor what has more than `most` bytes.
+    `paths` are files and folders, as for `pipeline.check`; `texts` override the contents of files.
+    Files outside of `within` or larger than `most` bytes are not read.
     """
 
     def __init__(
@@ -59,20 +64,20 @@ class Workspace:
     ) -> None:
         self._paths = paths
         self.settings = settings
-        self._desk = Desk(settings.levels, within, most)
+        self._store = DocumentStore(settings.levels, within, most)
         for path, text in texts.items():
-            self._desk.edit(path, text)
-        self._units: dict[Source, Unit] = {}
+            self._store.edit(path, text)
+        self._fragments: dict[Source, Fragment] = {}
         self._loaded = self._collector()
         self._together = self._collector()
-        # What checking all at once has found, where the order of declarations decides on it.
-        self._in_order: Diagnostics | None = None
+        # Result of a full check, where the order of declarations matters.
+        self._full_report: Diagnostics | None = None
         self._reused: frozenset[StateMachine] = frozenset()
         self._facts = FactCache()
         self._packages: set[str] = set()
-        # Units of which something was reported, or nothing because of what cannot be read.
-        self._noted: set[Unit] = set()
-        self._picks = False  # whether an import is of one name, which may be gone
+        # Fragments with reported or suppressed diagnostics.
+        self._reported: set[Fragment] = set()
+        self._imports_single_names = False  # some import is of a single name, which may be removed
         self.project = Project()
         with no_garbage_collection():
             change = Change(everything=True)
@@ -80,31 +85,35 @@ class Workspace:
             self._apply(change)
 
     def update(self, texts: Mapping[Path, str | None]) -> None:
-        """Take texts for the contents of files; None for one that is to be read from disk again.
+        """Override the contents of files; None reads a file from disk again.
 
-        That is what to do with a file that was changed, made or deleted there.
+        Use None for files that were changed, created or deleted on disk.
         """
         with no_garbage_collection():
             change, reload = Change(), False
             for path, text in texts.items():
-                self._desk.edit(path, text)
-                sheet = self._desk.sheet(path)
-                source = self._desk.reread(sheet) if sheet is not None else None
-                if sheet is not None and source is not None:
-                    change.replace(sheet, source)
+                self._store.edit(path, text)
+                document = self._store.document(path)
+                source = self._store.reload(document) if document is not None else None
+                if document is not None and source is not None:
+                    change.replace(document, source)
                     continue
                 reload = True
-                if sheet is not None:
-                    self._desk.drop(path)
-                    change.go(sheet)
-            if reload or change.heads or (change.shape and self._picks):
+                if document is not None:
+                    self._store.drop(path)
+                    change.remove(document)
+            if (
+                reload
+                or change.imports_changed
+                or (change.declarations_changed and self._imports_single_names)
+            ):
                 self._load(change)
             self._apply(change)
 
     @contextmanager
-    def supposing(self, texts: Mapping[Path, str]) -> Iterator[None]:
-        """Take texts for the contents of files for a while; what was before comes back."""
-        before = {path: self._desk.edited(path) for path in texts}
+    def overriding(self, texts: Mapping[Path, str]) -> Iterator[None]:
+        """Override the contents of files temporarily."""
+        before = {path: self._store.edited(path) for path in texts}
         try:
             self.update(texts)
             yield
@@ -113,40 +122,48 @@ class Workspace:
 
     @property
     def files(self) -> int:
-        """How many files there are."""
+        """Number of files."""
         return len(self.project.files)
 
     def file(self, path: Path) -> File | None:
-        """A file of the model, or one that it imports; None for any other."""
-        sheet = self._desk.sheet(path)
-        return sheet.file if sheet is not None else None
+        """Return a file of the model or of its imports, else None."""
+        document = self._store.document(path)
+        return document.file if document is not None else None
 
-    def piece(self, file: File, offset: int) -> Span:
-        """The piece of a file that an offset is in, or that ends there if it is the last."""
-        sheet = self._desk.sheet(Path(file.source.name))
-        units = sheet.units if sheet is not None else []
+    def fragment_span(self, file: File, offset: int) -> Span:
+        """Return the fragment at an offset; the last one includes its end."""
+        document = self._store.document(Path(file.source.name))
+        fragments = document.fragments if document is not None else []
         whole = Span(file.source, 0, len(file.source.text))
-        spans = (Span(unit.source, 0, len(unit.source.text)).absolute for unit in reversed(units))
+        spans = (
+            Span(fragment.source, 0, len(fragment.source.text)).absolute
+            for fragment in reversed(fragments)
+        )
         return next((span for span in spans if span.start <= offset), whole)
 
     def runners(self, machine: StateMachine) -> list[Member | Component]:
-        """The members and components that run a machine, or what reuses it."""
-        units = self._units.values()
-        return [each for unit in units if machine in unit.runs for each in unit.runners()]
+        """Return the members and components that run a machine, or a reuse of it."""
+        fragments = self._fragments.values()
+        return [
+            each
+            for fragment in fragments
+            if machine in fragment.runs
+            for each in fragment.runners()
+        ]
 
     @property
     def report(self) -> Diagnostics:
-        """All that is wrong, at places in the files."""
+        """All diagnostics, with spans in files."""
         report = self._collector()
         report.include(placed(found, lambda span: span.absolute) for found in self._found())
         return report
 
     def watched(self) -> set[Path]:
-        """The files and folders that matter: those read, those looked for, those to be compiled."""
-        return {*self._desk.asked, *expanded(self._paths, Diagnostics())}
+        """Return the files and folders to watch: read, looked for or to be compiled."""
+        return {*self._store.requested, *expanded(self._paths, Diagnostics())}
 
     def diagnostics(self) -> dict[str, list[Diagnostic]]:
-        """What is wrong by the name of the file; of "" what is wrong with no file."""
+        """Return the diagnostics by file name; "" has those without a file."""
         found: dict[str, list[Diagnostic]] = {file.source.name: [] for file in self.project.files}
         for one in self.report:
             name = one.primary.span.source.name if one.primary is not None else ""
@@ -158,134 +175,139 @@ class Workspace:
 
     def _found(self) -> Iterator[Diagnostic]:
         yield from self._loaded
-        for sheet in self._desk.sheets.values():
-            if len(sheet.said):
-                yield from sheet.said
-        for unit in self._noted:
-            yield from unit.syntax
-        if self._in_order is not None:
-            yield from self._in_order
+        for document in self._store.documents.values():
+            if len(document.diagnostics):
+                yield from document.diagnostics
+        for fragment in self._reported:
+            yield from fragment.syntax
+        if self._full_report is not None:
+            yield from self._full_report
             return
         yield from self._together
-        for unit in self._noted:
-            yield from unit.found()
+        for fragment in self._reported:
+            yield from fragment.found()
 
     def _load(self, change: Change) -> None:
-        """Follow the imports anew; what was read before is not read again."""
-        desk, before = self._desk, dict(self._desk.sheets)
+        """Resolve the imports again; only read files that are not loaded."""
+        store, before = self._store, dict(self._store.documents)
         files = self.project.files
-        seen = {sheet.file: sight(sheet.file) for sheet in before.values()}
+        seen = {document.file: visible_names(document.file) for document in before.values()}
         read = read_packages(self.project)
-        for sheet in before.values():
-            sheet.file.imports = []
-        desk.wanted.clear()
-        desk.asked.clear()
+        for document in before.values():
+            document.file.imports = []
+        store.in_use.clear()
+        store.requested.clear()
         self._loaded = self._collector()
-        self.project = load(self._paths, self._loaded, self.settings.libraries, desk)
+        self.project = load(self._paths, self._loaded, self.settings.libraries, store)
         if not self._paths:
             self._loaded.report("nothing-to-compile", path="[]")
-        desk.tidy()
-        for identity, sheet in before.items():
-            if desk.sheets.get(identity) is not sheet:
-                change.go(sheet)
-        for identity, sheet in desk.sheets.items():
-            if before.get(identity) is not sheet:
-                change.come(sheet)
-            elif sight(sheet.file) != seen[sheet.file]:
-                change.stale.update(sheet.units)
+        store.drop_unused()
+        for identity, document in before.items():
+            if store.documents.get(identity) is not document:
+                change.remove(document)
+        for identity, document in store.documents.items():
+            if before.get(identity) is not document:
+                change.add(document)
+            elif visible_names(document.file) != seen[document.file]:
+                change.stale.update(document.fragments)
         if files != self.project.files:
-            change.words |= declared_twice(self.project)
+            change.names |= ambiguous_interfaces(self.project)
         change.everything |= read != read_packages(self.project)
         imports = (one for file in self.project.files for one in file.model.imports)
-        self._picks = any(imported_name(one) is not None for one in imports)
+        self._imports_single_names = any(imported_name(one) is not None for one in imports)
 
     def _apply(self, change: Change) -> None:
-        """Link and check what the change has an effect on."""
-        for unit in change.gone:
-            self._units.pop(unit.source, None)
-        for unit in change.new:
-            self._units[unit.source] = unit
-        if change.shape:
+        """Link and check the invalidated fragments."""
+        for fragment in change.removed:
+            self._fragments.pop(fragment.source, None)
+        for fragment in change.new:
+            self._fragments[fragment.source] = fragment
+        if change.declarations_changed:
             before, self._packages = self._packages, packages(self.project)
             change.everything |= before != self._packages
-        change.everything |= self._in_order is not None
-        self._in_order = None
-        self._noted.difference_update(change.gone)
-        stale = affected(change, self._units.values(), self._noted)
+        change.everything |= self._full_report is not None
+        self._full_report = None
+        self._reported.difference_update(change.removed)
+        stale = affected(change, self._fragments.values(), self._reported)
         fresh = set(change.new)
-        for unit in change.gone:
-            unit.forget()
+        for fragment in change.removed:
+            fragment.forget()
         while True:
             self._read(stale - fresh)
-            linking = link_outside(self.project, self._units, stale)
-            if not linking.driven:
+            linking = link_outside(self.project, self._fragments, stale)
+            if not linking.newly_run:
                 break
-            stale |= with_users(linking.driven)
+            stale |= with_users(linking.newly_run)
             fresh.clear()
         linking.link_inside(stale)
-        self._note(stale)
-        if self._has_circles():
-            self._check_in_order()
+        self._update_reported(stale)
+        if self._has_cycles():
+            self._check_all()
             return
         context = make_context(self.project, self._collector(), self._facts)
-        linking.learn_uses(stale, context.interfaces.declared)
+        linking.record_uses(stale, context.interfaces.declared)
         self._check(stale, context)
-        if self._has_many_mistakes():
-            self._check_in_order()
+        if self._exceeds_hint_limit():
+            self._check_all()
 
-    def _read(self, units: set[Unit]) -> None:
-        for unit in units:
-            unit.read_again()
-        for sheet in self._desk.sheets.values():
-            if not units.isdisjoint(sheet.units):
-                sheet.join()
+    def _read(self, fragments: set[Fragment]) -> None:
+        for fragment in fragments:
+            fragment.read_again()
+        for document in self._store.documents.values():
+            if not fragments.isdisjoint(document.fragments):
+                document.join()
 
-    def _check(self, stale: set[Unit], context: Context) -> None:
-        """Run the rules about all together, and those about each of some units."""
+    def _check(self, stale: set[Fragment], context: Context) -> None:
+        """Run the checks of the whole model, and those of the stale fragments."""
         self._together = self._collector()
         check_project(self.project, context.reporting_to(self._together))
         before, self._reused = self._reused, context.facts.reused
-        turned = (self._units.get(node.span.source) for node in before ^ self._reused)
-        stale = stale.union(unit for unit in turned if unit is not None)
-        for unit in stale:
-            unit.checked = self._collector()
-            of_unit = context.reporting_to(unit.checked)
-            for declaration in unit.parsed.model.declarations:
+        turned = (self._fragments.get(node.span.source) for node in before ^ self._reused)
+        stale = stale.union(fragment for fragment in turned if fragment is not None)
+        for fragment in stale:
+            fragment.checked = self._collector()
+            of_fragment = context.reporting_to(fragment.checked)
+            for declaration in fragment.parsed.model.declarations:
                 reused = declaration in self._reused
-                check_declaration(unit.file, declaration, of_unit)
+                check_declaration(fragment.file, declaration, of_fragment)
                 if not reused:
                     context.forget(declaration)
-            for optimization in unit.parsed.model.optimizations:
-                check_optimization(optimization, of_unit)
-            shown = {label.span.source for found in unit.found() for label in found.related}
-            unit.use({*unit.uses, *(self._units[each] for each in shown if each in self._units)})
-        self._note(stale)
+            for optimization in fragment.parsed.model.optimizations:
+                check_optimization(optimization, of_fragment)
+            shown = {label.span.source for found in fragment.found() for label in found.related}
+            fragment.use(
+                {
+                    *fragment.uses,
+                    *(self._fragments[each] for each in shown if each in self._fragments),
+                }
+            )
+        self._update_reported(stale)
 
-    def _note(self, units: set[Unit]) -> None:
-        self._noted -= units
-        self._noted.update(unit for unit in units if unit.noted)
+    def _update_reported(self, fragments: set[Fragment]) -> None:
+        self._reported -= fragments
+        self._reported.update(fragment for fragment in fragments if fragment.noted)
 
-    def _has_circles(self) -> bool:
-        """Whether constants or aliases lead in a circle, which begins at the first of them."""
-        circles = Diagnostics()
-        open_cycles(self.project, circles)
-        outside = (unit.outside for unit in self._noted)
-        return len(circles) > 0 or any(report.count_of("type-cycle") for report in outside)
+    def _has_cycles(self) -> bool:
+        """Return True if constants or aliases are cyclic; the first of them is reported."""
+        cycles = Diagnostics()
+        open_cycles(self.project, cycles)
+        outside = (fragment.outside for fragment in self._reported)
+        return len(cycles) > 0 or any(report.count_of("type-cycle") for report in outside)
 
-    def _has_many_mistakes(self) -> bool:
-        """Whether not all have a hint what may be meant: it is the first that have."""
-        counts = dict.fromkeys(_HINTED, self._loaded.count_of(_HINTED[0]))
-        for unit in self._noted:
-            for report in (unit.outside, unit.inside, unit.checked):
-                for name in _HINTED:
+    def _exceeds_hint_limit(self) -> bool:
+        """Return True if only the first diagnostics get a hint."""
+        counts = dict.fromkeys(_HINTED_DIAGNOSTICS, self._loaded.count_of(_HINTED_DIAGNOSTICS[0]))
+        for fragment in self._reported:
+            for report in (fragment.outside, fragment.inside, fragment.checked):
+                for name in _HINTED_DIAGNOSTICS:
                     counts[name] += report.count_of(name)
         return any(count >= MOST_HINTS for count in counts.values())
 
-    def _check_in_order(self) -> None:
-        """Check all of it at once, where the order of all declarations decides what is said."""
-        self._read(set(self._units.values()))
-        self._note(set(self._units.values()))
-        self._in_order = self._collector()
-        self._in_order.include(self._loaded)
-        link(self.project, self._in_order)
-        validate(self.project, self._in_order)
+    def _check_all(self) -> None:
+        """Check everything at once, if the order of declarations affects diagnostics."""
+        self._read(set(self._fragments.values()))
+        self._update_reported(set(self._fragments.values()))
+        self._full_report = self._collector()
+        self._full_report.include(self._loaded)
+        link(self.project, self._full_report)
+        validate(self.project, self._full_report)

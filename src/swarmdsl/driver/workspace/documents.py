@@ -1,4 +1,4 @@
-"""Files in memory, cut into units; what an editor shows is read instead of what is on disk."""
+"""Open documents, split into fragments; edited content replaces that on disk."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Piece, Source, Span
-from swarmdsl.driver.workspace.fragments import Levels, Unit
+from swarmdsl.driver.workspace.fragments import Fragment, Levels
 from swarmdsl.project.loader import File, Reader, parsed_interface, report_empty
 from swarmdsl.project.read_source import decoded, read_bytes, without_control_characters
 from swarmdsl.project.rosidl.package_folder import InterfacePath
@@ -19,29 +19,29 @@ from swarmdsl.syntax.parse import Parsed, parse_segment
 from swarmdsl.syntax.segments import is_self_contained, join_segments, split_declarations
 
 
-class Sheet:
-    """A file and its units; `said` is what is wrong with the file as a whole."""
+class Document:
+    """A file and its fragments; `diagnostics` are about the file as a whole."""
 
     def __init__(self, source: Source, levels: Levels, interface: InterfacePath | None) -> None:
         nothing = Model(Span(source, 0, 0), None, [], [], [])
         self.file = File(source, Parsed(nothing))
         self.interface = interface
-        self.units: list[Unit] = []
-        self.said = Diagnostics(levels)
+        self.fragments: list[Fragment] = []
+        self.diagnostics = Diagnostics(levels)
         self._levels = levels
         if interface is None:
             self.replace(source)
         else:
             parser = partial(parsed_interface, interface)
-            self.units.append(Unit(source, self.file, parser, levels))
+            self.fragments.append(Fragment(source, self.file, parser, levels))
             self.join()
 
-    def replace(self, source: Source) -> tuple[list[Unit], list[Unit]]:
-        """Give the file another text; return the units that are gone and those that are new."""
+    def replace(self, source: Source) -> tuple[list[Fragment], list[Fragment]]:
+        """Replace the content of the file; return the removed and the new fragments."""
         self._control = Diagnostics(self._levels)
         whole = without_control_characters(source, self._control)
-        text, old = whole.text, self.units
-        pieces = self._pieces(text)
+        text, old = whole.text, self.fragments
+        pieces = self._segments(text)
         texts = [text[start:end] for start, end in pieces]
         most = min(len(old), len(texts))
         before = after = 0
@@ -52,97 +52,99 @@ class Sheet:
         new = []
         for each in texts[before : len(texts) - after]:
             piece = Piece(whole.name, each, whole.path, whole=whole)
-            new.append(Unit(piece, self.file, parse_segment, self._levels))
+            new.append(Fragment(piece, self.file, parse_segment, self._levels))
         last = len(old) - after
-        gone = old[before:last]
-        self.units = [*old[:before], *new, *old[last:]]
+        removed = old[before:last]
+        self.fragments = [*old[:before], *new, *old[last:]]
         self.file.source = whole
-        for unit, (start, _) in zip(self.units, pieces, strict=True):
-            assert isinstance(unit.source, Piece)
-            unit.source.whole, unit.source.base = whole, start
+        for fragment, (start, _) in zip(self.fragments, pieces, strict=True):
+            assert isinstance(fragment.source, Piece)
+            fragment.source.whole, fragment.source.base = whole, start
         self.join()
-        return gone, new
+        return removed, new
 
-    def _pieces(self, text: str) -> list[tuple[int, int]]:
-        """The text cut into pieces; only around what changed, where the rest goes on as before."""
-        old = self.units
-        before = max(_same_before(old, text) - 1, 0)
-        after = max(_same_after(old[before:], text) - 1, 0)
+    def _segments(self, text: str) -> list[tuple[int, int]]:
+        """Split the text, but reuse the fragments before and after the change if possible."""
+        old = self.fragments
+        before = max(_common_prefix(old, text) - 1, 0)
+        after = max(_common_suffix(old[before:], text) - 1, 0)
         last = len(old) - after
-        start = sum(len(unit.source.text) for unit in old[:before])
-        end = len(text) - sum(len(unit.source.text) for unit in old[last:])
+        start = sum(len(fragment.source.text) for fragment in old[:before])
+        end = len(text) - sum(len(fragment.source.text) for fragment in old[last:])
         local = (
-            start <= end and is_self_contained(text[start:end]) and all(unit.closed for unit in old)
+            start <= end and is_self_contained(text[start:end]) and all(fragment.closed for fragment in old)
         )
         if not local or start == end:
             return split_declarations(text)
-        places = [
-            (start + first, start + end) for first, end in split_declarations(text[start:end])
-        ]
-        lengths = [len(unit.source.text) for unit in old]
+        places = [(start + first, start + end) for first, end in split_declarations(text[start:end])]
+        lengths = [len(fragment.source.text) for fragment in old]
         ends = list(accumulate(lengths[:before]))
         head = list(zip([0, *ends], ends, strict=False))
         ends = list(accumulate(lengths[last:], initial=end))
         return [*head, *places, *pairwise(ends)]
 
     def join(self) -> None:
-        """Make the tree of the file of those of its units."""
+        """Join the trees of the fragments into that of the file."""
         if self.interface is not None:
-            self.file.parsed = self.units[0].parsed
+            self.file.parsed = self.fragments[0].parsed
             return
         source = self.file.source
-        self.said = Diagnostics(self._levels)
-        self.said.include(self._control)
-        self.file.parsed = join_segments(source, [unit.parsed for unit in self.units], self.said)
-        if not len(self.said) and not any(len(unit.syntax) for unit in self.units):
-            report_empty(source, self.file.model, self.said)
+        self.diagnostics = Diagnostics(self._levels)
+        self.diagnostics.include(self._control)
+        self.file.parsed = join_segments(
+            source, [fragment.parsed for fragment in self.fragments], self.diagnostics
+        )
+        if not len(self.diagnostics) and not any(
+            len(fragment.syntax) for fragment in self.fragments
+        ):
+            report_empty(source, self.file.model, self.diagnostics)
 
 
-def _same_before(units: Sequence[Unit], text: str) -> int:
-    """How many of the first units are what the text begins with."""
+def _common_prefix(fragments: Sequence[Fragment], text: str) -> int:
+    """Count the first fragments that are a prefix of the text."""
     at = 0
-    for count, unit in enumerate(units):
-        if not text.startswith(unit.source.text, at):
+    for count, fragment in enumerate(fragments):
+        if not text.startswith(fragment.source.text, at):
             return count
-        at += len(unit.source.text)
-    return len(units)
+        at += len(fragment.source.text)
+    return len(fragments)
 
 
-def _same_after(units: Sequence[Unit], text: str) -> int:
-    """How many of the last units are what the text ends with."""
+def _common_suffix(fragments: Sequence[Fragment], text: str) -> int:
+    """Count the last fragments that are a suffix of the text."""
     end = len(text)
-    for count, unit in enumerate(reversed(units)):
-        if not text.endswith(unit.source.text, 0, end):
+    for count, fragment in enumerate(reversed(fragments)):
+        if not text.endswith(fragment.source.text, 0, end):
             return count
-        end -= len(unit.source.text)
-    return len(units)
+        end -= len(fragment.source.text)
+    return len(fragments)
 
 
-class Desk(Reader):
-    """All sheets, by the real paths of their files; each file is read from disk once.
+class DocumentStore(Reader):
+    """All documents by the real path of their file; reads each file from disk once.
 
-    `wanted` are the real paths of those that were asked for since it was last emptied, `asked`
-    the paths of all, also of those that cannot be read, and of folders that were looked into.
-    What does not lie `within` some folders is not read, nor what has more than `most` bytes.
+    `in_use` are the real paths requested since it was last cleared. `requested` are all requested
+    paths, including unreadable files and searched folders. Files outside of `within` or larger
+    than `most` bytes are not read.
     """
 
     def __init__(
         self, levels: Levels, within: Container[Path] | None = None, most: int | None = None
     ) -> None:
-        self.sheets: dict[str, Sheet] = {}
-        self.wanted: set[str] = set()
-        self.asked: set[Path] = set()
+        self.documents: dict[str, Document] = {}
+        self.in_use: set[str] = set()
+        self.requested: set[Path] = set()
         self._levels = levels
         self._within = within
         self._most = most
         self._edited: dict[str, bytes] = {}
 
     def look(self, path: Path) -> None:
-        """Hear of a file or folder that was looked for."""
-        self.asked.add(path)
+        """Record a file or folder that was looked for."""
+        self.requested.add(path)
 
     def allows(self, path: Path, at: Span | None, report: Diagnostics) -> bool:
-        """Whether a file or folder may be read; one that may not is reported at `at`."""
+        """Return True if a path may be read; otherwise report it at `at`."""
         if self._within is None or path in self._within:
             return True
         report.report(
@@ -155,7 +157,7 @@ class Desk(Reader):
         return False
 
     def edit(self, path: Path, text: str | None) -> None:
-        """Take a text for the content of a file; None for what is on disk."""
+        """Override the content of a file; None restores that on disk."""
         identity = os.path.realpath(path)
         if text is None:
             self._edited.pop(identity, None)
@@ -163,31 +165,33 @@ class Desk(Reader):
             self._edited[identity] = text.encode("utf-8", "surrogatepass")
 
     def edited(self, path: Path) -> str | None:
-        """The text that was taken for the content of a file, None for one that is on disk."""
+        """Return the overriding content of a file, None if it is on disk."""
         text = self._edited.get(os.path.realpath(path))
         return text.decode("utf-8", "surrogatepass") if text is not None else None
 
-    def sheet(self, path: Path) -> Sheet | None:
-        """The sheet of a file, if there is one."""
-        return self.sheets.get(os.path.realpath(path))
+    def document(self, path: Path) -> Document | None:
+        """Return the document of a file, if loaded."""
+        return self.documents.get(os.path.realpath(path))
 
     def drop(self, path: Path) -> None:
-        """Forget a file: it is read from disk when it is wanted."""
-        self.sheets.pop(os.path.realpath(path), None)
+        """Forget a file, so that it is read from disk again."""
+        self.documents.pop(os.path.realpath(path), None)
 
-    def tidy(self) -> None:
-        """Forget the files that are not wanted."""
-        self.sheets = {key: sheet for key, sheet in self.sheets.items() if key in self.wanted}
+    def drop_unused(self) -> None:
+        """Forget the files that are not in use."""
+        self.documents = {
+            key: document for key, document in self.documents.items() if key in self.in_use
+        }
 
-    def reread(self, sheet: Sheet) -> Source | None:
-        """The text of a .swarm file as it is now; None where it must be loaded anew."""
-        path = sheet.file.source.path
-        if path is None or sheet.interface is not None:
+    def reload(self, document: Document) -> Source | None:
+        """Read a .swarm file again; None if it has to be loaded anew."""
+        path = document.file.source.path
+        if path is None or document.interface is not None:
             return None
         return self.source(path, None, Diagnostics())
 
     def source(self, path: Path, at: Span | None, report: Diagnostics) -> Source | None:
-        """The text of a file; None for one that cannot be read, which is reported at `at`."""
+        """Read a file; None if it is unreadable, which is reported at `at`."""
         content = self._edited.get(os.path.realpath(path))
         if content is None and self.allows(path, at, report):
             content = read_bytes(path, at, report, most=self._most)
@@ -210,12 +214,15 @@ class Desk(Reader):
         self, path: Path, interface: InterfacePath | None, at: Span | None, report: Diagnostics
     ) -> File | None:
         identity = os.path.realpath(path)
-        self.asked.add(path)
-        sheet = self.sheets.get(identity)
-        if sheet is None or (sheet.file.source.name, sheet.interface) != (str(path), interface):
+        self.requested.add(path)
+        document = self.documents.get(identity)
+        if document is None or (document.file.source.name, document.interface) != (
+            str(path),
+            interface,
+        ):
             source = self.source(path, at, report)
             if source is None:
                 return None
-            sheet = self.sheets[identity] = Sheet(source, self._levels, interface)
-        self.wanted.add(identity)
-        return sheet.file
+            document = self.documents[identity] = Document(source, self._levels, interface)
+        self.in_use.add(identity)
+        return document.file

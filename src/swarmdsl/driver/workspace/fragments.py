@@ -1,4 +1,4 @@
-"""The pieces of files, and what is known of each: its tree, what it uses, what was said of it."""
+"""Fragments of files, with their trees, dependencies and diagnostics."""
 
 from __future__ import annotations
 
@@ -16,26 +16,26 @@ from swarmdsl.syntax.segments import is_self_contained
 
 ReportingParser = Callable[[Source, Diagnostics], Parsed]
 Levels = Mapping[str, Level]
-# Most units use none, are used by none and run none: a set for each would take megabytes.
+# Most fragments have no dependencies: a set for each would take megabytes.
 _NONE: frozenset[Any] = frozenset()
 
 
 @dataclass(eq=False)
-class Unit:
-    """A piece of a file, mostly one declaration: what is read, linked and checked at once.
+class Fragment:
+    """Unit of parsing, linking and checking: a part of a file, mostly one declaration.
 
-    `uses` are the units whose content it was linked and checked with, `users` those that did so
-    with it. It is `hushed` if a name that means nothing in it was not reported, because it may be
-    declared in what could not be read. A unit whose content changed, or that of one that it uses,
-    is read anew: nothing that was linked is ever linked again.
+    `uses` are the fragments that it depends on, `users` those that depend on it. It is
+    `suppressed` if an unresolved name in it was not reported, because it may be declared in
+    unparsed text. A fragment is parsed again if it or one that it uses changes: a linked tree is
+    never linked again.
     """
 
     source: Source
     file: File
     parser: ReportingParser
     levels: Levels
-    uses: tuple[Unit, ...] = ()
-    users: frozenset[Unit] | set[Unit] = _NONE
+    uses: tuple[Fragment, ...] = ()
+    users: frozenset[Fragment] | set[Fragment] = _NONE
     runs: frozenset[StateMachine] = _NONE
 
     def __post_init__(self) -> None:
@@ -44,30 +44,30 @@ class Unit:
         self.forget()
 
     def read_again(self) -> None:
-        """Make the tree anew, in which nothing is linked."""
+        """Parse again, to get an unlinked tree."""
         imports = self.parsed.model.imports
         self.parsed = self.parser(self.source, Diagnostics())
-        self.parsed.model.imports = imports  # the loader has followed these
+        self.parsed.model.imports = imports  # resolved by the loader
         self.forget()
 
     def forget(self) -> None:
-        """Forget what linking and checking have found."""
+        """Discard the results of linking and checking."""
         self.outside = Diagnostics(self.levels)
         self.inside = Diagnostics(self.levels)
         self.checked = Diagnostics(self.levels)
         self.runs = _NONE
-        self.hushed = False
+        self.suppressed = False
         self.use(())
 
-    def use(self, units: Iterable[Unit]) -> None:
-        """Remember which other units this one uses now."""
-        for unit in self.uses:
-            unit.users -= {self}
-        self.uses = tuple({unit for unit in units if unit is not self})
-        for unit in self.uses:
-            if not unit.users:
-                unit.users = set()
-            unit.users |= {self}
+    def use(self, fragments: Iterable[Fragment]) -> None:
+        """Set the fragments that this one uses."""
+        for fragment in self.uses:
+            fragment.users -= {self}
+        self.uses = tuple({fragment for fragment in fragments if fragment is not self})
+        for fragment in self.uses:
+            if not fragment.users:
+                fragment.users = set()
+            fragment.users |= {self}
 
     def owners(self) -> Iterator[Declaration | Optimization]:
         """The declarations and optimizations in it."""
@@ -82,28 +82,28 @@ class Unit:
 
     @cached_property
     def closed(self) -> bool:
-        """Whether no bracket or comment in it goes on in others."""
+        """True if all brackets and comments are closed in it."""
         return is_self_contained(self.source.text)
 
     @property
-    def has_head(self) -> bool:
-        """Whether the package or an import is in it."""
+    def has_package_or_imports(self) -> bool:
+        """True if it has the package declaration or an import."""
         return self.parsed.model.package is not None or bool(self.parsed.model.imports)
 
     def found(self) -> Iterator[Diagnostic]:
-        """What linking and checking have found."""
+        """Diagnostics of linking and checking."""
         for report in (self.outside, self.inside, self.checked):
             yield from report
 
     @property
     def noted(self) -> bool:
-        """Whether anything was reported, or a name was not."""
-        return self.hushed or len(self.syntax) > 0 or any(self.found())
+        """True if anything was reported or suppressed."""
+        return self.suppressed or len(self.syntax) > 0 or any(self.found())
 
 
-def with_users(units: Iterable[Unit]) -> set[Unit]:
-    """The units, and all that use one of them, directly or not."""
-    work = list(units)
+def with_users(fragments: Iterable[Fragment]) -> set[Fragment]:
+    """Return the fragments and all that use them, transitively."""
+    work = list(fragments)
     found = set(work)
     while work:
         for user in work.pop().users:

@@ -1,4 +1,4 @@
-"""What an edit changes, and which units it has an effect on."""
+"""Find the fragments that an edit invalidates."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from collections.abc import Collection, Iterable, Iterator
 from swarmdsl.analysis.resolve.type_names import interface_name
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source
-from swarmdsl.driver.workspace.documents import Sheet
-from swarmdsl.driver.workspace.fragments import Unit, with_users
+from swarmdsl.driver.workspace.documents import Document
+from swarmdsl.driver.workspace.fragments import Fragment, with_users
 from swarmdsl.project.loader import File, Project
 from swarmdsl.project.rosidl import standard
 from swarmdsl.syntax.action_messages import generated_names
@@ -19,112 +19,113 @@ from swarmdsl.syntax.ast import ActionType, Interface
 
 @dataclass
 class Change:
-    """What was edited.
+    """Effects of an edit.
 
-    `gone` and `new` are units; `words` the names that may mean something else now, or
-    something for the first time, or nothing; `stale` the units in which any name may, and
-    `everything` says that it is so in all. `lost` says that other names may be declared in what
-    could not be read.
+    `removed` and `new` are fragments. `names` are those that may resolve differently now. `stale`
+    are the fragments in which any name may; `everything` stands for all fragments.
+    `unparsed_changed` is set if the names in unparsed text may have changed.
     """
 
-    gone: list[Unit] = field(default_factory=list)
-    new: list[Unit] = field(default_factory=list)
-    words: set[str] = field(default_factory=set)
-    stale: set[Unit] = field(default_factory=set)
+    removed: list[Fragment] = field(default_factory=list)
+    new: list[Fragment] = field(default_factory=list)
+    names: set[str] = field(default_factory=set)
+    stale: set[Fragment] = field(default_factory=set)
     everything: bool = False
-    lost: bool = False
+    unparsed_changed: bool = False
 
     @property
-    def heads(self) -> bool:
-        """Whether packages or imports changed."""
+    def imports_changed(self) -> bool:
+        """True if packages or imports changed."""
         return bool(self.stale or self.everything)
 
     @property
-    def shape(self) -> bool:
-        """Whether names or imports changed, and not only what is inside of declarations."""
-        return bool(self.words or self.stale or self.everything or self.lost)
+    def declarations_changed(self) -> bool:
+        """True if names or imports changed, not only the bodies of declarations."""
+        return bool(self.names or self.stale or self.everything or self.unparsed_changed)
 
-    def replace(self, sheet: Sheet, source: Source) -> None:
-        """Give a file another text."""
-        file = sheet.file
+    def replace(self, document: Document, source: Source) -> None:
+        """Replace the content of a document."""
+        file = document.file
         package, lost = file.package, file.parsed.skipped_names
-        gone, new = sheet.replace(source)
-        self.gone += gone
+        removed, new = document.replace(source)
+        self.removed += removed
         self.new += new
-        self.lost |= lost != file.parsed.skipped_names
-        names, others = Counter(_names(gone)), Counter(_names(new))
-        self.words |= {name for _, name in (names - others) + (others - names)}
+        self.unparsed_changed |= lost != file.parsed.skipped_names
+        names, others = Counter(_names(removed)), Counter(_names(new))
+        self.names |= {name for _, name in (names - others) + (others - names)}
         if package != file.package:
-            self.words |= {name for _, name in _names([*gone, *sheet.units])}
-        if any(unit.has_head for unit in (*gone, *new)):
-            self.stale |= set(sheet.units)
+            self.names |= {name for _, name in _names([*removed, *document.fragments])}
+        if any(fragment.has_package_or_imports for fragment in (*removed, *new)):
+            self.stale |= set(document.fragments)
 
-    def come(self, sheet: Sheet) -> None:
-        """Take in a file that was not there."""
-        self.new += sheet.units
-        self._all_words(sheet)
+    def add(self, document: Document) -> None:
+        """Add a document."""
+        self.new += document.fragments
+        self._all_names(document)
 
-    def go(self, sheet: Sheet) -> None:
-        """Give up a file."""
-        self.gone += sheet.units
-        self._all_words(sheet)
+    def remove(self, document: Document) -> None:
+        """Remove a document."""
+        self.removed += document.fragments
+        self._all_names(document)
 
-    def _all_words(self, sheet: Sheet) -> None:
-        self.words |= {name for _, name in _names(sheet.units)}
-        self.lost = True
-        self.everything |= sheet.interface is not None
+    def _all_names(self, document: Document) -> None:
+        self.names |= {name for _, name in _names(document.fragments)}
+        self.unparsed_changed = True
+        self.everything |= document.interface is not None
 
 
-def affected(change: Change, units: Collection[Unit], noted: Iterable[Unit]) -> set[Unit]:
-    """Those of the units that must be linked and checked again.
+def affected(
+    change: Change, fragments: Collection[Fragment], noted: Iterable[Fragment]
+) -> set[Fragment]:
+    """Return the fragments to link and check again.
 
-    `noted` are those of which something was reported, or might have been.
+    `noted` are the fragments with reported or suppressed diagnostics.
     """
-    if change.everything or _is_standard([*change.gone, *change.new]):
-        return set(units)
-    found = {*change.gone, *change.new, *change.stale}
-    if change.shape:
-        # What was said of a name that means nothing depends on all names there are.
+    if change.everything or _has_standard_interface([*change.removed, *change.new]):
+        return set(fragments)
+    found = {*change.removed, *change.new, *change.stale}
+    if change.declarations_changed:
+        # Diagnostics of unresolved names depend on all names.
         found.update(noted)
-    if change.words:
-        found.update(_mentioning(change.words, units))
-    return with_users(found).intersection(units)
+    if change.names:
+        found.update(_containing(change.names, fragments))
+    return with_users(found).intersection(fragments)
 
 
-def _mentioning(words: Collection[str], units: Iterable[Unit]) -> Iterator[Unit]:
-    """The units in which one of the words stands."""
-    pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, words))})\b")
-    for unit in units:
-        text = unit.source.text
-        if any(word in text for word in words) and pattern.search(text):
-            yield unit
+def _containing(names: Collection[str], fragments: Iterable[Fragment]) -> Iterator[Fragment]:
+    """Yield the fragments that contain one of the names."""
+    pattern = re.compile(rf"\b(?:{'|'.join(map(re.escape, names))})\b")
+    for fragment in fragments:
+        text = fragment.source.text
+        if any(name in text for name in names) and pattern.search(text):
+            yield fragment
 
 
-def _names(units: Iterable[Unit]) -> Iterable[tuple[type, str]]:
-    """The kinds and names of declarations; those of ROS interfaces without the package.
+def _names(fragments: Iterable[Fragment]) -> Iterable[tuple[type, str]]:
+    """Yield kinds and names of declarations; without package for ROS interfaces.
 
-    With an action come the messages that ROS makes of it.
+    An action also declares the messages that ROS generates from it.
     """
-    for unit in units:
-        for declaration in unit.parsed.model.declarations:
+    for fragment in fragments:
+        for declaration in fragment.parsed.model.declarations:
             name = declaration.name.rpartition("/")[2]
             yield type(declaration), name
             if isinstance(declaration, ActionType):
                 yield from ((ActionType, made) for made in generated_names(name))
 
 
-def _is_standard(units: Iterable[Unit]) -> bool:
-    """Whether an interface is one that those of ROS are made of: nobody needs to name it."""
+def _has_standard_interface(fragments: Iterable[Fragment]) -> bool:
+    """Return True for standard ROS interfaces, which are used without being named."""
     return any(
-        interface_name(unit.file, declaration.name).package in standard.packages()
-        for unit in units
-        for declaration in unit.parsed.model.declarations
+        interface_name(fragment.file, declaration.name).package in standard.packages()
+        for fragment in fragments
+        for declaration in fragment.parsed.model.declarations
         if isinstance(declaration, Interface)
     )
 
 
-def declared_twice(project: Project) -> set[str]:
-    """The names of interfaces of which there are several: that in the first file counts."""
+def ambiguous_interfaces(project: Project) -> set[str]:
+    """Return the names of interfaces with several declarations; the first file wins."""
     count = Counter(
         interface_name(file, declaration.name)
         for file, declaration in project.declarations()
@@ -134,7 +135,7 @@ def declared_twice(project: Project) -> set[str]:
 
 
 def packages(project: Project) -> set[str]:
-    """The packages of all interfaces."""
+    """Return the packages of all interfaces."""
     return {
         interface_name(file, declaration.name).package
         for file, declaration in project.declarations()
@@ -142,8 +143,8 @@ def packages(project: Project) -> set[str]:
     }
 
 
-def sight(file: File) -> object:
-    """What decides on what a file sees, beside what it declares itself."""
+def visible_names(file: File) -> object:
+    """Return a key of the names visible in a file, apart from its own declarations."""
     imported = {statement for statement, _ in file.imports}
     return (
         file.library,

@@ -1,4 +1,4 @@
-"""The names in a model, each with the declaration that it means."""
+"""Find the references to declarations."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from swarmdsl.syntax.ast import (
 
 @dataclass(frozen=True)
 class Occurrence:
-    """A name at a place in a file, and what it means; `declares` where that is declared."""
+    """A name in a file and its declaration; `declares` at the declaration itself."""
 
     span: Span
     node: Node
@@ -42,13 +42,13 @@ class Occurrence:
 
 
 def owners(file: File) -> Iterator[TopLevel]:
-    """All that is declared in a file."""
+    """Yield the top-level elements of a file."""
     yield from file.model.declarations
     yield from file.model.optimizations
 
 
 def owner_at(file: File, offset: int) -> TopLevel | None:
-    """What is declared at an offset of a file."""
+    """Return the top-level element at an offset."""
     for owner in owners(file):
         span = owner.span.absolute
         if span.start <= offset <= span.end:
@@ -57,7 +57,7 @@ def owner_at(file: File, offset: int) -> TopLevel | None:
 
 
 def occurrence_at(workspace: Workspace, file: File, offset: int) -> Occurrence | None:
-    """The name that an offset is in, or directly behind."""
+    """Return the name at an offset or ending there."""
     owner = owner_at(file, offset)
     found = _imported(file)
     if owner is not None:
@@ -67,7 +67,7 @@ def occurrence_at(workspace: Workspace, file: File, offset: int) -> Occurrence |
 
 
 def occurrences_of(node: Node, workspace: Workspace) -> Iterator[Occurrence]:
-    """All names in a model that mean the same, in the order of its files."""
+    """Yield all references to a declaration, in the order of the files."""
     scopes = Scopes(workspace.project)
     name = getattr(node, "name", "")
     for file in workspace.project.files:
@@ -80,7 +80,7 @@ def occurrences_of(node: Node, workspace: Workspace) -> Iterator[Occurrence]:
 
 
 def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
-    """The names in a declaration that mean something; those of fields are left out."""
+    """Yield the resolved names in a declaration, except for fields."""
     for kind, found in by_class(owner).items():
         if kind in KINDS:
             for node in found:
@@ -88,32 +88,34 @@ def occurrences(owner: TopLevel, scope: FileScope) -> Iterator[Occurrence]:
     around: dict[Node, Node] = {}
     for _, ref in references(owner):
         if ref.target is not None:
-            yield _last(ref.span, ref.name, ref.target)
+            yield _last_segment(ref.span, ref.name, ref.target)
             if "." in ref.name and isinstance(owner, StateMachine):
-                around = around or _around(owner)
-                yield from _path(ref.span, ref.name, ref.target, around)
+                around = around or _parent_states(owner)
+                yield from _parent_segments(ref.span, ref.name, ref.target, around)
     for use in nodes_of(owner, NameUse):
         if use.target is not None:
-            yield _last(use.span, use.name, use.target)
+            yield _last_segment(use.span, use.name, use.target)
     for type_ in nodes_of(owner, TypeRef):
         found = scope.find(type_.name)
         if len(found) == 1:
             source, start, _ = type_.span
-            yield _last(Span(source, start, start + len(type_.name)), type_.name, found[0][1])
+            yield _last_segment(
+                Span(source, start, start + len(type_.name)), type_.name, found[0][1]
+            )
     yield from _values(owner)
 
 
 def _imported(file: File) -> Iterator[Occurrence]:
-    """What a file imports by its name."""
+    """Yield the declarations that a file imports by name."""
     for statement, other in file.imports:
         name = imported_name(statement)
         for node in other.model.declarations if name is not None else ():
             if name is not None and node.name == name:
-                yield _last(place_of(statement), name, node)
+                yield _last_segment(place_of(statement), name, node)
 
 
 def _values(owner: TopLevel) -> Iterator[Occurrence]:
-    """Names beside values: of an enum, of the params of parts and of reused machines."""
+    """Yield names of enum values, and of params of parts and reused machines."""
     for use in nodes_of(owner, FieldUse):
         enum = use.base.target if isinstance(use.base, NameUse) else None
         if isinstance(enum, EnumType):
@@ -134,27 +136,29 @@ def _values(owner: TopLevel) -> Iterator[Occurrence]:
                     yield Occurrence(value_.name.span.absolute, params[value_.name])
 
 
-def _last(span: Span, name: str, node: Node) -> Occurrence:
-    """The last word of a name, which may begin with a package."""
+def _last_segment(span: Span, name: str, node: Node) -> Occurrence:
+    """Return the last segment of a name, which may be qualified."""
     source, _, end = span.absolute
     return Occurrence(Span(source, end - len(name.rpartition(".")[2]), end), node)
 
 
-def _path(span: Span, name: str, node: Node, around: dict[Node, Node]) -> Iterator[Occurrence]:
-    """The words before the last one of a path to a state (`Search.Sweep`): each means one."""
+def _parent_segments(
+    span: Span, name: str, node: Node, around: dict[Node, Node]
+) -> Iterator[Occurrence]:
+    """Yield the segments of a state path (`Search.Sweep`) except for the last."""
     source, _, end = span.absolute
-    words = name.split(".")
-    end -= len(words.pop())
-    while words and node in around:
+    names = name.split(".")
+    end -= len(names.pop())
+    while names and node in around:
         node = around[node]
         end -= 1
-        word = words.pop()
+        word = names.pop()
         yield Occurrence(Span(source, end - len(word), end), node)
         end -= len(word)
 
 
-def _around(machine: StateMachine) -> dict[Node, Node]:
-    """The state around each state; regions are no part of a path."""
+def _parent_states(machine: StateMachine) -> dict[Node, Node]:
+    """Map each state to its parent state; regions are no part of a path."""
     found: dict[Node, Node] = {}
     for outer in walk(machine):
         for inner in children(outer):

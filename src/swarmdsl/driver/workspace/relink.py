@@ -1,4 +1,4 @@
-"""Links some units anew, and learns which others they use."""
+"""Link fragments again and record their dependencies."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from swarmdsl.analysis.resolve.linker import Linker, machines_of
 from swarmdsl.analysis.resolve.scopes import FileScope, Scopes
 from swarmdsl.base.source import Source
-from swarmdsl.driver.workspace.fragments import Unit
+from swarmdsl.driver.workspace.fragments import Fragment
 from swarmdsl.project.loader import File, Project
 from swarmdsl.syntax.action_messages import generated_from
 from swarmdsl.syntax.ast import (
@@ -24,101 +24,101 @@ from swarmdsl.syntax.ast import (
 )
 from swarmdsl.syntax.types import Array, Named
 
-Units = Mapping[Source, Unit]
+Fragments = Mapping[Source, Fragment]
 _NONE: frozenset[StateMachine] = frozenset()
 
 
-class Seen(set[Source]):
-    """Where stands what was looked up, and whether a name counted as possibly declared."""
+class LookupRecord(set[Source]):
+    """Sources of the looked-up declarations; `suppressed` if one may be unparsed."""
 
-    hushed = False
+    suppressed = False
 
 
-def link_outside(project: Project, units: Units, affected: set[Unit]) -> Linking:
-    """Resolve what the affected units name of others; none of them is linked yet.
+def link_outside(project: Project, fragments: Fragments, affected: set[Fragment]) -> Linking:
+    """Resolve references of unlinked fragments to other declarations.
 
-    Afterwards `driven` are machines in other units that a member runs now and did not before:
-    what these may name is not the same.
+    Then, `newly_run` are machines of other fragments that a member runs now and did not before:
+    the names visible in them changed.
     """
-    linking = Linking(project, units)
-    for unit in affected:
-        for owner in unit.owners():
-            linking.linker.link_outside(unit.file, owner, unit.outside)
-        linking.take_seen(unit)
-    for unit in affected:
-        runs = [machine for runner in unit.runners() for machine in machines_of(runner)]
-        unit.runs = frozenset(runs) if runs else _NONE
-        driven = {units[machine.span.source] for machine in unit.runs}
-        linking.driven |= driven - affected
+    linking = Linking(project, fragments)
+    for fragment in affected:
+        for owner in fragment.owners():
+            linking.linker.link_outside(fragment.file, owner, fragment.outside)
+        linking.record_lookups(fragment)
+    for fragment in affected:
+        runs = [machine for runner in fragment.runners() for machine in machines_of(runner)]
+        fragment.runs = frozenset(runs) if runs else _NONE
+        newly_run = {fragments[machine.span.source] for machine in fragment.runs}
+        linking.newly_run |= newly_run - affected
     return linking
 
 
 class Linking:
-    """The second half, and what was seen in the first."""
+    """Second phase of linking, with the lookups recorded in the first."""
 
-    def __init__(self, project: Project, units: Units) -> None:
-        self._seen = Seen()
-        self._scopes = _WatchedScopes(project, self._seen)
-        self._units = units
-        self._seen_by: dict[Unit, set[Source]] = {}
+    def __init__(self, project: Project, fragments: Fragments) -> None:
+        self._lookups = LookupRecord()
+        self._scopes = _RecordingScopes(project, self._lookups)
+        self._fragments = fragments
+        self._lookups_of: dict[Fragment, set[Source]] = {}
         self.linker = Linker(project, self._scopes)
-        self.driven: set[Unit] = set()
+        self.newly_run: set[Fragment] = set()
 
-    def take_seen(self, unit: Unit) -> None:
-        """Take what was seen since for what a unit has seen."""
-        if self._seen:
-            self._seen_by.setdefault(unit, set()).update(self._seen)
-        unit.hushed |= self._seen.hushed
-        self._seen.clear()
-        self._seen.hushed = False
+    def record_lookups(self, fragment: Fragment) -> None:
+        """Assign the recorded lookups to a fragment."""
+        if self._lookups:
+            self._lookups_of.setdefault(fragment, set()).update(self._lookups)
+        fragment.suppressed |= self._lookups.suppressed
+        self._lookups.clear()
+        self._lookups.suppressed = False
 
-    def link_inside(self, affected: set[Unit]) -> None:
-        """Resolve all other names in the units."""
-        runners = _runners(self._units)
-        machines = {machine for unit in affected for machine in _machines(unit)}
+    def link_inside(self, affected: set[Fragment]) -> None:
+        """Resolve all other names in the fragments."""
+        runners = _runners(self._fragments)
+        machines = {machine for fragment in affected for machine in _machines(fragment)}
         self.linker.gather(
             runner
-            for unit in self._units.values()
-            if not machines.isdisjoint(unit.runs)
-            for runner in unit.runners()
+            for fragment in self._fragments.values()
+            if not machines.isdisjoint(fragment.runs)
+            for runner in fragment.runners()
         )
-        for unit in affected:
-            for owner in unit.owners():
-                self.linker.link_inside(unit.file, owner, unit.inside)
-            for machine in _machines(unit):
-                self._seen.update(runner.source for runner in runners.get(machine, ()))
-            self.take_seen(unit)
+        for fragment in affected:
+            for owner in fragment.owners():
+                self.linker.link_inside(fragment.file, owner, fragment.inside)
+            for machine in _machines(fragment):
+                self._lookups.update(runner.source for runner in runners.get(machine, ()))
+            self.record_lookups(fragment)
 
-    def learn_uses(self, affected: set[Unit], interfaces: Mapping[Named, Interface]) -> None:
-        """Note what the units use."""
-        for unit in affected:
-            for owner in unit.owners():
-                for node in _targets(owner, unit.file, self._scopes, interfaces):
-                    self._seen.add(node.span.source)
-            self.take_seen(unit)
-            used = (self._units.get(source) for source in self._seen_by.pop(unit, ()))
-            unit.use(each for each in used if each is not None)
+    def record_uses(self, affected: set[Fragment], interfaces: Mapping[Named, Interface]) -> None:
+        """Record the dependencies of the fragments."""
+        for fragment in affected:
+            for owner in fragment.owners():
+                for node in _targets(owner, fragment.file, self._scopes, interfaces):
+                    self._lookups.add(node.span.source)
+            self.record_lookups(fragment)
+            used = (self._fragments.get(source) for source in self._lookups_of.pop(fragment, ()))
+            fragment.use(each for each in used if each is not None)
 
 
-def _machines(unit: Unit) -> Iterator[StateMachine]:
-    for declaration in unit.parsed.model.declarations:
+def _machines(fragment: Fragment) -> Iterator[StateMachine]:
+    for declaration in fragment.parsed.model.declarations:
         if isinstance(declaration, StateMachine):
             yield declaration
 
 
-def _runners(units: Units) -> Mapping[StateMachine, set[Unit]]:
-    """The units with members that run a machine."""
-    found: dict[StateMachine, set[Unit]] = {}
-    for unit in units.values():
-        for machine in unit.runs:
-            found.setdefault(machine, set()).add(unit)
+def _runners(fragments: Fragments) -> Mapping[StateMachine, set[Fragment]]:
+    """Map machines to the fragments with members that run them."""
+    found: dict[StateMachine, set[Fragment]] = {}
+    for fragment in fragments.values():
+        for machine in fragment.runs:
+            found.setdefault(machine, set()).add(fragment)
     return found
 
 
 def _targets(
     owner: TopLevel, file: File, scopes: Scopes, interfaces: Mapping[Named, Interface]
 ) -> Iterator[Node]:
-    """All that the names in a declaration lead to."""
+    """Yield all nodes that names in a declaration resolve to."""
     for _, ref in references(owner):
         if ref.target is not None:
             yield ref.target
@@ -129,7 +129,7 @@ def _targets(
         if activity.owner is not None:
             yield activity.owner
     for type_ in nodes_of(owner, TypeRef):
-        # An alias on the way leaves no trace in the type.
+        # The resolved type does not show aliases.
         yield from (node for _, node in scopes[file].find(type_.name))
         element = type_.type.element if isinstance(type_.type, Array) else type_.type
         if isinstance(element, Named):
@@ -137,43 +137,43 @@ def _targets(
             yield from (interfaces[name] for name in behind if name in interfaces)
 
 
-class _WatchedScope(FileScope):
-    """A scope that remembers where what was looked up in it stands."""
+class _RecordingScope(FileScope):
+    """Scope that records lookups."""
 
-    def __init__(self, file: File, scopes: Scopes, seen: Seen) -> None:
+    def __init__(self, file: File, scopes: Scopes, seen: LookupRecord) -> None:
         super().__init__(file, scopes)
-        self._seen = seen
-        self.skipped_names = _Lost(self.skipped_names, seen)
+        self._lookups = seen
+        self.skipped_names = _UnparsedNames(self.skipped_names, seen)
 
     def find(self, name: str) -> list[tuple[str, Declaration]]:
-        """All declarations `name` could mean, the nearest only, each with its package."""
+        """Return the nearest declarations of `name`, each with its package."""
         found = super().find(name)
-        self._seen.update(node.span.source for _, node in found)
+        self._lookups.update(node.span.source for _, node in found)
         return found
 
 
-class _Lost(frozenset[str]):
-    """Names that may be declared in what could not be read; remembers that one was asked for."""
+class _UnparsedNames(frozenset[str]):
+    """Names that may be declared in unparsed text; records positive lookups."""
 
-    def __new__(cls, names: frozenset[str], seen: Seen) -> _Lost:
-        """Make them of names."""
+    def __new__(cls, names: frozenset[str], seen: LookupRecord) -> _UnparsedNames:
+        """Create it from names."""
         lost = super().__new__(cls, names)
-        lost._seen = seen
+        lost._lookups = seen
         return lost
 
-    _seen: Seen
+    _lookups: LookupRecord
 
     def __contains__(self, name: object) -> bool:
         found = super().__contains__(name)
-        self._seen.hushed |= found
+        self._lookups.suppressed |= found
         return found
 
 
-class _WatchedScopes(Scopes):
-    def __init__(self, project: Project, seen: Seen) -> None:
+class _RecordingScopes(Scopes):
+    def __init__(self, project: Project, seen: LookupRecord) -> None:
         super().__init__(project)
-        self._seen = seen
+        self._lookups = seen
 
     def __missing__(self, file: File) -> FileScope:
-        self[file] = scope = _WatchedScope(file, self, self._seen)
+        self[file] = scope = _RecordingScope(file, self, self._lookups)
         return scope

@@ -1,6 +1,6 @@
-"""New names for what a model declares, wherever it is named.
+"""Rename declarations and all references to them.
 
-A new name is tried before it is given: one that makes a mistake of anything is refused.
+A new name is tried first, and refused if it causes an error.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from swarmdsl.syntax.ast import Field, Node, Parameter
 from swarmdsl.syntax.parser.keywords import RESERVED
 
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-# Whatever is called so at another place is found by its type only.
+# References to these are found by type only.
 _NOT_FOLLOWED = (Field, Parameter)
 
 
 class RefusedError(Exception):
-    """A name that cannot be given, or that something has to keep; says why."""
+    """A rename that is not possible; the message is the reason."""
 
 
 def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
-    """The name at an offset; raises RefusedError where none is, or one that has to stay."""
+    """Return the name at an offset; raise RefusedError if it cannot be renamed."""
     found = occurrence_at(workspace, file, offset)
     if found is None or type(found.node) not in KINDS:
         raise RefusedError("there is no name of something that the model declares")
@@ -41,7 +41,7 @@ def renamable(workspace: Workspace, file: File, offset: int) -> Occurrence:
 
 
 def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Span]:
-    """Where the name at an offset stands, to be replaced by `name`; raises RefusedError."""
+    """Return the spans to replace by `name`; raise RefusedError if not possible."""
     found = renamable(workspace, file, offset)
     if not _NAME.fullmatch(name):
         raise RefusedError(f"`{name}` is no name: it has letters, digits and `_`")
@@ -50,7 +50,7 @@ def rename(workspace: Workspace, file: File, offset: int, name: str) -> list[Spa
     spans = list(dict.fromkeys(each.span for each in occurrences_of(found.node, workspace)))
     if any(span.text != found.span.text for span in spans):
         raise RefusedError(f"`{found.span.text}` has another name where it is used")
-    objection = _objection(workspace, found, spans, name) if name != found.span.text else None
+    objection = _conflict(workspace, found, spans, name) if name != found.span.text else None
     if objection is not None:
         raise RefusedError(objection)
     return spans
@@ -61,11 +61,11 @@ def _home(workspace: Workspace, node: Node) -> File | None:
     return workspace.file(path) if path is not None else None
 
 
-def _objection(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> str | None:
-    """The mistake that a name would make; None where it means the same everywhere."""
+def _conflict(workspace: Workspace, found: Occurrence, spans: list[Span], name: str) -> str | None:
+    """Return the error that a name would cause; None if all references stay the same."""
     other = f"`{name}` would be taken for something else, or something for it"
     before = _errors(workspace)
-    with workspace.supposing(replaced(spans, name)):
+    with workspace.overriding(replaced(spans, name)):
         new = _errors(workspace) - before
         if new:
             known = {each.code: each.message for each in reversed(list(workspace.report))}
@@ -87,7 +87,7 @@ def _errors(workspace: Workspace) -> Counter[str]:
 
 
 def replaced(spans: list[Span], name: str) -> dict[Path, str]:
-    """The texts of files with a name at some places of them."""
+    """Return the contents of files with spans replaced by `name`."""
     texts = {span.source.path: span.source.text for span in spans if span.source.path is not None}
     return {path: _replaced(text, spans, path, name) for path, text in texts.items()}
 

@@ -59,7 +59,7 @@ def completions(workspace: Workspace, file: File, offset: int) -> list[Completio
     """Return the completions at an offset; they replace the word around it."""
     text = file.source.text
     start, end = word_at(text, offset)
-    _, first, last = workspace.piece(file, start)
+    _, first, last = workspace.fragment_span(file, start)
     last = max(last, end)
     head, tail = text[first:start], text[end:last]
     if _in_comment_or_string(head) or _NUMBER.search(head):

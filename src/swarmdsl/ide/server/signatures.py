@@ -31,7 +31,7 @@ def signature(workspace: Workspace, file: File, offset: int) -> Signature | None
     """Return the call around an offset, or None outside of a call."""
     text = file.source.text
     start, end = word_at(text, offset)
-    _, first, _ = workspace.piece(file, start)
+    _, first, _ = workspace.fragment_span(file, start)
     head = text[first:start]
     if not closing_brackets(head).startswith(")"):
         return None

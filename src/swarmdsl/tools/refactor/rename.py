@@ -111,7 +111,7 @@ def _namesakes(workspace: Workspace, found: NamedElement) -> list[NamedElement]:
 def _check_style(workspace: Workspace, spans: list[Span], new: str, report: Diagnostics) -> None:
     """Report a new name that violates the naming style of its kind."""
     known = {each.message for each in workspace.report}
-    with workspace.supposing(replaced(spans, new)):
+    with workspace.overriding(replaced(spans, new)):
         found = [each for each in workspace.report if each.name == "naming-style"]
     report.include(each for each in found if each.message not in known)
 
@@ -142,7 +142,7 @@ def _test_changes(
     systems: tuple[System, System] | None = None
     if not workspace.report.has_errors:
         before = lower(workspace.project)
-        with workspace.supposing(texts):
+        with workspace.overriding(texts):
             systems = before, lower(workspace.project)
     files = [file.source.path for file in workspace.project.files if file.source.path is not None]
     changes: dict[Path, list[Change]] = {}
