@@ -57,7 +57,7 @@ def test_an_edited_file_is_told_until_the_edit_is_given_up(swarmc, good, tmp_pat
     assert edited.read_text() == "mine"
     ran = swarmc(*arguments, "--force")
     assert (ran.code, ran.out) == (0, "")
-    assert f"note: `{edited}` was not as swarmc had written it, and is overwritten" in ran.err
+    assert f"note: `{edited}` was edited, and is overwritten" in ran.err
     assert edited.read_text() == made
 
 

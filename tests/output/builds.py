@@ -7,7 +7,7 @@ from pathlib import Path
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.user_code_marks import fits
-from swarmdsl.output import How, Written, write
+from swarmdsl.output import WriteOptions, Written, write
 
 Output = dict[str, list[OutputFile]]
 
@@ -24,7 +24,7 @@ def text(**changes: str) -> str:
 
 def build(out: Path, *files: OutputFile, **how: object) -> tuple[Written | None, list[Diagnostic]]:
     report = Diagnostics()
-    written = write({"t": files}, out, report, How(**how))  # type: ignore[arg-type]
+    written = write({"t": files}, out, report, WriteOptions(**how))  # type: ignore[arg-type]
     return written, list(report)
 
 
@@ -59,7 +59,7 @@ def skeleton(name: str, *facts: str, body: str = "pass") -> list[OutputFile]:
 def write_ok(output: Output, out: Path, **options: object) -> Written:
     """Build without a complaint."""
     report = Diagnostics()
-    written = write(output, out, report, How(**options))  # type: ignore[arg-type]
+    written = write(output, out, report, WriteOptions(**options))  # type: ignore[arg-type]
     assert written is not None, [found.message for found in report]
     assert len(report) == 0
     return written
@@ -69,7 +69,7 @@ def errors(output: Output, out: Path, **options: object) -> list[str]:
     """The names of what was reported; nothing may have been written."""
     before = everything(out)
     report = Diagnostics()
-    assert write(output, out, report, How(**options)) is None  # type: ignore[arg-type]
+    assert write(output, out, report, WriteOptions(**options)) is None  # type: ignore[arg-type]
     assert everything(out) == before
     return [found.name for found in report]
 

@@ -23,7 +23,7 @@ def test_what_changes_elsewhere_is_merged(tmp_path: Path) -> None:
     assert found.name == "edited-output"
     assert found.primary is not None
     assert (found.primary.span.line, found.primary.span.text) == (2, "mine")
-    assert found.notes == ("one change of what is generated merged into it",)
+    assert found.notes == ("one change of the generator merged into it",)
 
 
 def test_after_a_merge_the_same_model_changes_nothing(tmp_path: Path) -> None:
@@ -102,7 +102,7 @@ def test_an_edited_text_beside_a_file_is_not_overwritten_which_is_told(conflict:
 
     _, (notes, _) = build(conflict, plain(text(l2="newer\n")))
     assert notes.message == f"generated file `{beside}` has been edited"
-    assert notes.notes == ("what is generated now is not in it",)
+    assert notes.notes == ("it does not have the latest generated content",)
     assert tree(conflict)["t/f.swarmc-new"] == "my notes\n"
     (conflict / "t/f").write_text(text(l2="newer\n"), encoding="utf-8")
     build(conflict, plain(text(l2="newer\n")))
@@ -132,7 +132,10 @@ def test_without_the_texts_there_is_no_merge(tmp_path: Path) -> None:
     (tmp_path / texts.NAME).unlink()
     _, (found,) = build(tmp_path, plain(text(l8="new\n")))
 
-    assert (found.name, found.notes) == ("merge-conflict", ("what it was made from is not known",))
+    assert (found.name, found.notes) == (
+        "merge-conflict",
+        ("the version that it was generated from is unknown",),
+    )
     assert tree(tmp_path)["t/f"] == text(l2="mine\n")
     assert tree(tmp_path)["t/f.swarmc-new"] == text(l8="new\n")
 

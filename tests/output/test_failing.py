@@ -8,10 +8,10 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
-from swarmdsl.output import How, texts, write
+from swarmdsl.output import WriteOptions, texts, write
 from swarmdsl.output.lock import locked
 from swarmdsl.output.manifest import NAME
-from swarmdsl.output.prepare import opened
+from swarmdsl.output.prepare import open_plan
 
 from .builds import everything, files, write_ok
 
@@ -86,7 +86,7 @@ def test_one_build_waits_for_another(tmp_path):
 
 def test_the_first_build_is_waited_for_too(tmp_path):
     out, done = tmp_path / "new/out", []
-    with opened(out, How(), Diagnostics()) as plan:
+    with open_plan(out, WriteOptions(), Diagnostics()) as plan:
         assert plan is not None
         other = Thread(target=lambda: done.append(write_ok(files(a="2"), out)))
         other.start()

@@ -15,8 +15,8 @@ from swarmdsl import output
 from swarmdsl.base.diagnostics.collector import Diagnostic, Diagnostics
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.user_code_marks import fits
-from swarmdsl.output import How, journal, write
-from swarmdsl.output.apply import carry_out
+from swarmdsl.output import WriteOptions, journal, write
+from swarmdsl.output.apply import apply_plan
 from swarmdsl.output.clean import clean
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.plan import Plan
@@ -45,7 +45,7 @@ RENAMES = (("rise", "climb"),)
 
 def build(out: Path, files: list[OutputFile], **how: object) -> list[Diagnostic]:
     report = Diagnostics()
-    write({"t": files}, out, report, How(**how))  # type: ignore[arg-type]
+    write({"t": files}, out, report, WriteOptions(**how))  # type: ignore[arg-type]
     return list(report)
 
 
@@ -316,9 +316,9 @@ def test_what_is_saved_while_a_build_decides_stays(
         place.parent.mkdir(parents=True, exist_ok=True)
         with place.open("a", encoding="utf-8") as file:
             file.write(f"{MINE}, saved\n")
-        carry_out(plan)
+        apply_plan(plan)
 
-    monkeypatch.setattr(output, "carry_out", save_first)
+    monkeypatch.setattr(output, "apply_plan", save_first)
     found = [
         each.message for each in build(out, AFTER, renames=RENAMES) if each.name == "cannot-write"
     ]

@@ -38,7 +38,7 @@ def test_a_check_says_what_is_the_matter_with_each_file(tmp_path: Path) -> None:
         "edited": "has been edited",
         "merged": "has been edited, and is out of date",
         "gone": "is not generated any more",
-        "parked": "is not generated any more, and has lines of yours",
+        "parked": "is not generated any more, and has edits of yours",
         "missing": "is missing",
         "fresh": "is missing",
     }

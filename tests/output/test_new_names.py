@@ -62,7 +62,9 @@ def test_files_move_to_the_new_name(tmp_path: Path, before: bool) -> None:
     place = told["old-name"].primary
     assert place is not None
     assert (place.span.line, place.span.text) == (5, "rise")
-    assert told["old-name"].help == "write `climb` where the element is meant; this is told once"
+    assert (
+        told["old-name"].help == "write `climb` where the element is meant; this is reported once"
+    )
     # Of the next build nothing of this is left.
     again, found = build(tmp_path, *skeleton("climb"))
     assert again is not None

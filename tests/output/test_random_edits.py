@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 
 from swarmdsl.codegen.emit import Request
 from swarmdsl.driver import pipeline
-from swarmdsl.output import How
+from swarmdsl.output import WriteOptions
 from swarmdsl.output.changes import PARKED
 
 NAMES = ("takeoff", "land", "rise_up", "Camera")
@@ -93,7 +93,7 @@ def build(out: Path, text: str, **how: object) -> pipeline.Result:
     source = out.parent / "lab.swarm"
     source.write_text(text, encoding="utf-8")
     request = Request("skeleton", {"language": "cpp"})
-    return pipeline.build([source], [request], out, how=How(**how))  # type: ignore[arg-type]
+    return pipeline.build([source], [request], out, how=WriteOptions(**how))  # type: ignore[arg-type]
 
 
 def renames(before: Elements, now: Elements) -> tuple[tuple[str, str], ...]:

@@ -6,7 +6,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
-from swarmdsl.output import Action, How, Written, texts, write
+from swarmdsl.output import Action, WriteOptions, Written, texts, write
 from swarmdsl.output.manifest import NAME
 
 FIRST = "one\n# swarmc:begin m.a\n# swarmc:end m.a\ntwo\n# swarmc:begin m.b\n# swarmc:end m.b\n"
@@ -17,7 +17,7 @@ MOVED = "new\n# swarmc:begin m.b\n# swarmc:end m.b\n1\n# swarmc:begin m.a\n# swa
 def build(text: str | None, out: Path, **options: bool) -> tuple[Written | None, list[str]]:
     report = Diagnostics()
     files = [] if text is None else [OutputFile("f", text)]
-    written = write({"t": files}, out, report, How(**options))
+    written = write({"t": files}, out, report, WriteOptions(**options))
     return written, [found.message.replace(out.as_posix(), "OUT") for found in report]
 
 
@@ -100,7 +100,7 @@ def test_damaged_marks_are_named_and_nothing_is_lost(
     edit(out, old, new)
     before = (out / "t/f").read_bytes()
     report = Diagnostics()
-    write({"t": [OutputFile("f", FIRST)]}, out, report, How(**options))
+    write({"t": [OutputFile("f", FIRST)]}, out, report, WriteOptions(**options))
 
     (found,) = report
     assert found.name == "damaged-region"

@@ -6,7 +6,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
-from swarmdsl.output import How, texts, write
+from swarmdsl.output import WriteOptions, texts, write
 from swarmdsl.output.clean import clean
 from swarmdsl.output.manifest import NAME
 
@@ -19,8 +19,8 @@ from .builds import errors, everything, files, write_ok
         ("", "line 1 is not JSON"),
         ('{\n<<<<<<< ours\n  "files": {}\n}', "line 2 is not JSON"),
         ("[]", "it is not an object"),
-        ('{"files": 1}', "`files` in it is not paths with a text each"),
-        ('{"files": {"t/a": 7}}', "`files` in it is not paths with a text each"),
+        ('{"files": 1}', "`files` in it is not a map of paths to strings"),
+        ('{"files": {"t/a": 7}}', "`files` in it is not a map of paths to strings"),
         ("\xff", "it is not JSON"),
     ],
 )
@@ -31,7 +31,7 @@ def test_with_a_spoilt_list_nothing_is_done(tmp_path, content, reason, options):
     before = everything(tmp_path)
     for change in (write, clean_all):
         report = Diagnostics()
-        assert change(files(a="2"), tmp_path, report, How(**options)) is None
+        assert change(files(a="2"), tmp_path, report, WriteOptions(**options)) is None
         (found,) = report
         assert found.message == (
             f"cannot read `{tmp_path / NAME}`, the list of generated files: {reason}"
@@ -69,12 +69,12 @@ def test_without_list_and_texts_every_file_is_the_users(tmp_path):
 def locked_away(tmp_path, monkeypatch):
     """A file that was generated and cannot be read, by no user."""
     write_ok(files(a="1", b="1"), tmp_path)
-    place, opened = tmp_path / "t/a", open
+    place, open_plan = tmp_path / "t/a", open
 
     def open_others(path, *arguments, **named):
         if path == str(place):
             raise PermissionError(13, "Permission denied", path)
-        return opened(path, *arguments, **named)
+        return open_plan(path, *arguments, **named)
 
     monkeypatch.setattr("builtins.open", open_others)
     return place

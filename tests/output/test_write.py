@@ -7,7 +7,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.codegen.api import OutputFile
-from swarmdsl.output import Action, How, texts, write
+from swarmdsl.output import Action, WriteOptions, texts, write
 from swarmdsl.output.clean import clean
 from swarmdsl.output.manifest import NAME
 
@@ -115,7 +115,7 @@ def test_what_is_no_longer_generated_but_was_edited_is_put_aside(tmp_path):
     write_ok(files(old="1", new="1"), tmp_path)
     (tmp_path / "t/old").write_text("edited")
     report = Diagnostics()
-    written = write(files(new="1"), tmp_path, report, How(force=True))
+    written = write(files(new="1"), tmp_path, report, WriteOptions(force=True))
     assert written is not None
     assert (written.removed, written.paths(Action.PARK)) == ((), (".parked/t/old",))
     assert [found.name for found in report] == ["parked-code"]
@@ -134,7 +134,10 @@ def test_two_models_in_one_folder_are_told_when_they_take_turns(tmp_path):
     write_ok(files(a="1", both="1"), tmp_path, model="uav")
     for model, name, other in (("rover", "b", "uav"), ("uav", "a", "rover")):
         report = Diagnostics()
-        assert write(files(both="1", **{name: "1"}), tmp_path, report, How(model=model)) is not None
+        assert (
+            write(files(both="1", **{name: "1"}), tmp_path, report, WriteOptions(model=model))
+            is not None
+        )
         (found,) = report
         assert found.name == "other-model"
         assert found.message == (f"the build removes one file of model `{other}` from `{tmp_path}`")
@@ -242,7 +245,7 @@ def test_a_pipe_where_a_file_is_to_be_does_not_hang(tmp_path):
     (tmp_path / "t").mkdir()
     os.mkfifo(tmp_path / "t/a")
     report = Diagnostics()
-    assert write(files(a="1"), tmp_path, report, How(force=True)) is None
+    assert write(files(a="1"), tmp_path, report, WriteOptions(force=True)) is None
     assert [found.name for found in report] == ["cannot-write"]
 
 

@@ -14,7 +14,7 @@ from swarmdsl.cli.parameters import Option
 
 if TYPE_CHECKING:
     from swarmdsl.driver.pipeline import Result
-    from swarmdsl.output import How
+    from swarmdsl.output import WriteOptions
 
 FORCE = Option(
     "force",
@@ -104,12 +104,12 @@ class Writing:
     diff: bool
     renames: tuple[tuple[str, str], ...]
 
-    def how(self, *command: object) -> How:
+    def how(self, *command: object) -> WriteOptions:
         """Options for `output.write`; `command` are the words that a user would repeat."""
-        from swarmdsl.output import How
+        from swarmdsl.output import WriteOptions
 
         dry = self.dry_run or self.diff
-        return How(self.force, dry, self.check, self.renames, tuple(map(str, command)))
+        return WriteOptions(self.force, dry, self.check, self.renames, tuple(map(str, command)))
 
     def conclude(self, result: Result, format_: str) -> int:
         """Print the result or the plan; return the exit code."""

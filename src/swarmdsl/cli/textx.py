@@ -78,7 +78,7 @@ def _generator(target: str, description: str) -> GeneratorDesc:
     ) -> None:
         from swarmdsl.codegen.emit import Request
         from swarmdsl.driver import pipeline
-        from swarmdsl.output import How
+        from swarmdsl.output import WriteOptions
 
         if model is None:
             raise TextXError("give a .swarm file to generate from")
@@ -89,7 +89,7 @@ def _generator(target: str, description: str) -> GeneratorDesc:
         settings = _settings(path)
         options = {**settings.targets.get(target, {}), **texts}
         request = Request(target, options)
-        result = pipeline.build([path], [request], out, settings, How(force=overwrite))
+        result = pipeline.build([path], [request], out, settings, WriteOptions(force=overwrite))
         _raise_errors(result.report)
 
     return GeneratorDesc("swarm", target, description, generate)

@@ -18,7 +18,7 @@ from swarmdsl.project.loader import Project, load
 if TYPE_CHECKING:
     from swarmdsl.codegen.emit import Request
     from swarmdsl.ir import System
-    from swarmdsl.output import How, Written
+    from swarmdsl.output import WriteOptions, Written
 
 _DEFAULTS = Settings()
 
@@ -62,18 +62,18 @@ def build(
     requests: Sequence[Request],
     out: Path,
     settings: Settings = _DEFAULTS,
-    how: How | None = None,
+    options: WriteOptions | None = None,
 ) -> Result:
     """Check a model and write the output of the requested targets below `out`."""
-    return generate(check(paths, settings), requests, out, how)
+    return generate(check(paths, settings), requests, out, options)
 
 
 def generate(
-    checked: Result, requests: Sequence[Request], out: Path, how: How | None = None
+    checked: Result, requests: Sequence[Request], out: Path, options: WriteOptions | None = None
 ) -> Result:
     """Write the output of the requested targets below `out` if the model is valid."""
     from swarmdsl.codegen.emit import emit
-    from swarmdsl.output import How, write
+    from swarmdsl.output import WriteOptions, write
 
     if checked.system is None:
         return checked
@@ -83,5 +83,5 @@ def generate(
     report.include(placed(one, lambda span: span.absolute) for one in found)
     if report.has_errors:
         return checked
-    how = replace(how or How(), model=checked.system.name)
-    return replace(checked, written=write(files, out, report, how))
+    options = replace(options or WriteOptions(), model=checked.system.name)
+    return replace(checked, written=write(files, out, report, options))

@@ -1,7 +1,7 @@
-"""Does what was decided, all of it or nothing: what is interrupted, the next build completes.
+"""Apply a plan, all or nothing; the next build completes an interrupted one.
 
-The texts that are generated are known before the first of them is in its place, and what goes
-away goes when all else is there.
+All generated contents are staged before the first file is moved in place, and files are removed
+last.
 """
 
 from __future__ import annotations
@@ -18,14 +18,13 @@ from swarmdsl.output.plan import Plan
 from swarmdsl.output.warnings import report_changed_meanwhile
 
 
-def carry_out(plan: Plan) -> None:
-    """Change the files; OSError when that fails, its `filename` is the file.
+def apply_plan(plan: Plan) -> None:
+    """Change the files; raises OSError with the path in `filename`.
 
-    A file that somebody has changed since it was decided about stays so, and is reported.
-
-    One that fails when files are changed already is as good as one that is interrupted.
+    A file that was changed since the plan was made stays as it is, and is reported. A failure
+    after the first change is like an interruption.
     """
-    if not _is_anything_to_do(plan):
+    if not _has_changes(plan):
         return
     disk = plan.disk
     packed, listed = _texts(plan), manifest.to_bytes(plan.manifest)
@@ -35,7 +34,7 @@ def carry_out(plan: Plan) -> None:
         staging = until_all_is_staged.enter_context(Staging())
         places = {change.path: disk.out / change.path for change in arriving}
         steps = [_step(change, places[change.path], staging) for change in arriving]
-        to_do = Journal(tuple(steps[:-1]), steps[-1], plan.how.renames)
+        to_do = Journal(tuple(steps[:-1]), steps[-1], plan.options.renames)
         staging.make_folder(disk.out)
         until_all_is_staged.callback(disk.remove, journal.NAME)
         (disk.out / journal.NAME).write_bytes(journal.to_bytes(to_do))
@@ -51,15 +50,15 @@ def carry_out(plan: Plan) -> None:
 
 
 def resume(disk: Disk) -> Renames:
-    """Complete what an interrupted build had begun, or remove what is left of it.
+    """Complete an interrupted build, or remove what it staged.
 
-    Returns the renames that are done with it. Raises OSError as `carry_out` does.
+    Returns the renames that are completed with it. Raises OSError like `apply_plan`.
     """
     found = journal.read(disk)
     if found is None:
         disk.remove(journal.NAME)
         return ()
-    if journal.is_to_be_completed(disk, found):
+    if journal.must_be_completed(disk, found):
         journal.complete(disk, found, resumed=True)
         return found.renames
     renames = found.renames if journal.is_done(disk, found) else ()
@@ -67,19 +66,19 @@ def resume(disk: Disk) -> Renames:
     return renames
 
 
-def _is_anything_to_do(plan: Plan) -> bool:
+def _has_changes(plan: Plan) -> bool:
     listed = plan.manifest.files or plan.manifest.parked
     stored = (plan.disk.out / manifest.NAME).exists() and not plan.texts.missing
     return bool(plan.changes or plan.manifest != plan.before or (listed and not stored))
 
 
 def _own(disk: Disk, path: str, content: bytes) -> Change:
-    """A file of swarmc's own that gets another content."""
+    """Return the change of a file that swarmc itself owns."""
     return Change(Action.CHANGE, path, disk.content(path), content)
 
 
 def _step(change: Change, place: Path, staging: Staging) -> Step:
-    """What is done to make a change, with the files as they were when it was decided."""
+    """Return the journal step of a change, with the file contents it was planned for."""
     before = fingerprint(change.before)
     if change.after is None:
         return Step(change.path, before)
@@ -92,7 +91,7 @@ def _step(change: Change, place: Path, staging: Staging) -> Step:
 
 
 def _texts(plan: Plan) -> bytes | None:
-    """The texts that files are made from, or were until now, as they are stored."""
+    """Pack the contents that files are, or were until now, generated from."""
     manifests = (plan.before, plan.manifest)
     wanted = {
         hash_ for each in manifests for hash_ in (*each.files.values(), *each.parked.values())

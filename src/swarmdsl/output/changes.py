@@ -1,4 +1,4 @@
-"""What becomes of the files of an output folder, as plain data."""
+"""Changes of the files in an output folder, as plain data."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pathlib import Path
 from swarmdsl.base.records import dataclass
 
 PARKED = ".parked"
-"""The folder for files that are put aside. Tools of ROS pass over a folder of such a name."""
+"""Folder for files that are put aside; ROS tools skip folders with such a name."""
 
 Renames = tuple[tuple[str, str], ...]
-"""The old and the new name of elements of the model."""
+"""Old and new names of model elements."""
 
 
 class Action(Enum):
-    """What happens to a file."""
+    """Kind of change of a file."""
 
     CREATE = "create"
     CHANGE = "change"
@@ -28,16 +28,15 @@ class Action(Enum):
 
 
 NEW_TEXT = (Action.CREATE, Action.CHANGE, Action.MERGE, Action.OVERWRITE)
-"""What writes a file in its place; of the rest, all but REMOVE bring one from another place."""
+"""Actions that write generated content; the others, except REMOVE, move a file."""
 
 
 @dataclass(frozen=True)
 class Change:
-    """A file that changes: its content before and after, None where there is none.
+    """Change of a file: its content before and after, None if there is no file.
 
-    Paths are below the output folder. `source` is where the file was, if that is another place;
-    it is gone then. `mode` are the permissions of such a file, and `replaced` is what is in its
-    new place until then.
+    Paths are relative to the output folder. `source` is the old path of a moved file, with the
+    permissions `mode`; `replaced` is the content at the new path before the move.
     """
 
     action: Action
@@ -51,17 +50,17 @@ class Change:
 
     @property
     def target(self) -> str:
-        """The target that the file is, or was, of."""
+        """Target of the file, before it was put aside."""
         of = self.source if self.action is Action.PARK and self.source else self.path
         return of.partition("/")[0]
 
 
 @dataclass(frozen=True)
 class Written:
-    """What becomes of each file, or became of it, as paths below the output folder.
+    """Planned or applied changes, with paths relative to the output folder.
 
-    `kept` are files to fill in that are the user's by now, `edited` others that the user has
-    written in, `conflicts` those of them in which what is new has no place. None of them changes.
+    `kept` are files to fill in that the user has filled in, `edited` are other files that the user
+    has edited, `conflicts` are edited files that could not be merged. None of them changes.
     """
 
     folder: Path
@@ -72,28 +71,27 @@ class Written:
     conflicts: tuple[str, ...] = ()
 
     def paths(self, *actions: Action) -> tuple[str, ...]:
-        """The files to which one of these things happens."""
+        """Return the files changed by one of the actions."""
         return tuple(change.path for change in self.changes if change.action in actions)
 
     @property
     def written(self) -> tuple[str, ...]:
-        """The files that get a text of the generator."""
+        """Files that get generated content."""
         return self.paths(*NEW_TEXT)
 
     @property
     def removed(self) -> tuple[str, ...]:
-        """The files that were generated before and are not any more."""
+        """Files that are not generated any more."""
         return self.paths(Action.REMOVE)
 
 
 @dataclass(frozen=True)
-class How:
-    """How a folder is brought up to date.
+class WriteOptions:
+    """Options of writing to an output folder.
 
-    `force` gives up what the user has written where it is in the way, except in files that are
-    the user's to fill in. `dry` changes nothing; `check` does not either, and reports what would
-    change. `renames` are elements of the model that had another name. `command` are the words
-    that a person would repeat, `model` what the model is called.
+    `force` discards edits of the user that are in the way, except in files to fill in. `dry`
+    changes nothing; `check` changes nothing and reports what would change. `renames` are renamed
+    model elements. `command` is the command line to show in hints, `model` the name of the model.
     """
 
     force: bool = False

@@ -1,4 +1,4 @@
-"""Removes what was generated, and nothing that the user has written in."""
+"""Remove generated files that the user has not edited."""
 
 from __future__ import annotations
 
@@ -9,21 +9,19 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.suggest import suggest
 from swarmdsl.codegen import registry
 from swarmdsl.output import manifest, texts
-from swarmdsl.output.apply import carry_out
-from swarmdsl.output.changes import How, Written
-from swarmdsl.output.prepare import opened
+from swarmdsl.output.apply import apply_plan
+from swarmdsl.output.changes import WriteOptions, Written
+from swarmdsl.output.prepare import open_plan
 from swarmdsl.output.removals import remove_generated
 
 
 def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool) -> Written | None:
-    """Remove from a folder what was generated, or say what that would be.
+    """Remove the generated files of a folder; with `dry`, only return the changes.
 
-    `targets` are those whose files go; all where none is named.
-
-    What the user has written in stays in its place, and is known for the next build. What cannot
-    be read stays too, and is reported. None when nothing at all can be done.
+    `targets` limits the removal; empty stands for all targets. Edited files stay in place and are
+    known to the next build. Unreadable files stay and are reported. None if nothing can be done.
     """
-    with opened(out, How(dry=dry), report) as plan:
+    with open_plan(out, WriteOptions(dry=dry), report) as plan:
         if plan is None:
             return None
         there = {path.partition("/")[0] for path in plan.before.files}
@@ -32,7 +30,7 @@ def clean(out: Path, targets: Collection[str], report: Diagnostics, *, dry: bool
             report.report("unknown-target", name=target, help=hint)
         remove_generated(plan, targets or there)
         if not dry:
-            carry_out(plan)
+            apply_plan(plan)
             if not (plan.manifest.files or plan.manifest.parked):
                 for name in (manifest.NAME, texts.NAME):
                     (out / name).unlink(missing_ok=True)

@@ -1,4 +1,4 @@
-"""The files of an output folder as they are on disk."""
+"""Access to the files of an output folder."""
 
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 
 _CACHES = ("__pycache__",)
 
-_RIGHTS = "give yourself the right to, or build into another folder with `-o`"
-_WAYS_OUT = {
+_RIGHTS = "change its permissions, or build into another folder with `-o`"
+_FIXES = {
     errno.EACCES: _RIGHTS,
     errno.EPERM: _RIGHTS,
     errno.EROFS: _RIGHTS,
-    errno.ENOSPC: "make room on the disk, and build again",
-    errno.EDQUOT: "make room on the disk, and build again",
-    errno.EIO: "see to the disk, and build again",
+    errno.ENOSPC: "free disk space, and build again",
+    errno.EDQUOT: "free disk space, and build again",
+    errno.EIO: "check the disk, and build again",
     errno.ENAMETOOLONG: "give the element of the model a shorter name",
 }
 
 
 class UnreadableError(OSError):
-    """The system does not let a file be read, or looked at."""
+    """A file or folder that may not be read."""
 
 
 class Disk:
-    """Looks into an output folder; paths are below it."""
+    """Files of an output folder; paths are relative to it."""
 
     def __init__(self, out: Path) -> None:
         self.out = out
@@ -38,14 +38,15 @@ class Disk:
         self._inside: dict[str, bool] = {}
 
     def place(self, path: str) -> str:
-        """Where a file is.
+        """Return the path of a file on disk.
 
-        A build asks for each a few times: a `Path` takes longer to make than to look there.
+        A string, because each file is looked up several times and a `Path` is slower to create
+        than the lookup.
         """
         return os.path.join(self._out, path)  # noqa: PTH118
 
     def leads_inside(self, path: str) -> bool:
-        """Whether no symbolic link on the way leads out of the output folder."""
+        """Return True if no symbolic link on the path leads out of the output folder."""
         place = self.place(path)
         if os.path.islink(place):  # noqa: PTH114 - no error for a name that the disk does not take
             return self._is_inside(place)
@@ -55,7 +56,7 @@ class Disk:
         return self._inside[folder]
 
     def _is_inside(self, place: str | Path) -> bool:
-        # Not Path.resolve: it raises an error for links that lead in a circle.
+        # `Path.resolve` raises an error for cyclic links.
         return Path(os.path.realpath(place)).is_relative_to(self._real)
 
     @cached_property
@@ -63,9 +64,9 @@ class Disk:
         return os.path.realpath(self.out)
 
     def content(self, path: str) -> bytes | None:
-        """The content of a file, None when there is none.
+        """Return the content of a file, None if there is none.
 
-        Raises OSError when it is something else, UnreadableError when it cannot be read.
+        Raises OSError if it is not a regular file, UnreadableError if it cannot be read.
         """
         place = self.place(path)
         try:
@@ -77,7 +78,7 @@ class Disk:
         if stat.S_ISDIR(mode):
             raise IsADirectoryError(0, "it is a folder", str(Path(place)))
         if not stat.S_ISREG(mode):
-            # Reading a pipe or a device could wait forever.
+            # Reading a pipe or a device could block forever.
             raise OSError(0, "it is not an ordinary file", str(Path(place)))
         try:
             with open(place, "rb", buffering=0) as file:  # noqa: PTH123
@@ -86,34 +87,37 @@ class Disk:
             raise _unreadable(error) from error
 
     def mode(self, path: str) -> int:
-        """The permissions of a file that is there."""
+        """Return the permissions of an existing file."""
         return stat.S_IMODE((self.out / path).stat().st_mode)
 
     def is_executable(self, path: str) -> bool:
-        """Whether the file can be run."""
+        """Return True if the file is executable."""
         return os.access(self.out / path, os.X_OK)
 
     def same(self, path: str, other: str) -> bool:
-        """Whether two paths are one file, where case does not count."""
+        """Return True if two paths are the same file, on case-insensitive file systems."""
         return (self.out / path).samefile(self.out / other)
 
     def is_link(self, path: str) -> bool:
-        """Whether it is a symbolic link."""
+        """Return True for a symbolic link."""
         return (self.out / path).is_symlink()
 
     def link_outside(self, path: str) -> Path:
-        """The symbolic link that leads out of the output folder on the way to a file."""
+        """Return the symbolic link on a path that leads out of the output folder."""
         way = (self.out / path, *(self.out / path).parents)
         links = (place for place in reversed(way) if place.is_symlink())
         return next((link for link in links if not self._is_inside(link)), self.out / path)
 
     def obstacle(self, path: str) -> Path:
-        """The file that is where a folder is needed for another one."""
+        """Return the file at a place where a path needs a folder."""
         above = (self.out / path).parents
         return next(place for place in above if place.exists() and not place.is_dir())
 
     def files(self, folder: str) -> Iterator[str]:
-        """The ordinary files below a folder, but for what Python caches. Raises UnreadableError."""
+        """Yield regular files below a folder, without Python caches.
+
+        Raises UnreadableError.
+        """
         for place, folders, names in os.walk(self.out / folder, onerror=_raise_unreadable):
             folders[:] = sorted(name for name in folders if name not in _CACHES)
             for name in sorted(names):
@@ -122,7 +126,7 @@ class Disk:
                     yield found.relative_to(self.out).as_posix()
 
     def remove(self, path: str) -> None:
-        """Remove a file, and the folders that are empty then."""
+        """Remove a file, and the folders that it leaves empty."""
         place = self.out / path
         place.unlink(missing_ok=True)
         for folder in place.parents:
@@ -131,16 +135,16 @@ class Disk:
             try:
                 folder.rmdir()
             except OSError:
-                return  # there is something else in it
+                return  # not empty
 
 
 def report_os_error(path: Path, error: OSError, report: Diagnostics) -> None:
-    """Report what the system says about a file."""
+    """Report an error of the operating system about a file."""
     reason = error.strerror or str(error) or type(error).__name__
     name = "unreadable-file" if isinstance(error, UnreadableError) else "cannot-write"
-    help_ = _WAYS_OUT.get(error.errno or 0)
+    help_ = _FIXES.get(error.errno or 0)
     if help_ is None:
-        help_ = "move away what stands there, or build into another folder with `-o`"
+        help_ = "move away what is there, or build into another folder with `-o`"
     place = error.filename or str(path)
     report.report(name, path=place, reason=reason[0].lower() + reason[1:], help=help_)
 

@@ -1,9 +1,9 @@
-"""Changes of many files that are made all or not at all, whatever ends the process of a build.
+"""Redo log: apply changes of many files atomically, even if the process is killed.
 
-It is a redo log, as databases have them. What is to be done is written down first; then the new
-contents are staged beside the places that they are for, that of the list of files as the last.
-From there on the changes are made, however often that is interrupted: a step that was done is
-seen by its file. Before, what was staged is only removed.
+The changes are written to the journal first. Then the new contents are staged beside their
+destinations, the manifest last. Once that is staged, the changes are applied and can be resumed
+any number of times: the content of its file shows if a step is done. Before that, the staged files
+are only removed.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ _NO_FILE = (FileNotFoundError, NotADirectoryError)
 
 @dataclass(frozen=True)
 class Step:
-    """A file that gets another content, or goes; paths are below the output folder.
+    """A file that is replaced or removed; paths are relative to the output folder.
 
-    `before` and `after` are the SHA-256 of what is in it, None where there is no file. The new
-    content is at `staged` until then. `source` is the file that goes for it, with such a hash.
+    `before` and `after` are SHA-256 hashes of its content, None for no file. The new content is
+    staged at `staged`. `source` is the file that is moved there, with the hash `of_source`.
     """
 
     path: str
@@ -43,14 +43,14 @@ class Step:
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """All files that it is about."""
+        """All files that the step touches."""
         others = (self.staged, self.source)
         return (self.path, *(path for path in others if path is not None))
 
 
 @dataclass(frozen=True)
 class Journal:
-    """What a build is to do: the steps, the last of them the list of files."""
+    """Steps of a build; `listed` is the last one, of the manifest."""
 
     steps: tuple[Step, ...]
     listed: Step
@@ -58,20 +58,20 @@ class Journal:
 
 
 def fingerprint(content: bytes | None) -> str | None:
-    """What tells one content of a file from another."""
+    """Hash the content of a file."""
     return None if content is None else sha256(content).hexdigest()
 
 
 def to_bytes(journal: Journal) -> bytes:
-    """A journal as it is stored."""
+    """Serialize a journal."""
     steps = [vars(step) for step in (*journal.steps, journal.listed)]
     return json.dumps({"steps": steps, "renames": journal.renames}).encode()
 
 
 def read(disk: Disk) -> Journal | None:
-    """The journal in a folder; None where there is none, or none that is whole.
+    """Read the journal of a folder; None if it is missing or incomplete.
 
-    It is stored before anything else is done, so that one with an end missing says nothing.
+    It is written before anything else, so that an incomplete one means that nothing was changed.
     """
     try:
         stored = json.loads((disk.out / NAME).read_bytes())
@@ -89,32 +89,31 @@ def _is_inside(disk: Disk, path: object) -> bool:
     return isinstance(path, str) and stays_inside(path) and disk.leads_inside(path)
 
 
-def is_to_be_completed(disk: Disk, journal: Journal) -> bool:
-    """Whether all was staged when the build was interrupted, and not all done.
+def must_be_completed(disk: Disk, journal: Journal) -> bool:
+    """Return True if everything was staged and the build was interrupted after that.
 
-    The list is staged after all else. It arrives as the last, or is removed as the first.
+    The manifest is staged last, and is the last to be moved or the first to be removed.
     """
     return fingerprint(disk.content(_staged(journal.listed))) == journal.listed.after
 
 
 def is_done(disk: Disk, journal: Journal) -> bool:
-    """Whether the list has arrived, which tells that only where it is another one than before."""
+    """Return True if the new manifest is in place and differs from the old one."""
     before, after = journal.listed.before, journal.listed.after
     return before != after and fingerprint(disk.content(journal.listed.path)) == after
 
 
 def complete(disk: Disk, journal: Journal, *, resumed: bool) -> list[str]:
-    """Make the changes that are not made yet; some are made where it is `resumed`.
+    """Apply the changes; if `resumed`, some of them are applied already.
 
-    A file that somebody has changed since then stays, and counts as what it was before: these are
-    returned.
+    Files that were changed in the meantime stay as they are; their paths are returned.
     """
     left = [step for step in journal.steps if not _arrive(disk, step, resumed)]
     for step in journal.steps:
         if step not in left:
             _clear(disk, step)
     if left:
-        _list_without(disk, journal.listed, left)
+        _write_manifest_without(disk, journal.listed, left)
     else:
         _arrive(disk, journal.listed, resumed)
     discard(disk, journal)
@@ -122,10 +121,9 @@ def complete(disk: Disk, journal: Journal, *, resumed: bool) -> list[str]:
 
 
 def discard(disk: Disk, journal: Journal) -> None:
-    """Remove what is staged yet, and the journal.
+    """Remove the staged files and the journal.
 
-    The list goes first: without it, no step whose new content is gone is taken for one that was
-    done.
+    The manifest goes first: without it, no step with a missing staged file counts as done.
     """
     for step in (journal.listed, *journal.steps):
         if step.staged is not None and os.path.lexists(disk.place(step.staged)):
@@ -134,7 +132,7 @@ def discard(disk: Disk, journal: Journal) -> None:
 
 
 def _arrive(disk: Disk, step: Step, resumed: bool) -> bool:
-    """Put the new content in its place, if it is not there; whether all is as was expected."""
+    """Move staged content in place if needed; return True if the file is as expected."""
     now = fingerprint(disk.content(step.path))
     if step.staged is None:
         return now in (step.before, None)
@@ -148,7 +146,7 @@ def _arrive(disk: Disk, step: Step, resumed: bool) -> bool:
         return False
     place = disk.place(step.path)
     try:
-        # `os.replace` is the one move that is atomic on every system.
+        # `os.replace` is atomic on every system.
         os.replace(disk.place(step.staged), place)  # noqa: PTH105
     except OSError as error:
         error.filename, error.filename2 = str(Path(place)), None
@@ -157,7 +155,7 @@ def _arrive(disk: Disk, step: Step, resumed: bool) -> bool:
 
 
 def _clear(disk: Disk, step: Step) -> None:
-    """Remove the file that goes, if it is as it was."""
+    """Remove the old file of a step if it is unchanged."""
     gone, was = (step.path, step.before) if step.staged is None else (step.source, step.of_source)
     if gone is None or fingerprint(disk.content(gone)) != was:
         return
@@ -171,8 +169,8 @@ def _staged(listed: Step) -> str:
     return listed.staged
 
 
-def _list_without(disk: Disk, listed: Step, left: list[Step]) -> None:
-    """Write the list, in which some files are as they were."""
+def _write_manifest_without(disk: Disk, listed: Step, left: list[Step]) -> None:
+    """Write the manifest with the old entries of the skipped steps."""
     before = manifest.read(disk.out)
     after = manifest.read(disk.out, _staged(listed))
     for path in {path for step in left for path in step.paths}:

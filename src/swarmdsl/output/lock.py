@@ -1,4 +1,4 @@
-"""One build at a time in an output folder."""
+"""Lock an output folder against concurrent builds."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from pathlib import Path
 
 @contextmanager
 def locked(folder: Path) -> Iterator[None]:
-    """Wait until no other build writes to a folder, and let none begin meanwhile.
+    """Wait until no other build writes to a folder, and hold the lock meanwhile.
 
-    The system ends the lock with the process, however that ends. Where it has no such locks, as
-    Windows, or there is no folder, nothing is locked.
+    The system releases the lock when the process ends. Without such locks, as on Windows, or
+    without the folder, nothing is locked.
     """
     handle = _locked(folder)
     try:
@@ -31,7 +31,7 @@ def _locked(folder: Path) -> int | None:
 
     with suppress(OSError):
         handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-        with suppress(OSError):  # some file systems of networks
+        with suppress(OSError):  # unsupported by some network file systems
             fcntl.flock(handle, fcntl.LOCK_EX)
         return handle
     return None

@@ -1,6 +1,6 @@
-"""The list of generated files in an output folder: it tells them from those of the user.
+"""Manifest: the list of generated files in an output folder.
 
-It also says where their lines come from, see `swarmdsl.output.source_maps`.
+It also holds their source maps, see `swarmdsl.output.source_maps`.
 """
 
 from __future__ import annotations
@@ -18,18 +18,17 @@ from swarmdsl.output import source_maps, user_regions
 NAME = ".swarmdsl.json"
 
 Hashes = dict[str, str]
-"""The path of each generated file, below the output folder, and the hash of its content."""
+"""Content hashes of generated files, by path below the output folder."""
 
 
 @dataclass(frozen=True)
 class Manifest:
-    """What was generated in a folder; all paths are below it.
+    """Generated files of a folder; all paths are relative to it.
 
-    `files` has the hash of the text that each file was made from: of a file that the user has
-    written in too. `parked` has the same of files that were put aside, by the path that they
-    had. `owners` says of files to fill in which element of the model they are of, and with which
-    mark of what code in them builds on; `maps` where the lines of a file come from. `model` is
-    what the model is called.
+    `files` has the hash of the generated content that each file is based on, even if it was
+    edited. `parked` has the same for files that were put aside, by their original path. `owners`
+    maps a file to fill in to its model element and the mark of the facts that its code builds on;
+    `maps` has the source maps. `model` is the name of the model.
     """
 
     files: Hashes = field(default_factory=dict)
@@ -40,18 +39,18 @@ class Manifest:
 
 
 def content_hash(content: bytes) -> str:
-    """What identifies the content of a file, without what stands in regions of the user.
+    """Hash content without user regions.
 
-    Line ends do not count: a version control system may have made others of them.
+    Line ends are ignored: version control may convert them.
     """
     return sha256(user_regions.generated(content).replace(b"\r\n", b"\n")).hexdigest()
 
 
 def read(out: Path, name: str = NAME) -> Manifest:
-    """What was generated in a folder; nothing where there is no list.
+    """Read the manifest of a folder; empty if there is none.
 
-    A path that leads out of the folder was not put there by swarmc and is ignored. Raises OSError
-    where the list cannot be read, ValueError with a reason where it is not as it was written.
+    Ignores paths that lead out of the folder: swarmc did not write them. Raises OSError if it is
+    unreadable, ValueError with a reason if it is malformed.
     """
     stored = _stored(out, name)
     files, parked, owners = (_section(stored, name) for name in ("files", "parked", "owners"))
@@ -74,15 +73,15 @@ def _stored(out: Path, name: str) -> dict[str, Any]:
 
 
 def _section(stored: Mapping[str, object], name: str) -> dict[str, str]:
-    """The paths of a section with what is said of them."""
+    """Return the entries of a section by path."""
     said = stored.get(name, {})
     if not isinstance(said, dict) or not all(isinstance(text, str) for text in said.values()):
-        raise ValueError(f"`{name}` in it is not paths with a text each")
+        raise ValueError(f"`{name}` in it is not a map of paths to strings")
     return {path: text for path, text in said.items() if stays_inside(path)}
 
 
 def to_bytes(manifest: Manifest) -> bytes:
-    """The list as it is stored: the same bytes for the same files."""
+    """Serialize a manifest, deterministically."""
     maps = source_maps.to_json(manifest.maps)
     stored: dict[str, object] = {"files": manifest.files, "map": maps, "model": manifest.model}
     if manifest.parked:

@@ -1,9 +1,8 @@
-"""Three-way merge of texts, line by line: what two sides have made of the same one.
+"""Three-way merge of files, line by line.
 
-The algorithm is that of diff3 (S. Khanna, K. Kunal, B. C. Pierce, "A Formal Investigation of
-Diff3", 2007). Lines that are the same in all three divide the text; what lies between two of
-them is taken from the side that changed it. Where both have, and not in the same way, nobody can
-tell: changes with no line between them are one.
+The algorithm is diff3 (S. Khanna, K. Kunal, B. C. Pierce, "A Formal Investigation of Diff3",
+2007). Lines that are the same in all three versions divide the files into chunks; each chunk is
+taken from the side that changed it. A chunk that both sides changed differently is a conflict.
 """
 
 from __future__ import annotations
@@ -15,10 +14,10 @@ from swarmdsl.base.records import dataclass
 
 @dataclass(frozen=True)
 class Merge:
-    """The result; None where it is not clear.
+    """Result of a merge; `text` is None after a conflict.
 
-    `conflicts` are lines of the user's text, counted from 0, ends exclusive: where both sides
-    have changed something. `taken` is how many changes of the generator are in the result.
+    `conflicts` are line ranges of the user's version, from 0, ends exclusive. `taken` is the
+    number of generated changes in the result.
     """
 
     text: bytes | None
@@ -27,7 +26,7 @@ class Merge:
 
 
 def merge(base: bytes, of_user: bytes, generated: bytes) -> Merge:
-    """What the user and the generator have made of a text, in one."""
+    """Merge the versions of the user and of the generator."""
     lines, user, ours = (text.splitlines(keepends=True) for text in (base, of_user, generated))
     in_user, in_ours = matches(lines, user), matches(lines, ours)
     made: list[bytes] = []
@@ -52,7 +51,7 @@ def merge(base: bytes, of_user: bytes, generated: bytes) -> Merge:
 
 
 def first_difference(base: bytes, of_user: bytes) -> int:
-    """The line, counted from 0, where a text begins to be another one."""
+    """Return the first line that differs, from 0."""
     pairs = zip(base.splitlines(), of_user.splitlines(), strict=False)
     return next(
         (at for at, (one, other) in enumerate(pairs) if one != other), _shorter(base, of_user)
@@ -64,6 +63,6 @@ def _shorter(one: bytes, other: bytes) -> int:
 
 
 def matches(before: list[bytes], after: list[bytes]) -> dict[int, int]:
-    """The lines of one text that are in the other, in the same order."""
+    """Map lines of one version to equal lines of the other, in the same order."""
     blocks = SequenceMatcher(None, before, after, autojunk=False).get_matching_blocks()
     return {block.a + number: block.b + number for block in blocks for number in range(block.size)}

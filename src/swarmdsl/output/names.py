@@ -1,4 +1,4 @@
-"""An element of the model that gets another name: its files, and the names in them."""
+"""Rename a model element in generated paths and contents."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _WORD = re.compile(r"\w+")
 
 
 class Names:
-    """Two names of an element, in all the forms in which generated code has them."""
+    """Old and new name of an element, in all forms that generated code uses."""
 
     def __init__(self, old: str, new: str) -> None:
         forms_of_old, forms_of_new = _forms(old), _forms(new)
@@ -22,25 +22,25 @@ class Names:
         self._backward = _Replacement(forms_of_new, forms_of_old)
 
     def __call__(self, text: str) -> str:
-        """A path or a text of the generator under the new name."""
+        """Replace the old name in a generated path or string."""
         return self._forward(text)
 
     def place(self, text: str) -> tuple[int, int]:
-        """Where the old name first stands in a text that has it."""
+        """Return the range of the first old name in a string."""
         return self._forward.place(text)
 
     def same(self, before: Sequence[str], now: Sequence[str]) -> bool:
-        """Whether lines are the same, but for the new name where it may be meant."""
+        """Return True if lines are equal except for the new name."""
         pairs = zip(before, now, strict=False)
         equal = all(new in (old, self._forward(old)) for old, new in pairs)
         return equal and len(before) == len(now)
 
     def rewritten(self, of_user: str, generated: str) -> tuple[str, list[int]]:
-        """A file of the user as far as it is clear what the new name changes in it.
+        """Replace the old name in a file of the user as far as that is unambiguous.
 
-        `generated` is what the generator makes of it under the new name. Lines that it has are
-        taken from there; in others, identifiers that it has and that can be nothing else.
-        The second value are the lines, counted from 1, in which the old name still stands.
+        `generated` is the generated content under the new name. Lines that only differ in the name
+        are taken from it; in other lines, identifiers that can mean nothing else are replaced.
+        Also returns the lines, from 1, that still contain the old name.
         """
         lines = {self._backward(line): line for line in generated.splitlines()}
         words = set(_WORD.findall(generated))
@@ -66,7 +66,7 @@ class _Replacement:
     @cached_property
     def _pattern(self) -> re.Pattern[str]:
         snake, camel, upper, plain = map(re.escape, self._forms)
-        # In `TestTakeoff` and `takeoff_base` it is a word too, in `takeoffs` it is not.
+        # It is a word in `TestTakeoff` and `takeoff_base`, but not in `takeoffs`.
         apart, after = "(?<![A-Za-z0-9])", "(?![A-Za-z0-9])"
         return re.compile(
             f"{apart}({snake}){after}|({camel})(?![a-z0-9])"

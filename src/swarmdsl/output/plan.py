@@ -1,4 +1,4 @@
-"""What is to be done in an output folder, and the steps that it is made of.
+"""Plan the changes of an output folder.
 
 Nothing on disk changes: `swarmdsl.output.apply` does that.
 """
@@ -12,7 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.output import user_regions, warnings
-from swarmdsl.output.changes import PARKED, Action, Change, How, Written
+from swarmdsl.output.changes import PARKED, Action, Change, WriteOptions, Written
 from swarmdsl.output.disk import Disk
 from swarmdsl.output.manifest import Hashes, Manifest, content_hash
 from swarmdsl.output.names import Names
@@ -23,9 +23,9 @@ from swarmdsl.output.warnings import NEW
 
 @dataclass(frozen=True)
 class Found:
-    """What stands for a file: its content, and the hash of the text that it was made from.
+    """Existing file: its content, and the hash of the content it was generated from.
 
-    `source` is where it is, if not in its place; `names` how its element was called before.
+    `source` is its path if it has to be moved; `names` is the rename of its element.
     """
 
     content: bytes
@@ -35,15 +35,17 @@ class Found:
 
 
 class Plan:
-    """What is to be done in a folder; all paths are below it.
+    """Planned changes of a folder; all paths are relative to it.
 
-    `before` is the manifest as it was, `hashes` the files of it as they will be. What is found
-    goes to `report`, and nothing may be done where that is an error; `remarks` are told beside
-    what is done. `moved` says of a file under a new name where it is, and how it is called anew.
+    `before` is the old manifest, `hashes` the files of the new one. Errors in `report` prevent all
+    changes; `remarks` are reported along with the changes. `moved` maps a new path to its old one
+    and the rename.
     """
 
-    def __init__(self, disk: Disk, before: Manifest, how: How, report: Diagnostics) -> None:
-        self.disk, self.before, self.how, self.report = disk, before, how, report
+    def __init__(
+        self, disk: Disk, before: Manifest, options: WriteOptions, report: Diagnostics
+    ) -> None:
+        self.disk, self.before, self.options, self.report = disk, before, options, report
         self.remarks = Diagnostics()
         self.texts = Texts(disk.out)
         self.hashes: Hashes = {}
@@ -60,7 +62,7 @@ class Plan:
 
     @property
     def written(self) -> Written:
-        """What becomes of the files."""
+        """Changes of the files."""
         return Written(
             self.disk.out,
             tuple(self.changes),
@@ -72,8 +74,8 @@ class Plan:
 
     @property
     def manifest(self) -> Manifest:
-        """The list as it will be."""
-        model = self.how.model or self.before.model
+        """The new manifest."""
+        model = self.options.model or self.before.model
         return Manifest(self.hashes, self.parked, self.owners, self.maps, model)
 
     def change(
@@ -85,7 +87,7 @@ class Plan:
         file: OutputFile,
         source: str | None = None,
     ) -> None:
-        """Write a text of the generator, with what is the user's in it."""
+        """Write generated content, with the edits of the user."""
         replaced = None
         if source is not None:
             before, replaced = self.disk.content(source), self.disk.content(path)
@@ -93,7 +95,7 @@ class Plan:
         self.changes.append(change)
 
     def bring(self, path: str, found: Found, content: bytes) -> None:
-        """Put a file in its place that is in another one."""
+        """Move a file to its new path."""
         assert found.source is not None
         action = Action.RESTORE if found.names is None else Action.MOVE
         mode = self.disk.mode(found.source)
@@ -102,8 +104,8 @@ class Plan:
             Change(action, path, before, content, found.source, False, mode, replaced)
         )
 
-    def add_neighbour(self, path: str, content: bytes) -> None:
-        """Write a file beside another one, if the user has not written in it."""
+    def add_beside(self, path: str, content: bytes) -> None:
+        """Write a file beside another one, unless the user has edited it."""
         self.hashes[path] = content_hash(content)
         with suppress(OSError):
             old = self.disk.content(path)
@@ -115,37 +117,37 @@ class Plan:
             elif self.is_pristine(path, old, known):
                 self.changes.append(Change(Action.CHANGE, path, old, content))
             else:
-                # What the user has seen of what is generated is in it, and nothing newer.
+                # Its base stays the generated version that the user has seen.
                 self.hashes[path] = known or self.texts.add("")
                 self.edited.append(path)
                 warnings.report_neighbour(self.disk.out / path, self.remarks)
 
     def is_pristine(self, path: str, content: bytes, base: str | None) -> bool:
-        """Whether a file is as swarmc wrote it, with no line of the user in a region."""
-        # What would be in place of another file has the lines from there.
+        """Return True if a file is as swarmc wrote it, with empty user regions."""
+        # The copy of a file that could not be merged contains its user regions.
         is_copy = path.endswith(NEW)
         return self.is_generated(content, base) and (is_copy or not user_regions.kept(content))
 
     def is_generated(self, content: bytes, base: str | None) -> bool:
-        """The same, but for what is in regions."""
+        """Return True if a file is as swarmc wrote it, except in user regions."""
         return content_hash(content) == base or self.texts.knows(content)
 
     def is_inside(self, path: str) -> bool:
-        """Whether a file is in the output folder, whatever links lead there; if not, report it."""
+        """Return True if a path stays in the output folder; otherwise report it."""
         if self.leads_inside(path):
             return True
         warnings.report_link(self.disk.link_outside(path), path, self.report)
         return False
 
     def leads_inside(self, path: str) -> bool:
-        """The same without a report."""
+        """Return True if a path stays in the output folder, through all links."""
         return self.disk.leads_inside(path)
 
     @cached_property
     def parks(self) -> bool:
-        """Whether there is anything that was put aside."""
+        """True if files were put aside."""
         return self.is_there(PARKED)
 
     def is_there(self, path: str) -> bool:
-        """Whether there is something of that name."""
+        """Return True if the path exists."""
         return (self.disk.out / path).exists()

@@ -1,4 +1,4 @@
-"""Files that are not generated any more: they go, or are put aside with the lines of the user."""
+"""Remove files that are not generated any more, or put them aside if edited."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from swarmdsl.output.plan import Plan
 
 
 def drop_stale(plan: Plan, targets: Collection[str]) -> None:
-    """Decide about what was generated before for these targets and is not any more."""
+    """Plan the removal of the stale files of these targets."""
     for path in [path for path in plan.parked if not plan.is_there(f"{PARKED}/{path}")]:
         del plan.parked[path]
     new = {clash_key(path): path for path in plan.hashes}
@@ -23,17 +23,17 @@ def drop_stale(plan: Plan, targets: Collection[str]) -> None:
             plan.hashes[path] = old
         elif path not in new.values() and path not in moved:
             _drop(plan, path, old, new.get(clash_key(path)))
-    _keep_what_is_known(plan)
+    _keep_entries(plan)
 
 
 def remove_generated(plan: Plan, targets: Collection[str]) -> None:
-    """Decide to remove what was generated for these targets and not edited."""
+    """Plan the removal of all unedited files of these targets."""
     for path, hash_ in plan.before.files.items():
         plan.hashes[path] = hash_
         if path.partition("/")[0] in targets and plan.is_inside(path):
-            with _told(plan, path):
+            with _reporting_unreadable(plan, path):
                 _remove(plan, path, hash_)
-    _keep_what_is_known(plan)
+    _keep_entries(plan)
 
 
 def _remove(plan: Plan, path: str, hash_: str) -> None:
@@ -49,8 +49,8 @@ def _remove(plan: Plan, path: str, hash_: str) -> None:
 
 
 @contextmanager
-def _told(plan: Plan, path: str) -> Iterator[None]:
-    """Tell of what cannot be read; what is there now and is no file is not swarmc's."""
+def _reporting_unreadable(plan: Plan, path: str) -> Iterator[None]:
+    """Report unreadable files; anything else than a file is not from swarmc."""
     with suppress(OSError):
         try:
             yield
@@ -58,8 +58,8 @@ def _told(plan: Plan, path: str) -> Iterator[None]:
             report_os_error(plan.disk.out / path, error, plan.report)
 
 
-def _keep_what_is_known(plan: Plan) -> None:
-    """Of files that are no more looked at, but there."""
+def _keep_entries(plan: Plan) -> None:
+    """Keep the manifest entries of files that were not processed."""
     for path, owner in plan.before.owners.items():
         if path in plan.hashes or path in plan.parked:
             plan.owners.setdefault(path, owner)
@@ -69,12 +69,12 @@ def _keep_what_is_known(plan: Plan) -> None:
 
 
 def _drop(plan: Plan, path: str, old: str, successor: str | None) -> None:
-    """Remove a file, or put it aside where it has lines of the user."""
-    with _told(plan, path):
+    """Remove a file, or put it aside if it was edited."""
+    with _reporting_unreadable(plan, path):
         if plan.disk.is_link(path) or not plan.leads_inside(path):
             return
         if successor is not None and plan.disk.same(path, successor):
-            return  # one file under two names, where case does not count
+            return  # one file under two names, on a case-insensitive file system
         content = plan.disk.content(path)
         if content is None:
             return

@@ -1,4 +1,4 @@
-"""Elements of the model that get another name: their files move, and names in them change."""
+"""Move the files of renamed model elements, and replace the names in them."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from swarmdsl.output.names import Names
 from swarmdsl.output.plan import Found, Plan
 
 
-def find_moves(plan: Plan, made: Mapping[str, OutputFile]) -> None:
-    """Which files are those of elements that had another name, and have lines of the user."""
-    for old, new in plan.how.renames:
+def find_moved_files(plan: Plan, made: Mapping[str, OutputFile]) -> None:
+    """Find the edited files of renamed elements."""
+    for old, new in plan.options.renames:
         names = Names(old, new)
         found = 0
         for path, base in (*plan.before.files.items(), *plan.before.parked.items()):
@@ -35,12 +35,14 @@ def find_moves(plan: Plan, made: Mapping[str, OutputFile]) -> None:
             warnings.report_bad_rename(names, made, plan.report)
 
 
-def add_strays(plan: Plan, targets: Collection[str], made: Mapping[str, OutputFile]) -> None:
-    """Move what the user has put beside generated files into the folder with the new name."""
+def move_unlisted_files(
+    plan: Plan, targets: Collection[str], made: Mapping[str, OutputFile]
+) -> None:
+    """Move the user's own files in a renamed folder to its new name."""
     known = (*plan.before.files, *plan.before.parked)
     tops = {"/".join(path.split("/")[:2]) for path in known}
     there: set[str] = set()
-    for old, new in plan.how.renames:
+    for old, new in plan.options.renames:
         names = Names(old, new)
         for top in sorted(top for top in tops if names(top) != top):
             taken = any(path.startswith(f"{top}/") for path in made)
@@ -56,8 +58,8 @@ def add_strays(plan: Plan, targets: Collection[str], made: Mapping[str, OutputFi
                         plan.bring(moved, Found(content, None, path, names), content)
 
 
-def find_renamed(plan: Plan, made: Mapping[str, OutputFile]) -> None:
-    """Tell of new elements that may be those that are gone, under another name."""
+def report_possible_renames(plan: Plan, made: Mapping[str, OutputFile]) -> None:
+    """Report new elements that look like removed ones under another name."""
     aside: dict[tuple[str, str], list[str]] = {}
     for path in plan.parked:
         if path in plan.owners and path not in made:
@@ -71,11 +73,11 @@ def find_renamed(plan: Plan, made: Mapping[str, OutputFile]) -> None:
         like = [new for new in owners if _is_like(Names(old, new), paths, facts, fresh)]
         if len(like) == 1:
             place = next(file.origin for file in fresh.values() if file.owner == like[0])
-            warnings.report_renamed(old, like[0], place, plan.how.command, plan.remarks)
+            warnings.report_renamed(old, like[0], place, plan.options.command, plan.remarks)
 
 
 def renamed(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> Found:
-    """The content with the new name of its element, as far as that is clear."""
+    """Replace the old name in a file as far as that is unambiguous."""
     if found.names is None:
         return found
     text = found.content.decode(errors="surrogateescape")
@@ -92,6 +94,6 @@ def renamed(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
 def _is_like(
     names: Names, paths: Iterable[str], facts: Sequence[str], fresh: Mapping[str, OutputFile]
 ) -> bool:
-    """Whether files of an element would be those of another one, if it had another name."""
+    """Return True if the files match those of another element, except for its name."""
     files = [fresh.get(names(path)) for path in paths]
     return all(file is not None and names.same(facts, file.facts) for file in files)

@@ -1,4 +1,4 @@
-"""What a build would do: a line a file, or a unified diff."""
+"""Print planned changes, one line per file or as a unified diff."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _STYLES = {"+": "green", "-": "red", "@": "cyan"}
 
 
 def render_plan(written: Written, format_: str, stream: TextIO) -> None:
-    """Write what would happen to which file: for programs with format `json`, an object a line."""
+    """Write one line per changed file; format `json` writes an object per line."""
     for change in written.changes:
         place, source = _places(written, change)
         if format_ == "json":
@@ -27,7 +27,7 @@ def render_plan(written: Written, format_: str, stream: TextIO) -> None:
 
 
 def render_diff(written: Written, stream: TextIO) -> None:
-    """Write what would change as `git apply` and `patch` read it, in colour on a terminal."""
+    """Write a diff for `git apply` and `patch`, coloured on a terminal."""
     for change in written.changes:
         place, source = _places(written, change)
         before, after = change.before or b"", change.after or b""
@@ -35,7 +35,7 @@ def render_diff(written: Written, stream: TextIO) -> None:
         name_after = _NOTHING if change.after is None else place
         text = unified_diff(before, after, name_before, name_after)
         if name_before != name_after and not text:
-            # There is nothing to show of a file that is empty or only moves, but its names.
+            # The diff of an empty or only moved file has nothing but its header.
             text = f"--- {name_before}\n+++ {name_after}\n"
         _write(text, stream)
 
@@ -49,7 +49,7 @@ def _write(text: str, stream: TextIO) -> None:
     if not (stream.isatty() or os.environ.get("FORCE_COLOR")):
         stream.write(text)
         return
-    # Imported here because it is slow and nobody else needs colours.
+    # Imported here because it is slow, and only colours need it.
     from rich.console import Console
     from rich.text import Text
 

@@ -1,4 +1,4 @@
-"""What a build made, as a table for people."""
+"""Print the result of a build as a table."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.output.changes import NEW_TEXT
 
 
 def render_written(written: Written, stream: TextIO) -> None:
-    """Write the number of files by target, and what became of those of the user."""
+    """Write the number of files per target, and the changes of the user's files."""
     counts = _counts(written)
     columns = [column for column in counts if counts[column] or column == "written"]
     targets = dict.fromkeys(target for counter in counts.values() for target in counter)
@@ -22,9 +22,9 @@ def render_written(written: Written, stream: TextIO) -> None:
     for change in written.changes:
         place = written.folder / change.path
         if change.action in (Action.MOVE, Action.RESTORE) and change.source is not None:
-            said = f"`{written.folder / change.source}` is `{place}` now"
+            said = f"`{written.folder / change.source}` is now `{place}`"
         elif change.action is Action.OVERWRITE:
-            said = f"`{place}` was not as swarmc had written it, and is overwritten"
+            said = f"`{place}` was edited, and is overwritten"
         else:
             continue
         stream.write(f"note: {printable(said)}\n")
@@ -34,13 +34,13 @@ def render_written(written: Written, stream: TextIO) -> None:
 
 
 def line(written: Written) -> str:
-    """How many files became what: "3 written, 41 unchanged"."""
+    """Return a summary such as "3 written, 41 unchanged"."""
     counts = {name: sum(counter.values()) for name, counter in _counts(written).items()}
     return ", ".join(f"{number} {name}" for name, number in counts.items() if number)
 
 
 def _counts(written: Written) -> dict[str, Counter[str]]:
-    """The number of files of each target by what became of them."""
+    """Count the files of each target by result."""
     return {
         "written": _by_target(written, *NEW_TEXT),
         "unchanged": Counter(map(_target, written.unchanged)),
@@ -62,7 +62,7 @@ def _target(path: str) -> str:
 
 
 def _render_table(head: list[str], rows: list[list[str]], stream: TextIO) -> None:
-    """Write names on the left and numbers on the right of their columns."""
+    """Write a table with names on the left and numbers on the right."""
     width, *widths = (max(map(len, column)) for column in zip(head, *rows, strict=True))
     for row in (head, *rows):
         cells = (text.rjust(wide) for text, wide in zip(row[1:], widths, strict=True))

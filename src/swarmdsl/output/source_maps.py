@@ -1,17 +1,16 @@
-"""Source maps as the manifest holds them: where the lines of each generated file come from.
+"""Source maps in the manifest: model positions of generated lines.
 
-Their format, version 1, is an object with the models, each as its path and a digest of its
-text, and with a text for each file, words with blanks between them. The first word is where
-the file as a whole comes from, each other one where its lines do, from that line on:
+Version 1 of the format is an object with the models, each as its path and a digest of its content,
+and one string per file. Its first word is the position of the file as a whole, the others are
+positions of its lines, each from that line on:
 
     {"models": [["../lab.swarm", "1f0c4a"]], "files": {"smach/lab/node.py": "0:3:9+4 12=0:5:3+8"}}
 
-says that the file comes from line 3 of the first model, column 9 and three more, and what
-stands in it from line 12 on from line 5. `-` stands for no place; `yours` in front for a file
-that belongs to the user.
+The file is from line 3 of the first model, column 9, 4 characters; its lines from 12 on are from
+line 5. `-` means no position; the prefix `yours` marks a file that belongs to the user.
 """
 
-# The annotations here are values: typing would compile texts one by one.
+# No annotated locals: typing would evaluate annotation strings one by one.
 import os
 import re
 from collections.abc import Mapping
@@ -32,23 +31,23 @@ _WORD = r"(?:([0-9]{1,9})=)?(?:-|([0-9]{1,9}):([0-9]{1,9}):([0-9]{1,9})\+([0-9]{
 
 
 class Model(NamedTuple):
-    """A file of a model: its path from the output folder, and a digest of its text.
+    """Model file: its path relative to the output folder, and a digest of its content.
 
-    The path of a library that comes with swarmdsl begins with `swarmdsl:`.
+    Paths of bundled libraries begin with `swarmdsl:`.
     """
 
     path: str
     digest: str
 
     def place(self, out: Path) -> Path:
-        """Where it lies, if it is there."""
+        """Return its path, which may not exist."""
         if self.path.startswith(_OURS):
             return resources.library() / self.path.removeprefix(_OURS)
         return Path(os.path.normpath(out / self.path))
 
 
 class Position(NamedTuple):
-    """A place in a model: line and column from 1, and how many characters of the line it has."""
+    """Position in a model: line and column from 1, and length in characters."""
 
     model: Model
     line: int
@@ -58,14 +57,14 @@ class Position(NamedTuple):
 
 @dataclass(frozen=True)
 class FileMap:
-    """Where a file comes from, and its lines: from which one on, in order, and from where."""
+    """Positions of a file and of its lines, each from the given line on."""
 
     origin: Position | None = None
     lines: tuple[tuple[int, Position | None], ...] = ()
     of_user: bool = False
 
     def position(self, line: int) -> Position | None:
-        """Where a line comes from, counted from 1, as far as more is known than of the file."""
+        """Return the position of a line, from 1; None if only that of the file is known."""
         found = None
         for first, position in self.lines:
             if first > line:
@@ -75,18 +74,18 @@ class FileMap:
 
 
 Maps = dict[str, FileMap]
-"""The map of each file, by its path below the output folder."""
+"""Source maps by path below the output folder."""
 
 
 class Positions:
-    """Places of models as they are written down in an output folder."""
+    """Convert spans of models to positions relative to an output folder."""
 
     def __init__(self, out: Path) -> None:
         self._out = os.path.realpath(out)
         self._models: dict[Source, Model | None] = {}
 
     def file_map(self, file: OutputFile) -> FileMap:
-        """The map of a file that was made."""
+        """Return the map of a generated file."""
         entries = file.text.entries if isinstance(file.text, MappedText) else ()
         lines = tuple((line, self._position(origin)) for line, origin in entries)
         return FileMap(self._position(file.origin), () if file.keep else lines, file.keep)
@@ -105,7 +104,7 @@ class Positions:
         return Position(model, line, column, max(1, min(end - start, room)))
 
     def _model(self, source: Source) -> Model | None:
-        """None for what lies in no file."""
+        """Return the model of a source; None if it is not in a file."""
         if source.path is None or not source.path.is_file():
             return None
         place = os.path.realpath(source.path)
@@ -121,12 +120,12 @@ class Positions:
 
 
 def digest(text: str) -> str:
-    """What tells one state of a model from another."""
+    """Hash the content of a model."""
     return sha256(text.encode("utf-8", "surrogatepass")).hexdigest()[:12]
 
 
 def to_json(maps: Mapping[str, FileMap]) -> dict[str, object]:
-    """The maps as plain data."""
+    """Serialize the maps."""
     positions = [
         position
         for each in maps.values()
@@ -152,7 +151,7 @@ def _written(file: FileMap, numbers: Mapping[Model, int]) -> str:
 
 
 def from_json(data: object) -> Maps:
-    """The maps of plain data; nothing of what is not as it was written."""
+    """Deserialize maps; malformed entries are ignored."""
     match data:
         case {"version": 1, "models": [*models], "files": {**files}}:
             known = [

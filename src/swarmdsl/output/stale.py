@@ -1,4 +1,4 @@
-"""What keeps output from being what a build would make, as diagnostics: for a check."""
+"""Report stale output as diagnostics, for `swarmc build --check`."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from swarmdsl.output.warnings import NEW, NOTE
 
 _BUILD = "build again"
 _EDITED = "build again, and put the edit into a region, a file of yours, or the model"
-# What is the matter with a file to which this would happen, and what to do.
+# Fault and fix of a file by its planned change.
 _FAULTS = {
     Action.CREATE: ("is missing", _BUILD),
     Action.CHANGE: ("is out of date", _BUILD),
     Action.MERGE: ("has been edited, and is out of date", _EDITED),
     Action.REMOVE: ("is not generated any more", _BUILD),
     Action.PARK: (
-        "is not generated any more, and has lines of yours",
+        "is not generated any more, and has edits of yours",
         "build again to put it aside",
     ),
     Action.RESTORE: ("was put aside, and is generated again", _BUILD),
 }
 
 
-# What else is told by a build is about what it did.
+# The other remarks are about changes that a build made.
 _LASTING = (
     "outdated-code",
     "renamed-element",
@@ -34,14 +34,14 @@ _LASTING = (
 
 
 def report_stale(
-    written: Written, other_list: bool, remarks: Diagnostics, report: Diagnostics
+    written: Written, manifest_changed: bool, remarks: Diagnostics, report: Diagnostics
 ) -> None:
-    """Report each file that a build would change, and each generated one that was edited.
+    """Report each file that a build would change, and each edited generated file.
 
-    `other_list` is whether the list of files would change: with a file, or alone. What stands
-    beside files of the user to help them is not output.
+    `other_list` is True if the manifest would change. Notes beside files of the user are not
+    output.
     """
-    if other_list and not written.changes:
+    if manifest_changed and not written.changes:
         place = str(written.folder / manifest.NAME)
         report.report("stale-output", path=place, fault="is out of date", way=_BUILD)
     report.include(remark for remark in remarks if remark.name in _LASTING)

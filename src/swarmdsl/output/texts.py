@@ -1,8 +1,8 @@
-"""The texts that were generated, by their hashes: what a merge begins with.
+"""Generated contents by hash: the common ancestors of merges.
 
-They are kept in one compressed file beside the manifest. A model of today does not say what a
-model of yesterday was, nor does a generator, so that the text of yesterday cannot be made again.
-The file may be missing, or be that of another state: a text is found by its hash or not at all.
+They are kept in one compressed file beside the manifest, because the content of an earlier build
+cannot be generated again from the current model. The file may be missing or outdated: lookups by
+hash fail then.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ NAME = ".swarmdsl.texts"
 
 
 class Texts:
-    """The texts of an output folder, read when one is asked for, and those that come to them."""
+    """Contents of an output folder, loaded on demand, and newly added ones."""
 
     def __init__(self, out: Path) -> None:
         self._file = out / NAME
@@ -36,25 +36,25 @@ class Texts:
             return {}
 
     def add(self, text: str) -> str:
-        """Take up the text of a file, before there is anything of the user in it; its hash."""
+        """Add the content of a file, without user edits; return its hash."""
         hash_ = content_hash(text.encode())
         self._new[hash_] = text
         return hash_
 
     def add_facts(self, facts: Iterable[str]) -> None:
-        """Take up what code of the user builds on, which is found by its mark."""
+        """Add the facts that code of the user builds on; their mark is the key."""
         text = "\n".join(facts)
         self._new[sha256(text.encode()).hexdigest()] = text
 
     def get(self, hash_: str | None) -> bytes | None:
-        """The text with this hash, None where it is not known."""
+        """Return the content with a hash, None if unknown."""
         if hash_ is None:
             return None
         text = self._new[hash_] if hash_ in self._new else self._stored.get(hash_)
         return text.encode() if text is not None else None
 
     def facts(self, mark: str) -> list[str] | None:
-        """What code with this mark builds on."""
+        """Return the facts with a mark."""
         for texts in (self._new, self._stored):
             for hash_, text in texts.items():
                 if hash_.startswith(mark):
@@ -62,19 +62,19 @@ class Texts:
         return None
 
     def knows(self, content: bytes) -> bool:
-        """Whether this was generated, now or before, under whatever name."""
+        """Return True if the content was generated now or before, under any name."""
         hash_ = content_hash(content)
         return hash_ in self._new or hash_ in self._stored
 
     @property
     def missing(self) -> bool:
-        """Whether there is no file of them."""
+        """True if there is no file of them."""
         return not self._file.exists()
 
     def packed(self, wanted: Iterable[str], marks: Iterable[str]) -> bytes | None:
-        """Those with the hashes that are wanted, and facts with these marks or theirs, to store.
+        """Pack the contents with the given hashes, and the facts with their marks.
 
-        The same bytes for the same texts; None where they are stored.
+        Deterministic. None if they are already stored.
         """
         known = {**self._stored, **self._new}
         kept = {hash_: known[hash_] for hash_ in wanted if hash_ in known}
@@ -83,5 +83,5 @@ class Texts:
         kept |= {hash_: text for hash_, text in known.items() if hash_[:8] in named}
         if kept == self._stored:
             return None
-        # At level 6 it takes four times as long, for a sixth less.
+        # Level 6 takes four times as long and saves a sixth.
         return zlib.compress(json.dumps(kept, sort_keys=True).encode(), level=1)

@@ -1,8 +1,8 @@
-"""Files that are generated: what stands in their place is followed, kept or merged.
+"""Plan the update of generated files: replace, keep or merge the existing file.
 
-A file is as swarmc wrote it when its text was generated, now or before, and no region of it has
-lines of the user. Such a file follows the model, whoever it belongs to later. Any other has been
-worked on: it is kept where it is there to be filled in, else merged with what is generated now.
+A file is pristine if its content was generated, now or before, and its user regions are empty. A
+pristine file follows the model. Any other has been edited: a file to fill in is kept, others are
+merged with the new content.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from swarmdsl.output.warnings import NEW, NOTE
 
 
 def update(plan: Plan, path: str, file: OutputFile) -> None:
-    """Decide about a file; what stands in the way is reported, or is an OSError."""
+    """Plan the change of a file; obstacles are reported or raised as OSError."""
     if not plan.is_inside(path):
         return
     try:
@@ -29,7 +29,7 @@ def update(plan: Plan, path: str, file: OutputFile) -> None:
         found = _found(plan, path)
     except UnicodeEncodeError:
         reason = "it has characters that are not Unicode"
-        place, help_ = str(plan.disk.out / path), "it is the generator's to write what is Unicode"
+        place, help_ = str(plan.disk.out / path), "fix the generator: it must write valid Unicode"
         plan.report.report("cannot-write", path=place, reason=reason, help=help_)
     except NotADirectoryError:
         reason = "it is a file where a folder is needed"
@@ -54,20 +54,20 @@ def update(plan: Plan, path: str, file: OutputFile) -> None:
 
 
 def _keep(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> None:
-    """Leave a file that is the user's as it is, once there is something of the user in it."""
+    """Keep a file to fill in, once the user has edited it."""
     if plan.is_pristine(path, found.content, found.base):
-        _settle(plan, path, file, found, new)
+        _replace_pristine(plan, path, file, found, new)
         return
     found = renamed(plan, path, file, new, found)
     base = plan.texts.get(found.base)
     marks = outdated(found.content, new, base)
     if marks is not None and (marks[0] or found.base not in (None, plan.hashes[path])):
-        # What its code builds on is still the old text.
+        # Its code still builds on the old content.
         plan.hashes[path] = found.base or plan.hashes[path]
         facts = plan.texts.facts(marks[0]) if marks[0] else None
         note = warnings.changed_below(path, file, found.content, marks, base, facts)
         place = plan.disk.out / path
-        plan.add_neighbour(f"{path}{NOTE}", note)
+        plan.add_beside(f"{path}{NOTE}", note)
         warnings.report_outdated(place, file, found.content, marks, facts, plan.remarks)
     if found.source is None:
         plan.kept.append(path)
@@ -76,7 +76,7 @@ def _keep(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> 
 
 
 def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -> None:
-    """Bring a file up to date that is swarmc's, with what the user has written in it."""
+    """Update a file that swarmc owns, with the edits of the user."""
     pristine = plan.is_generated(found.content, found.base)
     if pristine:
         found = replace(found, base=content_hash(found.content))
@@ -84,11 +84,11 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
     of_user = user_regions.kept(found.content)
     filled, lost = user_regions.filled(new, of_user)
     if found.content == filled or (pristine and not lost):
-        _settle(plan, path, file, found, filled)
+        _replace_pristine(plan, path, file, found, filled)
         return
     is_foreign = found.base is None and found.source is None
     is_damaged = not is_foreign and (bool(lost) or user_regions.fault(found.content) is not None)
-    if plan.how.force and not is_damaged:
+    if plan.options.force and not is_damaged:
         plan.change(Action.OVERWRITE, path, found.content, filled, file, found.source)
     elif is_foreign:
         _report_foreign(plan, path)
@@ -97,7 +97,7 @@ def _update(plan: Plan, path: str, file: OutputFile, new: bytes, found: Found) -
 
 
 def _report_marks(plan: Plan, path: str, content: bytes, new: bytes) -> bool:
-    """Tell of marks for which lines in regions are not known as such; whether there are any."""
+    """Report invalid region marks; return True if there are any."""
     place, known = plan.disk.out / path, user_regions.ids(new)
     strange = [(id_, line) for id_, line in user_regions.ids(content).items() if id_ not in known]
     for id_, line in strange:
@@ -117,13 +117,13 @@ def _merge(
     found: Found,
     of_user: user_regions.Texts,
 ) -> None:
-    # Imported here because most builds merge nothing, and it is slow.
+    # Imported here because it is slow and most builds merge nothing.
     from swarmdsl.output.merge import merge
 
     base_hash, neighbour = found.base, f"{path}{NEW}"
     offered = plan.before.files.get(neighbour)
     if offered is not None and plan.disk.content(neighbour) is None:
-        # It was deleted: the user has taken over what is wanted of it.
+        # It was deleted: the user has finished the merge.
         base_hash = offered
     base = plan.texts.get(base_hash)
     if base is None and base_hash == plan.hashes[path]:
@@ -135,9 +135,9 @@ def _merge(
     told = _report_marks(plan, path, found.content, filled)
     merged = merge(base, found.content, filled) if base is not None else None
     if base is None or merged is None or merged.text is None:
-        # Where nothing is known of it, all of it is the user's: it was made from nothing.
+        # Without a known base, the whole file counts as edited: its base is empty.
         plan.hashes[path] = base_hash or plan.texts.add("")
-        plan.add_neighbour(neighbour, filled)
+        plan.add_beside(neighbour, filled)
         warnings.report_conflict(place, found.content, merged, plan.remarks)
         if found.source is None:
             plan.conflicts.append(path)
@@ -155,7 +155,7 @@ def _merge(
 
 
 def _base_as_edited(base: bytes, found: Found, filled: bytes, of_user: user_regions.Texts) -> bytes:
-    """The text from before with the regions of the user that stay, and under the new name."""
+    """Return the base with the remaining user regions and under the new name."""
     if found.names is not None:
         text, _ = found.names.rewritten(base.decode(), filled.decode(errors="surrogateescape"))
         base = text.encode(errors="surrogateescape")
@@ -166,8 +166,8 @@ def _base_as_edited(base: bytes, found: Found, filled: bytes, of_user: user_regi
     return base
 
 
-def _settle(plan: Plan, path: str, file: OutputFile, found: Found, new: bytes) -> None:
-    """Write a text in place of one that has nothing of the user but what is in it too."""
+def _replace_pristine(plan: Plan, path: str, file: OutputFile, found: Found, new: bytes) -> None:
+    """Replace a file that has no edits besides those in `new`."""
     if found.source is not None:
         plan.bring(path, found, new)
         return
@@ -185,8 +185,8 @@ def _found(plan: Plan, path: str) -> Found | None:
         source, names = plan.moved[path]
         if content is None or plan.is_pristine(path, content, base):
             return _found_elsewhere(plan, source, names)
-        reason = f"`{plan.disk.out / path}` has lines of yours already"
-        help_ = f"move them away, or put those of `{plan.disk.out / source}` there by hand"
+        reason = f"`{plan.disk.out / path}` already has edits of yours"
+        help_ = f"move them away, or merge those of `{plan.disk.out / source}` there by hand"
         plan.report.report("bad-rename", old=names.old, new=names.new, fault=reason, help=help_)
         return None
     if content is not None:
@@ -208,7 +208,7 @@ def _found_elsewhere(plan: Plan, source: str, names: Names) -> Found | None:
 
 
 def _report_foreign(plan: Plan, path: str) -> None:
-    reason = "it is not from swarmc"
+    reason = "swarmc did not generate it"
     help_ = "move it away, or overwrite it with `--force`"
     place = str(plan.disk.out / path)
     plan.report.report("would-overwrite", path=place, reason=reason, help=help_)

@@ -1,8 +1,7 @@
-"""Regions of a generated file that are the user's: what stands in them is kept.
+"""User regions of generated files, whose content is kept.
 
-A region lies between two lines that say, in a comment of whatever language the file is in,
-`swarmc:begin ID` and `swarmc:end ID`. The id is one of the model, so that a region is found
-again wherever the rest of the file has moved to.
+A region is between two comment lines with `swarmc:begin ID` and `swarmc:end ID`, in the language
+of the file. The id is that of a model element, so that a region is found wherever it moves.
 """
 
 from __future__ import annotations
@@ -11,13 +10,13 @@ import re
 from collections.abc import Mapping
 
 Texts = Mapping[str, bytes]
-"""What the user has written in each region."""
+"""User content of each region."""
 
 _MARK = rb"swarmc:(begin|end) ([A-Za-z0-9_.]+)"
 
 
 class RegionError(Exception):
-    """The marks of a file are not as they were: in which line, from 0, and what is wrong."""
+    """Invalid region marks; `line` counts from 0."""
 
     def __init__(self, line: int, fault: str) -> None:
         super().__init__(fault)
@@ -25,7 +24,7 @@ class RegionError(Exception):
 
 
 def fault(content: bytes) -> RegionError | None:
-    """What is wrong with the marks of a file, which has no regions then."""
+    """Return the fault in the marks of a file, which then has no regions."""
     try:
         _pieces(content)
     except RegionError as error:
@@ -34,18 +33,18 @@ def fault(content: bytes) -> RegionError | None:
 
 
 def generated(content: bytes) -> bytes:
-    """A file without what stands in its regions; all of it where the marks are wrong."""
+    """Return a file without the content of its regions; all of it if a mark is invalid."""
     return b"".join(b"".join(lines) for id_, lines in _whole(content) if id_ is None)
 
 
 def kept(content: bytes) -> dict[str, bytes]:
-    """What the user has written in each region; blank ones are left out."""
+    """Return the content of each region that is not blank."""
     found = {id_: b"".join(lines) for id_, lines in _whole(content) if id_ is not None}
     return {id_: text for id_, text in found.items() if text.strip()}
 
 
 def ids(content: bytes) -> dict[str, int]:
-    """The regions of a file, with the line in which each begins, from 0."""
+    """Map the regions of a file to their first lines, from 0."""
     found: dict[str, int] = {}
     line = 0
     for id_, lines in _whole(content):
@@ -56,7 +55,7 @@ def ids(content: bytes) -> dict[str, int]:
 
 
 def filled(content: bytes, of_user: Mapping[str, bytes]) -> tuple[bytes, list[str]]:
-    """A new file with what the user had written in its regions, and regions it does not have."""
+    """Insert user content in the regions of a new file; also return missing regions."""
     pieces = _whole(content)
     known = {id_ for id_, _ in pieces}
     text = b"".join(of_user.get(id_ or "", b"".join(lines)) for id_, lines in pieces)
@@ -64,7 +63,7 @@ def filled(content: bytes, of_user: Mapping[str, bytes]) -> tuple[bytes, list[st
 
 
 def _whole(content: bytes) -> list[tuple[str | None, list[bytes]]]:
-    """The same as `_pieces`; where the marks are wrong, all is outside."""
+    """Split like `_pieces`; with invalid marks, everything is outside."""
     try:
         return _pieces(content)
     except RegionError:
@@ -72,7 +71,7 @@ def _whole(content: bytes) -> list[tuple[str | None, list[bytes]]]:
 
 
 def _pieces(content: bytes) -> list[tuple[str | None, list[bytes]]]:
-    """The lines outside (None) and inside of regions, in turn; marks are outside.
+    """Split into lines outside (None) and inside of regions; marks are outside.
 
     Raises RegionError.
     """

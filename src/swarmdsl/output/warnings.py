@@ -1,4 +1,4 @@
-"""What is told about files that the user has worked on, and what is written beside them."""
+"""Warnings about files that the user has edited, and notes written beside them."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ if TYPE_CHECKING:
     from swarmdsl.output.merge import Merge
 
 NEW = ".swarmc-new"
-"""Ends the name of what would be generated in place of a file that it cannot be merged with."""
+"""Suffix of the generated version of a file that it cannot be merged with."""
 
 NOTE = ".swarmc-changes"
-"""Ends the name of what says how a model has changed below code of the user."""
+"""Suffix of the note about model changes that affect code of the user."""
 
 _MOST_LINES = 10
 
@@ -31,53 +31,53 @@ _MOST_LINES = 10
 def report_edited(
     place: Path, content: bytes, base: bytes, taken: int, report: Diagnostics
 ) -> None:
-    """A generated file has been edited, and `taken` changes were merged into it."""
-    # Imported here because most builds merge nothing, and it is slow; so below.
+    """Report an edited generated file, into which `taken` changes were merged."""
+    # Imported here, as below, because it is slow and most builds merge nothing.
     from swarmdsl.output.merge import first_difference
 
     source = _source(place, content)
     at = _line(source, first_difference(base, content))
     changes = "one change" if taken == 1 else f"{taken} changes"
-    notes = (f"{changes} of what is generated merged into it",) if taken else ()
-    help_ = "a region or a file of yours keeps lines for good; `--force` gives up the edit"
+    notes = (f"{changes} of the generator merged into it",) if taken else ()
+    help_ = "put your lines in a region or a file of your own; `--force` discards the edit"
     report.report("edited-output", at, path=str(place), notes=notes, help=help_)
 
 
 def report_conflict(place: Path, content: bytes, merge: Merge | None, report: Diagnostics) -> None:
-    """A generated file has been edited where it changes; what would be there is beside it."""
+    """Report a merge conflict; the generated version is beside the file."""
     source = _source(place, content)
     others: tuple[Label, ...] = ()
     at: Span | None = None
-    notes: tuple[str, ...] = ("what it was made from is not known",)
+    notes: tuple[str, ...] = ("the version that it was generated from is unknown",)
     if merge is not None:
         spans = [_line(source, first) for first, _ in merge.conflicts]
         at, notes = spans[0], ()
         others = tuple(Label(span, "and here") for span in spans[1:])
     help_ = (
-        f"take over what you need of `{place.name}{NEW}` beside it and delete that, "
-        "or give up the edit with `--force`"
+        f"merge what you need of `{place.name}{NEW}` beside it and delete that, "
+        "or discard the edit with `--force`"
     )
     report.report("merge-conflict", at, related=others, path=str(place), notes=notes, help=help_)
 
 
 def report_neighbour(place: Path, report: Diagnostics) -> None:
-    """What would be generated is not beside a file, since somebody has edited what is there."""
-    notes = ("what is generated now is not in it",)
-    help_ = "move it away or over the file that it is beside, and build again"
+    """Report that the file beside another one was edited, and thus is not updated."""
+    notes = ("it does not have the latest generated content",)
+    help_ = "delete it or replace the file beside it with it, and build again"
     report.report("edited-output", path=str(place), notes=notes, help=help_)
 
 
 def report_damaged(
     place: Path, content: bytes, line: int, fault: str, hint: str | None, report: Diagnostics
 ) -> None:
-    """The marks of the user's regions in a file are not as they were generated."""
+    """Report invalid region marks in a file."""
     at = _line(_source(place, content), line)
-    help_ = hint or "mend the mark: until then all lines of the file are kept as an edit"
+    help_ = hint or "fix the mark: until then all lines of the file are kept as an edit"
     report.report("damaged-region", at, path=str(place), fault=fault, help=help_)
 
 
 def report_link(link: Path, path: str, report: Diagnostics) -> None:
-    """A symbolic link leads out of the output folder on the way to a file."""
+    """Report a symbolic link that leads out of the output folder."""
     leads_to = os.path.realpath(link)
     target = path.removeprefix(f"{PARKED}/").partition("/")[0]
     notes = (f"it is a symbolic link to `{leads_to}`",)
@@ -86,33 +86,33 @@ def report_link(link: Path, path: str, report: Diagnostics) -> None:
 
 
 def report_other_model(out: Path, model: str, gone: int, report: Diagnostics) -> None:
-    """A folder has files of a model of another name, which go."""
+    """Report that files of a model with another name are removed."""
     files = "one file" if gone == 1 else f"{gone} files"
     help_ = (
         "build each model into a folder of its own, with `-o`, or all of them at once; "
-        f"where `{model}` has got another name, all is well"
+        f"ignore this if `{model}` was renamed"
     )
     report.report("other-model", path=str(out), model=model, files=files, help=help_)
 
 
 def report_parked(place: Path, aside: Path, report: Diagnostics) -> None:
-    """A file with lines of the user is put aside."""
-    help_ = f"it is in `{aside}`, and comes back when the model has that again"
+    """Report an edited file that is put aside."""
+    help_ = f"it is in `{aside}`, and is restored when the model has the element again"
     report.report("parked-code", path=str(place), help=help_)
 
 
 def report_renamed(
     old: str, new: str, at: Span | None, command: Iterable[str], report: Diagnostics
 ) -> None:
-    """A new element is like one that is gone."""
-    import shlex  # which most builds need not wait for
+    """Report a new element that looks like a removed one."""
+    import shlex  # most builds do not need it
 
     help_ = f"if it is, `{shlex.join(command)} --rename {old}={new}` moves your files"
     report.report("renamed-element", at, old=old, new=new, help=help_)
 
 
 def report_bad_rename(names: Names, made: Mapping[str, OutputFile], report: Diagnostics) -> None:
-    """Nothing was generated under the old name that is generated under the new one."""
+    """Report a rename without generated files for the old and the new name."""
     owners = {file.owner for file in made.values() if file.owner}
     if names.old in owners:
         fault, help_ = f"the model still has `{names.old}`", None
@@ -127,7 +127,7 @@ def report_bad_rename(names: Names, made: Mapping[str, OutputFile], report: Diag
 def report_old_name(
     place: Path, content: bytes, lines: Sequence[int], names: Names, report: Diagnostics
 ) -> None:
-    """A file of the user was moved, in which some lines may still name the old element."""
+    """Report a moved file of the user with lines that may name the old element."""
     if not lines:
         return
     source = _source(place, content)
@@ -135,7 +135,7 @@ def report_old_name(
     others = tuple(Label(span, "and here") for span in spans[1:])
     more = len(lines) - len(spans)
     notes = (f"and in {more} more lines",) if more else ()
-    help_ = f"write `{names.new}` where the element is meant; this is told once"
+    help_ = f"write `{names.new}` where the element is meant; this is reported once"
     first, path = spans[0], str(place)
     report.report(
         "old-name", first, related=others, notes=notes, help=help_, path=path, name=names.old
@@ -150,9 +150,9 @@ def report_outdated(
     facts: Sequence[str] | None,
     report: Diagnostics,
 ) -> None:
-    """Code of the user was written for what the model said before."""
-    help_ = f"adapt it, and then {_write_mark(content, marks)}"
-    notes = (*_differences(facts, file.facts), f"`{place.name}{NOTE}` beside it says more")
+    """Report code of the user that was written for an earlier model."""
+    help_ = f"adapt it, then {_write_mark(content, marks)}"
+    notes = (*_differences(facts, file.facts), f"see `{place.name}{NOTE}` beside it for details")
     report.report("outdated-code", file.origin, path=str(place), notes=notes, help=help_)
 
 
@@ -164,9 +164,10 @@ def changed_below(
     base: bytes | None,
     facts: Sequence[str] | None,
 ) -> bytes:
-    """A text for the person who adapts a file: what has changed that its code builds on.
+    """Return a note about the changes that the code in a file builds on.
 
-    `base` is what was generated in its place, `facts` what the code was written for.
+    `base` is the generated content that the file was created from, `facts` are what its code was
+    written for.
     """
     name = path.rpartition("/")[2]
     new = file.text.encode()
@@ -190,20 +191,20 @@ def changed_below(
 
 
 def report_changed_meanwhile(place: Path, report: Diagnostics) -> None:
-    """A file that the user has changed while the build decided what to do with it."""
-    reason, help_ = "it was changed while swarmc was at work", "build again: it is as you left it"
+    """Report a file that was changed while the build was running."""
+    reason, help_ = "it was changed during the build", "build again: your change is kept"
     report.report("cannot-write", path=str(place), reason=reason, help=help_)
 
 
 def _write_mark(content: bytes, marks: tuple[str, str]) -> str:
-    """What says that a file is adapted; its mark may have been deleted."""
+    """Return the instruction to mark a file as adapted."""
     if mark_in(content) is None:
         return f"write a comment with `swarmc:fits {marks[1]}` into it, where that was deleted"
     return f"write `swarmc:fits {marks[1]}` for `{marks[0]}` in it"
 
 
 def _differences(before: Sequence[str] | None, now: Sequence[str]) -> list[str]:
-    """The facts that are gone and those that are new."""
+    """Return removed and added facts."""
     if before is None:
         return []
     gone = [f"- {fact}" for fact in before if fact not in now]
@@ -215,14 +216,14 @@ def _source(place: Path, content: bytes) -> Source:
 
 
 def _line(source: Source, number: int) -> Span:
-    """A line of a source, counted from 0; the last where there are not so many."""
+    """Return the span of a line, from 0; the last line if there are fewer."""
     starts = [*source.line_starts, len(source.text)]
     number = min(number, len(starts) - 2)
     return Span(source, starts[number], max(starts[number], starts[number + 1] - 1))
 
 
 def _name(source: Source, number: int, names: Names) -> Span:
-    """The old name in a line."""
+    """Return the span of the old name in a line."""
     line = _line(source, number)
     start, end = names.place(line.text)
     return Span(source, line.start + start, line.start + end)

@@ -23,7 +23,7 @@ from swarmdsl.importing.repair import read
 from swarmdsl.importing.text import checked, text_of
 from swarmdsl.ir import Environment, Member, Multiplicity, Role, Swarm, System
 from swarmdsl.lowering import lower
-from swarmdsl.output import How, write
+from swarmdsl.output import WriteOptions, write
 
 PACKAGE = "fsm_behaviour"
 """What the package is called where nobody says otherwise, as it is there."""
@@ -40,7 +40,7 @@ def codegen(
     *,
     language: str,
     simulation: bool,
-    how: How,
+    how: WriteOptions,
 ) -> Result:
     """Make the packages of a state machine below `out`; `described` is an ADF file.
 
