@@ -72,11 +72,15 @@ class Document:
         start = sum(len(fragment.source.text) for fragment in old[:before])
         end = len(text) - sum(len(fragment.source.text) for fragment in old[last:])
         local = (
-            start <= end and is_self_contained(text[start:end]) and all(fragment.closed for fragment in old)
+            start <= end
+            and is_self_contained(text[start:end])
+            and all(fragment.closed for fragment in old)
         )
         if not local or start == end:
             return split_declarations(text)
-        places = [(start + first, start + end) for first, end in split_declarations(text[start:end])]
+        places = [
+            (start + first, start + end) for first, end in split_declarations(text[start:end])
+        ]
         lengths = [len(fragment.source.text) for fragment in old]
         ends = list(accumulate(lengths[:before]))
         head = list(zip([0, *ends], ends, strict=False))
