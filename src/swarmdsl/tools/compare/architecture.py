@@ -8,6 +8,7 @@ from typing import TypeVar
 from swarmdsl.ir import (
     Action,
     Component,
+    Docs,
     Event,
     Expression,
     Field,
@@ -67,11 +68,14 @@ def _interface(interface: Interface) -> Element:
         case Message():
             kind, parts = "message", {"field": interface.fields}
             constants = tuple(
-                Element(
-                    "constant",
-                    (each.name,),
-                    properties(type=type_value(each.type), value=expression_value(each.value)),
-                    origin=each.origin,
+                with_doc(
+                    Element(
+                        "constant",
+                        (each.name,),
+                        properties(type=type_value(each.type), value=expression_value(each.value)),
+                        origin=each.origin,
+                    ),
+                    each.doc,
                 )
                 for each in interface.constants
             )
@@ -116,18 +120,21 @@ def _function(function: Function) -> Element:
         type=type_value(call.type),
     )
     ports = (
-        Element(
-            f"{port.direction} port",
-            (port.topic,),
-            properties(type=type_value(port.type)),
-            origin=port.origin,
+        with_doc(
+            Element(
+                f"{port.direction} port",
+                (port.topic,),
+                properties(type=type_value(port.type)),
+                origin=port.origin,
+            ),
+            port.doc,
         )
         for port in function.ports
     )
     children = (*ports, *params(function.params))
     ref = Ref("function", function.name)
     element = Element("function", (function.name,), values, children, ref, function.origin)
-    return with_doc(element, function.doc)
+    return with_doc(element, function.doc, (("call", call.doc),))
 
 
 def params(declared: Iterable[Param]) -> Iterator[Element]:
@@ -167,7 +174,9 @@ def _components(system: System) -> Iterator[Element]:
         )
         ref = Ref("component", each.name)
         yield with_doc(
-            Element("component", (each.name,), values, children, ref, each.origin), each.doc
+            Element("component", (each.name,), values, children, ref, each.origin),
+            each.doc,
+            tuple(_own(each.docs, base.docs if base else ())),
         )
 
 
@@ -192,14 +201,26 @@ def _members(system: System) -> Iterator[Element]:
             *params(_own(each.params, base.params if base else ())),
             *(_part(part) for part in _own(each.parts, base.parts if base else ())),
             *(
-                Element("connector", (f"{line.source} -> {line.target}",), origin=line.origin)
+                with_doc(
+                    Element("connector", (f"{line.source} -> {line.target}",), origin=line.origin),
+                    line.doc,
+                )
                 for line in _own(each.connectors, base.connectors if base else ())
             ),
         )
         ref = Ref("member", each.name)
         yield with_doc(
-            Element("member", (each.name,), values, children, ref, each.origin), each.doc
+            Element("member", (each.name,), values, children, ref, each.origin),
+            each.doc,
+            tuple(_own(_member_docs(each), _member_docs(base) if base else ())),
         )
+
+
+def _member_docs(member: Member) -> Docs:
+    settings = member.communication
+    if settings is None:
+        return member.docs
+    return (*member.docs, (settings.technology, settings.doc), *settings.docs)
 
 
 def _communication(member: Member, base: Member | None) -> Value:
@@ -214,7 +235,7 @@ def _part(part: Part) -> Element:
     values = properties(
         component=_named(part.component, "component"), values=argument_values(part.values)
     )
-    return with_doc(Element("part", (part.name,), values, origin=part.origin), part.doc)
+    return with_doc(Element("part", (part.name,), values, origin=part.origin), part.doc, part.docs)
 
 
 def _others(system: System) -> Iterator[Element]:
@@ -223,14 +244,14 @@ def _others(system: System) -> Iterator[Element]:
         values = properties(world=world.world, size=f"{size} m" if size else "")
         ref = Ref("environment", world.name)
         element = Element("environment", (world.name,), values, (), ref, world.origin)
-        yield with_doc(element, world.doc)
+        yield with_doc(element, world.doc, world.docs)
     for fitness in system.fitness:
         values = ((fitness.goal, expression_value(fitness.value)),)
         inputs = (_field(each, "input") for each in fitness.inputs)
         ref = Ref("fitness", fitness.name)
         children = (*inputs, *params(fitness.params))
         element = Element("fitness", (fitness.name,), values, children, ref, fitness.origin)
-        yield with_doc(element, fitness.doc)
+        yield with_doc(element, fitness.doc, fitness.docs)
 
 
 def _swarm(swarm: Swarm) -> Element:
@@ -252,25 +273,31 @@ def _swarm(swarm: Swarm) -> Element:
     )
     ref = Ref("swarm", swarm.name)
     element = Element("swarm", (swarm.name,), values, tuple(roles), ref, swarm.origin)
-    return with_doc(element, swarm.doc)
+    return with_doc(element, swarm.doc, swarm.docs)
 
 
 def _optimization(search: Optimization) -> Element:
     ranges = [
-        Element(
-            "range",
-            (f"{each.role}.{each.param}",),
-            properties(values=_range(each.lower, each.upper), step=expression_value(each.step)),
-            origin=each.origin,
+        with_doc(
+            Element(
+                "range",
+                (f"{each.role}.{each.param}",),
+                properties(values=_range(each.lower, each.upper), step=expression_value(each.step)),
+                origin=each.origin,
+            ),
+            each.doc,
         )
         for each in search.params
     ]
     ranges += (
-        Element(
-            "range",
-            (f"number of {each.role}",),
-            properties(values=_range(each.lower, each.upper)),
-            origin=each.origin,
+        with_doc(
+            Element(
+                "range",
+                (f"number of {each.role}",),
+                properties(values=_range(each.lower, each.upper)),
+                origin=each.origin,
+            ),
+            each.doc,
         )
         for each in search.counts
     )
@@ -278,7 +305,7 @@ def _optimization(search: Optimization) -> Element:
     element = Element(
         "optimization", (Ref("swarm", search.swarm),), settings, tuple(ranges), None, search.origin
     )
-    return with_doc(element, search.doc)
+    return with_doc(element, search.doc, search.docs)
 
 
 def _range(lower: Expression, upper: Expression) -> Value:

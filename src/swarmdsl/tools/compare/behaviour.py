@@ -83,7 +83,7 @@ def machine_element(machine: StateMachine, system: System) -> Element:
         Ref("statemachine", machine.name),
         machine.origin,
     )
-    return with_doc(element, machine.doc)
+    return with_doc(element, machine.doc, machine.docs)
 
 
 def _params(params: Iterable[Param], machine: str) -> Iterator[Element]:
@@ -124,7 +124,9 @@ class _Machine:
         )
         ref = Ref(state_kind(self.name), state.id)
         return with_doc(
-            Element(VERTEX_KIND, (state.name,), values, children, ref, state.origin), state.doc
+            Element(VERTEX_KIND, (state.name,), values, children, ref, state.origin),
+            state.doc,
+            state.docs,
         )
 
     def _transition(self, transition: Transition, state: State) -> Element:

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from swarmdsl.base.records import dataclass, field, replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.swarm_printer.expressions import expression
-from swarmdsl.ir import Expression, Type
+from swarmdsl.ir import Docs, Expression, Type
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,11 +113,11 @@ def variable_kind(machine: str) -> str:
     return f"variable of {machine}"
 
 
-def with_doc(element: Element, doc: str) -> Element:
-    """Return the element with its doc comment as a property."""
-    if not doc:
-        return element
-    return replace(element, values=(*element.values, (DOC, (" ".join(doc.split()),))))
+def with_doc(element: Element, doc: str, lines: Docs = ()) -> Element:
+    """Return the element with its doc comments, and those of single lines in it, as properties."""
+    found = [(DOC, doc), *((f"{DOC} of {name}", text) for name, text in lines)]
+    values = tuple((name, (" ".join(text.split()),)) for name, text in found if text)
+    return replace(element, values=(*element.values, *values)) if values else element
 
 
 DOC = "documentation"

@@ -1,0 +1,95 @@
+"""Fields of the IR that a consumer leaves out, by the reason."""
+
+from __future__ import annotations
+
+_REASONS: dict[str, dict[str, str]] = {
+    "dump": {
+        "follows from the parts of the expression": (
+            "Binary.type Call.type EventData.type FieldAccess.type Literal.type ParamRef.type "
+            "Unary.type VariableRef.type"
+        ),
+    },
+    "printer": {
+        "follows from the parts of the expression": (
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+        ),
+    },
+    "diff": {
+        "follows from the parts of the expression": (
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+        ),
+        "a name that nothing declares reads as another name of the swarm": ("Optimization.swarm"),
+        "the name of the file where there is no package": ("System.name"),
+    },
+    "diagram": {
+        "comments are not drawn": (
+            "Action.doc Communication.doc CommunicationSettings.doc "
+            "CommunicationSettings.docs Component.doc Component.docs Connector.doc "
+            "Constant.doc CountRange.doc Environment.doc Environment.docs Event.doc Field.doc "
+            "Fitness.doc Fitness.docs Function.doc FunctionPort.doc Member.doc Member.docs "
+            "Message.doc Optimization.doc Optimization.docs Param.doc ParamRange.doc Part.doc "
+            "Part.docs Port.doc Role.doc Service.doc State.docs StateMachine.doc "
+            "StateMachine.docs Swarm.doc Swarm.docs System.doc"
+        ),
+        "interfaces are not drawn; types are drawn without package and bounds": (
+            "Action.external Action.feedback Action.goal Action.result Action.type "
+            "Array.bounded Array.element Array.size Constant.name Constant.type "
+            "Constant.value Message.constants Message.external Message.fields Message.type "
+            "Named.package Primitive.bound Service.external Service.request Service.response "
+            "Service.type System.interfaces"
+        ),
+        "follows from the parts of the expression": (
+            "Binary.type Call.type EventData.type FieldAccess.type ParamRef.type Unary.type"
+        ),
+        "calls are drawn by the name of their function": (
+            "Communication.name Communication.paradigm Communication.type "
+            "Function.communication Function.params Function.ports FunctionPort.direction "
+            "FunctionPort.topic FunctionPort.type"
+        ),
+        "communication settings are not drawn": (
+            "CommunicationSettings.technology CommunicationSettings.values Member.communication"
+        ),
+        "inheritance and operations are not drawn": (
+            "Component.base Component.operations Member.base"
+        ),
+        "events and ports are drawn by name": ("Event.topic Event.type Port.topic"),
+        "diagrams have the names of what they show": ("System.name"),
+    },
+    "portable SCXML": {
+        "follows from the parts of the expression": (
+            "Binary.type Call.type EventData.type Literal.type ParamRef.type Unary.type"
+        ),
+        "comments of calls are not written": ("Communication.doc"),
+        "a document is about one state machine": (
+            "CommunicationSettings.doc CommunicationSettings.docs "
+            "CommunicationSettings.technology CommunicationSettings.values Component.base "
+            "Component.behavior Component.doc Component.docs Component.kind Component.name "
+            "Component.operations Component.params Component.ports Connector.doc "
+            "Connector.source Connector.target CountRange.doc CountRange.lower "
+            "CountRange.role CountRange.upper Environment.doc Environment.docs "
+            "Environment.name Environment.size Environment.world Fitness.doc Fitness.docs "
+            "Fitness.goal Fitness.inputs Fitness.name Fitness.params Fitness.value "
+            "Member.base Member.behavior Member.communication Member.connectors Member.doc "
+            "Member.docs Member.name Member.params Member.parts Member.ports "
+            "Multiplicity.lower Multiplicity.upper Optimization.counts Optimization.doc "
+            "Optimization.docs Optimization.params Optimization.settings Optimization.swarm "
+            "ParamRange.doc ParamRange.lower ParamRange.param ParamRange.role ParamRange.step "
+            "ParamRange.upper Part.component Part.doc Part.docs Part.name Part.operations "
+            "Part.values Port.direction Port.doc Port.name Port.topic Port.type PortRef.part "
+            "PortRef.port Role.doc Role.member Role.multiplicity Role.name Swarm.doc "
+            "Swarm.docs Swarm.environment Swarm.fitness Swarm.name Swarm.roles "
+            "System.components System.doc System.environments System.fitness System.members "
+            "System.optimizations System.swarms"
+        ),
+        "functions are called by the name of their server": (
+            "Function.params Function.ports FunctionPort.direction FunctionPort.doc "
+            "FunctionPort.topic FunctionPort.type"
+        ),
+    },
+    "document": {},
+}
+
+LEFT_OUT = {
+    consumer: {name for names in reasons.values() for name in names.split()}
+    for consumer, reasons in _REASONS.items()
+}

@@ -1,0 +1,193 @@
+"""Every field of the intermediate representation reaches every consumer.
+
+A field is changed in a model; a consumer whose output stays the same has overlooked it, unless
+LEFT_OUT says that it leaves the field out. A new field fails here until each consumer shows it,
+and until a model among MODELS uses it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import tempfile
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from swarmdsl import ir
+from swarmdsl.base.diagnostics.collector import Diagnostics
+from swarmdsl.base.source import Source
+from swarmdsl.codegen.diagram.mermaid import mermaid
+from swarmdsl.codegen.exchange.scxml import Options, emit
+from swarmdsl.codegen.swarm_printer.system import print_system
+from swarmdsl.driver import pipeline
+from swarmdsl.ir.dump import dump
+from swarmdsl.syntax.formatter import formatted
+from swarmdsl.tools.compare.comparison import compare
+from swarmdsl.tools.diagram.dot import dot
+from swarmdsl.tools.diagram.views import diagrams
+from swarmdsl.tools.document import document
+from swarmdsl.tools.merge.files import merge_files
+
+from .left_out import LEFT_OUT
+from .mutations import fields, systems
+
+ROOT = Path(__file__).resolve().parents[2]
+MODELS = (
+    Path(__file__).parent / "model.swarm",
+    ROOT / "tests/golden/language/model.swarm",
+    ROOT / "tests/golden/everything/model.swarm",
+    ROOT / "tests/golden/operations/model.swarm",
+    ROOT / "tests/golden/submachine/model.swarm",
+    ROOT / "examples/search_and_rescue",
+)
+TRIES = 24
+"""Places at which a field is changed until a consumer shows it."""
+
+
+@cache
+def system(model: Path) -> ir.System:
+    found = pipeline.check([model]).system
+    assert found is not None
+    return found
+
+
+def shown(consumer: Callable[[ir.System], object], given: ir.System) -> object:
+    """What a consumer makes of a system; a value that it refuses has been looked at."""
+    try:
+        return consumer(given)
+    except Exception as error:
+        return type(error)
+
+
+def print_differences(given: ir.System) -> object:
+    return compare(_before[0], given)[0]
+
+
+_before: list[ir.System] = []
+
+
+def draw(given: ir.System) -> object:
+    return [text(each) for each in diagrams(given) for text in (mermaid, dot)]
+
+
+def write_scxml(given: ir.System) -> object:
+    return [file.text for file in emit(given, Options(profile="portable"), Diagnostics())]
+
+
+ON_SYSTEMS: Mapping[str, Callable[[ir.System], object]] = {
+    "dump": dump,
+    "printer": print_system,
+    "diff": print_differences,
+    "diagram": draw,
+    "portable SCXML": write_scxml,
+}
+
+
+def checked_text(text: str) -> pipeline.Result:
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "model.swarm"
+        path.write_text(text, encoding="utf-8")
+        result = pipeline.check([path])
+        result.system  # noqa: B018 - lowered while the file exists
+        return result
+
+
+def documented(text: str) -> object:
+    result = checked_text(text)
+    assert result.valid is not None
+    return document(result.valid)[1]
+
+
+def format_text(text: str) -> object:
+    return formatted(Source("model.swarm", text), Diagnostics())
+
+
+def merged_into(base: str) -> Callable[[str], object]:
+    """Merge a change of one side only: the result has it."""
+
+    def merge(text: str) -> object:
+        with tempfile.TemporaryDirectory() as folder:
+            paths = [Path(folder) / name for name in ("base", "ours", "theirs")]
+            for path, content in zip(paths, (base, base, text), strict=True):
+                path.write_text(content, encoding="utf-8")
+            result = merge_files(*paths, Diagnostics())
+        assert result is not None
+        assert not result.conflicts
+        return result.content
+
+    return merge
+
+
+def all_fields() -> Iterator[str]:
+    """`Class.field` of all nodes of the IR, without those that lowering derives."""
+    for name in set(ir.__all__) - {"PortGroup"}:
+        cls = getattr(ir, name)
+        if isinstance(cls, type) and dataclasses.is_dataclass(cls):
+            yield from (f"{name}.{each}" for each in fields(cls))
+
+
+@cache
+def changes() -> Mapping[str, list[tuple[Path, Callable[[], ir.System]]]]:
+    """Changes of each field, over all models."""
+    found: dict[str, list[tuple[str, Path, Callable[[], ir.System]]]] = {}
+    for model in MODELS:
+        for name, kind, make in systems(system(model)):
+            found.setdefault(name, []).append((kind, model, make))
+    return {name: spread(each) for name, each in found.items()}
+
+
+def spread(
+    places: list[tuple[str, Path, Callable[[], ir.System]]],
+) -> list[tuple[Path, Callable[[], ir.System]]]:
+    """Choose TRIES places at most, from nodes of each kind and from all models."""
+    by_kind: dict[str, list[tuple[Path, Callable[[], ir.System]]]] = {}
+    for kind, model, make in places:
+        by_kind.setdefault(kind, []).append((model, make))
+    share = max(TRIES // len(by_kind), 1)
+    return [
+        each for found in by_kind.values() for each in found[:: max(len(found) // share, 1)][:share]
+    ]
+
+
+def test_the_models_use_every_field() -> None:
+    assert sorted(set(all_fields()) - changes().keys()) == []
+
+
+@pytest.mark.parametrize("name", sorted(set(all_fields())))
+def test_a_change_is_shown(name: str) -> None:
+    overlooked = set(ON_SYSTEMS)
+    for model, make in changes()[name]:
+        before, after = system(model), make()
+        _before[:] = [before]
+        for consumer in sorted(overlooked):
+            use = ON_SYSTEMS[consumer]
+            if shown(use, before) != shown(use, after):
+                overlooked.discard(consumer)
+    assert overlooked == {each for each in ON_SYSTEMS if name in LEFT_OUT[each]}
+
+
+@pytest.mark.parametrize("name", sorted(set(all_fields()) - LEFT_OUT["printer"]))
+def test_a_change_of_the_text_is_kept(name: str) -> None:
+    """The text with the change is formatted, merged and documented."""
+    overlooked = {"document"}
+    for model, make in changes()[name]:
+        before = print_system(system(model))
+        try:
+            after = print_system(make())
+        except Exception:
+            continue
+        if before == after:
+            continue
+        valid = checked_text(after)
+        if valid.system is None:
+            continue
+        text = format_text(after)
+        assert isinstance(text, str)
+        assert checked_text(text).system == valid.system
+        assert merged_into(before)(after) == after.encode()
+        if overlooked and documented(before) != documented(after):
+            overlooked.clear()
+            break
+    assert overlooked == ({"document"} if name in LEFT_OUT["document"] else set())
