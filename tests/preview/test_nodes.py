@@ -1,4 +1,4 @@
-"""Nodes come, go and come again while a preview listens, in a graph of ROS 2 that is made up."""
+"""Tests of nodes that start, end and restart during a preview, in a fake ROS graph."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from swarmdsl.ide.preview.ros2 import _Ears
-from swarmdsl.ide.preview.serving import News
+from swarmdsl.ide.preview.ros2 import _NodeListener
+from swarmdsl.ide.preview.serving import Snapshot
 
 
 class Graph:
-    """A node in a graph with one other, whose publishers have the ids `there`."""
+    """Node in a graph with one other node, whose publishers have the ids `there`."""
 
     def __init__(self) -> None:
         self.there: set[int] = set()
@@ -29,10 +29,10 @@ class Graph:
         return [SimpleNamespace(endpoint_gid=[each, 0]) for each in self.there]
 
     def create_subscription(
-        self, kind: Any, topic: str, hear: Callable[[Any], None], qos: Any
+        self, kind: Any, topic: str, read: Callable[[Any], None], qos: Any
     ) -> str:
         assert topic not in self.heard
-        self.heard[topic] = hear
+        self.heard[topic] = read
         return topic
 
     def destroy_subscription(self, topic: str) -> None:
@@ -47,7 +47,7 @@ class Graph:
 
 
 class Told:
-    """The news that pages would be told: where the robot is, None where it is gone."""
+    """Records the states of a robot; None when it ended."""
 
     def __init__(self) -> None:
         self.places: list[Any] = []
@@ -59,43 +59,43 @@ class Told:
         self.places.append(None)
 
 
-def listening(graph: Graph, news: Any) -> _Ears:
+def listening(graph: Graph, snapshot: Any) -> _NodeListener:
     qos = SimpleNamespace(
         QoSProfile=lambda **chosen: chosen, DurabilityPolicy=SimpleNamespace(TRANSIENT_LOCAL=1)
     )
-    return _Ears(qos, None, graph, ["/yard"], news, pytest.fail)
+    return _NodeListener(qos, None, graph, ["/yard"], snapshot, pytest.fail)
 
 
-def test_a_machine_alone_is_called_as_its_node_whoever_else_is_there() -> None:
-    graph, news = Graph(), News()
-    ears = listening(graph, news)
+def test_machine_outside_of_a_swarm_is_named_after_its_node() -> None:
+    graph, snapshot = Graph(), Snapshot()
+    listener = listening(graph, snapshot)
     graph.there = {1}
-    ears.look()
+    listener.poll()
     graph.say("transitions", "Lie", member=None)
-    assert next(news.follow()) == [{"active": {"/yard/dog": ["Lie"]}}]
+    assert next(snapshot.follow()) == [{"active": {"/yard/dog": ["Lie"]}}]
 
 
 @pytest.mark.parametrize("between", [set(), {1, 2}], ids=["ended", "killed"])
-def test_a_node_that_starts_again_between_two_looks(between: set[int]) -> None:
+def test_node_restarts_between_two_polls(between: set[int]) -> None:
     graph, told = Graph(), Told()
-    ears = listening(graph, told)
-    ears.look()
+    listener = listening(graph, told)
+    listener.poll()
     assert not graph.heard
     graph.there = {1}
-    ears.look()
+    listener.poll()
     graph.say("state", "Lie")
     graph.say("transitions", "Walk")
-    graph.say("state", "Lie")  # what was said before, late
-    ears.look()
+    graph.say("state", "Lie")  # a late message of the old node
+    listener.poll()
     assert told.places == [["Lie"], ["Walk"]]
-    # A node that is killed is in the graph still when the next one comes.
+    # A killed node is still in the graph when its successor starts.
     graph.there = between or {2}
-    ears.look()
+    listener.poll()
     graph.say("state", "Lie")
     graph.there = {2}
-    ears.look()
+    listener.poll()
     assert told.places[2:] == [None, ["Lie"]]
     graph.there = set()
-    ears.look()
+    listener.poll()
     assert told.places[4:] == [None]
     assert not graph.heard

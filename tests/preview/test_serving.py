@@ -1,4 +1,4 @@
-"""`swarmc preview`, as a browser asks it."""
+"""Tests of `swarmc preview` through HTTP and a browser."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ swarm Team { digger : Digger[2] }
 PATIENCE = 60
 
 
-# Notes which transitions light up: they do not for long.
+# Records highlighted transitions, which are highlighted only briefly.
 WATCH = """
   window.flashed = [];
   const note = (all) => all.forEach(({ target }) =>
@@ -63,7 +63,7 @@ def step(member: str, *states: str, **more: Any) -> str:
 
 
 class Browser:
-    """Asks the page of a preview, and hears what it is told."""
+    """HTTP client of a preview page that receives its events."""
 
     def __init__(self, port: int) -> None:
         self.port = port
@@ -87,12 +87,12 @@ class Browser:
         return json.loads(answer.read())
 
     def leave(self) -> None:
-        """Hear nothing any more."""
+        """Close the event stream."""
         assert self._events is not None
         self._events.close()
 
     def told(self) -> Any:
-        """The next news."""
+        """Return the next message."""
         if self._events is None:
             self._events = self.get("/events")
         while True:
@@ -122,7 +122,7 @@ def served(model: Path, *options: str, named: bool = True) -> Iterator[Browser]:
     process = subprocess.Popen(
         command,
         cwd=model.parent,
-        # Where no editor is found.
+        # No editor was found.
         env={**os.environ, "PATH": os.defpath},
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
@@ -140,7 +140,7 @@ def served(model: Path, *options: str, named: bool = True) -> Iterator[Browser]:
     assert process.returncode == 0, said
 
 
-def test_it_follows_the_text(browser: Browser, model: Path) -> None:
+def test_preview_follows_the_text(browser: Browser, model: Path) -> None:
     assert browser.told() == {
         "titles": {
             "Work.statechart": "Work (state machine)",
@@ -165,20 +165,18 @@ def test_it_follows_the_text(browser: Browser, model: Path) -> None:
     assert browser.picture("Work.statechart")["id"] == "Job.statechart", "the first of those there"
 
 
-def test_a_page_that_goes_takes_no_others_with_it(browser: Browser, model: Path) -> None:
+def test_closed_page_leaves_others_open(browser: Browser, model: Path) -> None:
     browser.told()
     gone = Browser(browser.port)
     gone.told()
     gone.leave()
-    # The first words to a page that is gone are still taken, the next ones are not.
+    # The first write to a closed page succeeds, the next ones fail.
     for name in ("Done", "Ended", "Over"):
         model.write_text(MACHINE.replace("Ready", name), encoding="utf-8")
         assert "titles" in browser.told()
 
 
-def test_a_page_that_comes_while_the_text_is_broken_gets_both(
-    browser: Browser, model: Path
-) -> None:
+def test_new_page_gets_diagrams_and_errors(browser: Browser, model: Path) -> None:
     browser.told()
     model.write_text(MACHINE.replace("-> Ready", "-> Raedy"), encoding="utf-8")
     browser.told()
@@ -198,13 +196,13 @@ def test_the_page(browser: Browser) -> None:
         assert browser.get(path).status == 404, path
 
 
-def test_pages_of_others_are_not_answered(browser: Browser) -> None:
+def test_foreign_pages_are_rejected(browser: Browser) -> None:
     for path in ("/", "/events", "/picture?Work.statechart"):
         assert browser.get(path, host=f"example.org:{browser.port}").status == 403
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
-def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> None:
+def test_page_in_a_browser(browser: Browser, model: Path, tmp_path: Path) -> None:
     playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     with playwright.sync_playwright() as driver:
         options = {"executable_path": shutil.which("chromium"), "args": ["--no-sandbox"]}
@@ -221,7 +219,7 @@ def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> No
         expect(picture).to_contain_text("Busy")
 
         model.write_text(MACHINE.replace("-> Ready", "-> Raedy"), encoding="utf-8")
-        expect(page.locator("#state")).to_have_text("1 mistake: this is how it was before")
+        expect(page.locator("#state")).to_have_text("1 error: showing the last valid version")
         expect(picture).to_contain_text("Ready")
         model.write_text(MACHINE.replace("Ready", "Done"), encoding="utf-8")
         expect(picture).to_contain_text("Done")
@@ -245,7 +243,7 @@ def test_what_a_person_sees(browser: Browser, model: Path, tmp_path: Path) -> No
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
-def test_states_fold_and_light_up(tmp_path: Path) -> None:
+def test_states_fold_and_are_highlighted(tmp_path: Path) -> None:
     playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
     model.write_text(NESTED, encoding="utf-8")
@@ -269,7 +267,7 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         fold.click()
         expect(picture).not_to_contain_text("Dig")
         expect(picture).to_contain_text("Home")
-        # It stays folded over edits, and when the page is read again.
+        # It stays folded after edits and reloads.
         model.write_text(NESTED.replace("Home", "House"), encoding="utf-8")
         expect(picture).to_contain_text("House")
         expect(picture).not_to_contain_text("Dig")
@@ -303,7 +301,7 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         expect(picture.locator(".taken")).to_have_count(0)
 
         def flashed(last: str, *states: str, **more: Any) -> set[str]:
-            """What lights up when a robot goes on and then, a transition later, ends."""
+            """Return the ids highlighted when a robot takes `last` and then ends."""
             page.evaluate("flashed.length = 0")
             with trace.open("a", encoding="utf-8") as file:
                 file.write(step("digger[1]", *states, **more))
@@ -317,10 +315,10 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
         assert flashed("House->0", "House", event="after", taken=["House->0"]) == {"House->0"}
         out = flashed("House->1", "Out.Dig", event="after", taken=["House->1"], entered=dig)
         assert out == {"House->1", "Out#initial->"}
-        rest = ["Out", "Out.Rest", "Out.Dig"]  # on its way it was there, too
+        rest = ["Out", "Out.Rest", "Out.Dig"]  # on the way, it was there too
         aside = flashed("House->2", "Out.Dig", event="after", taken=["House->2"], entered=rest)
         assert aside == {"House->2"}, "it came to Out by another way"
-        who.select_option("no lights")
+        who.select_option("no highlighting")
         expect(active).to_have_count(0)
         who.select_option("all 2")
         expect(active).to_have_count(2)
@@ -332,7 +330,7 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
             time.sleep(0.05)
         assert places.read_text(encoding="utf-8") == f"at 8:11 {model}\n"
 
-        # One of several machines alone is where its machine is, and nowhere else.
+        # A machine outside of a swarm is highlighted only in its own diagram.
         trace.write_text(step("Job (a.jsonl)", "Out.Rest"), encoding="utf-8")
         expect(active).to_have_count(1)
         expect(active).to_have_attribute("data-id", "Out.Rest")
@@ -345,7 +343,7 @@ def test_states_fold_and_light_up(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="no browser: apt-get install chromium")
-def test_where_robots_are_is_shown_also_if_it_is_known_before_the_diagrams(tmp_path: Path) -> None:
+def test_active_states_before_the_diagrams(tmp_path: Path) -> None:
     playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: `make vscode`")
     model, trace = tmp_path / "work.swarm", tmp_path / "trace.jsonl"
     model.write_text(NESTED.replace("-> Home", "-> Hmoe"), encoding="utf-8")
@@ -366,7 +364,7 @@ def test_where_robots_are_is_shown_also_if_it_is_known_before_the_diagrams(tmp_p
         chromium.close()
 
 
-def test_only_the_page_opens_places_and_only_those_of_the_model(model: Path) -> None:
+def test_only_the_page_opens_only_places_of_the_model(model: Path) -> None:
     address = "cool-editor://{file}?{line}"
     with served(model, "--editor", address) as browser:
         browser.told()
@@ -380,14 +378,14 @@ def test_only_the_page_opens_places_and_only_those_of_the_model(model: Path) -> 
         assert browser.post("/picture", '""', {"Content-Type": "application/json"}).status == 403
 
 
-def test_places_of_the_sources_of_a_project_are_whole(model: Path) -> None:
-    """An editor must not take the name of a file for an option."""
+def test_places_in_a_project_are_absolute(model: Path) -> None:
+    """An editor must not read a file name as an option."""
     with served(model, "--editor", "cool-editor://{file}?{line}", named=False) as browser:
         browser.told()
         assert browser.opened(f"{model}:4:9") == {"address": f"cool-editor://{model}?4"}
 
 
-def test_a_port_of_a_component_in_another_file_is_a_place(tmp_path: Path) -> None:
+def test_port_of_a_component_in_another_file_is_a_place(tmp_path: Path) -> None:
     (tmp_path / "parts.swarm").write_text(
         "package parts\nmessage Image {}\nsensor Eye { out image : Image }", encoding="utf-8"
     )
@@ -401,7 +399,7 @@ def test_a_port_of_a_component_in_another_file_is_a_place(tmp_path: Path) -> Non
         assert browser.opened(f"{place}:3:14") == {"address": f"cool-editor://{place}?3"}
 
 
-def test_nonsense_that_is_sent_is_no_place(model: Path) -> None:
+def test_invalid_places(model: Path) -> None:
     with served(model, "--editor", "cool-editor://{file}?{line}") as browser:
         browser.told()
         form = {"Content-Type": "application/json"}

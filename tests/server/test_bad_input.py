@@ -63,7 +63,7 @@ def raw():
     assert b"Traceback" not in errors, errors.decode()
 
 
-def test_messages_that_are_none(raw):
+def test_invalid_messages(raw):
     assert raw.ask("textDocument/hover", {})["error"]["code"] == -32002
     raw.initialize()
     raw.send(b"Content-Length: 5\r\n\r\n{nope")
@@ -81,7 +81,7 @@ def test_messages_that_are_none(raw):
     assert raw.ask("workspace/symbol", {"query": 5})["result"] == []
 
 
-def test_params_of_other_shapes(raw, tmp_path):
+def test_invalid_params(raw, tmp_path):
     """Each request with params that are missing, or not what they should be, is answered."""
     path = tmp_path / "a.swarm"
     raw.initialize(tmp_path)
@@ -119,12 +119,12 @@ def test_params_of_other_shapes(raw, tmp_path):
 
 
 @pytest.mark.parametrize("data", [b"x" * 10**6, b"Content-Length: 999999999999\r\n\r\n"])
-def test_what_is_no_protocol_ends_the_server(data):
+def test_invalid_framing_ends_the_server(data):
     ran = subprocess.run(SERVER, input=data, capture_output=True, timeout=60)
     assert (ran.returncode, ran.stdout, ran.stderr) == (1, b"", b"")
 
 
-def test_requests_that_are_cancelled(raw, tmp_path):
+def test_cancelled_requests(raw, tmp_path):
     raw.initialize(tmp_path)
     query = message(id="a", method="workspace/symbol", params={"query": ""})
     cancel = message(method="$/cancelRequest", params={"id": "b"})
@@ -136,7 +136,7 @@ def test_requests_that_are_cancelled(raw, tmp_path):
     assert "result" in answered or answered["error"]["code"] == -32800
 
 
-def test_a_server_ends_as_its_client_asks(raw):
+def test_shutdown_and_exit(raw):
     raw.initialize()
     assert raw.ask("shutdown")["result"] is None
     assert raw.ask("workspace/symbol", {"query": ""})["error"]["code"] == -32002
@@ -144,7 +144,7 @@ def test_a_server_ends_as_its_client_asks(raw):
     assert raw.process.wait(20) == 0
 
 
-def test_a_client_that_is_gone_and_left_its_pipe_open():
+def test_dead_client_with_open_pipe():
     client = subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE)
     server = Raw()
     server.ask("initialize", {"processId": client.pid, "capabilities": {}})
@@ -153,7 +153,7 @@ def test_a_client_that_is_gone_and_left_its_pipe_open():
     server.process.communicate()
 
 
-def test_two_editors_at_once(tmp_path):
+def test_two_editors(tmp_path):
     """Each has a server of its own, and each what it types."""
     first, second = Raw(), Raw()
     path = tmp_path / "a.swarm"
@@ -170,7 +170,7 @@ def test_two_editors_at_once(tmp_path):
 
 
 @pytest.mark.timeout(60)
-def test_a_file_of_5_mb(raw, tmp_path):
+def test_file_of_5_mb(raw, tmp_path):
     raw.initialize(tmp_path)
     path = tmp_path / "large.swarm"
     text = "const A : int32 = 5 // much\n" * 190_000
@@ -185,7 +185,7 @@ def codes(models):
     return [each.code for _, _, found in models.diagnostics() for each in found]
 
 
-def test_a_closed_file_that_is_not_utf_8(tmp_path):
+def test_closed_file_that_is_not_utf_8(tmp_path):
     (tmp_path / "swarm.toml").write_text("[project]\n")
     (tmp_path / "latin.swarm").write_bytes("// gr\xfcn\n".encode("latin-1"))
     models = Models()
@@ -196,7 +196,7 @@ def test_a_closed_file_that_is_not_utf_8(tmp_path):
     assert codes(models) == []
 
 
-def test_a_name_of_a_file_that_is_not_utf_8(raw, tmp_path):
+def test_file_name_that_is_not_utf_8(raw, tmp_path):
     (tmp_path / "swarm.toml").write_text("[project]\n")
     with open(bytes(tmp_path) + b"/\xff.swarm", "w") as file:  # noqa: PTH123 - no str has it
         file.write("const A : int32 = B\n")
@@ -205,7 +205,7 @@ def test_a_name_of_a_file_that_is_not_utf_8(raw, tmp_path):
     assert [each["code"] for each in raw.findings(tmp_path / "a.swarm")] == ["SW0202"]
 
 
-def test_a_file_that_is_renamed(tmp_path):
+def test_renamed_file(tmp_path):
     (tmp_path / "swarm.toml").write_text("[project]\n")
     old, new = tmp_path / "patrol.swarm", tmp_path / "tour.swarm"
     old.write_text(MODEL)
@@ -222,7 +222,7 @@ def test_a_file_that_is_renamed(tmp_path):
     assert codes(models) == []
 
 
-def test_nothing_is_kept_of_files_that_were_closed(tmp_path):
+def test_closed_files_are_released(tmp_path):
     models = Models()
     for number in range(3):
         path = tmp_path / str(number) / "a.swarm"
@@ -234,7 +234,7 @@ def test_nothing_is_kept_of_files_that_were_closed(tmp_path):
     assert (models._texts, models._changed, models._workspaces) == ({}, {}, {})
 
 
-def test_a_workspace_that_fails_is_made_anew(tmp_path, monkeypatch):
+def test_failed_workspace_is_rebuilt(tmp_path, monkeypatch):
     """What is half done after a mistake of the server itself is not used again."""
     from swarmdsl.driver.workspace import Workspace
 

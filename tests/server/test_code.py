@@ -23,19 +23,19 @@ WORD = re.compile(r"//[^\n]*|/\*|\w+")
         ("a // /* */ b\nc", ["a", "// /* */ b", "c"]),
     ],
 )
-def test_comments_are_found_whole(text, found):
+def test_whole_comments_are_found(text, found):
     assert [word for _, word in find_tokens(text, WORD)] == found
     assert all(text.startswith(word, at) for at, word in find_tokens(text, WORD))
 
 
-def test_only_a_part_is_looked_at():
+def test_search_in_a_part():
     text = "a b /* c */ d"
     assert list(find_tokens(text, WORD, 2, 8)) == [(2, "b"), (7, "c")]
 
 
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize("end", ["", "*/"])
-def test_many_comments_without_an_end(end):
+def test_many_unterminated_comments(end):
     """A pattern of whole comments looks for the end of each, which takes minutes."""
     text = "/*\n" * 40_000 + end + "{\n\n}"
     found = [(fold.first, fold.last, fold.kind) for fold in folding_ranges(Source("a.swarm", text))]

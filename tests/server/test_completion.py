@@ -204,7 +204,7 @@ PLACES = {
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_what_can_be_written(place, tmp_path):
+def test_completions(place, tmp_path):
     text, wanted, unwanted = PLACES[place]
     offset = text.index("|")
     path = tmp_path / "model.swarm"

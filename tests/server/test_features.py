@@ -10,7 +10,7 @@ from .model import LAID_OUT, MODEL
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
-async def test_mistakes_are_told_as_one_types(client, editor, folder):
+async def test_diagnostics_follow_edits(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     assert await editor.told(document) == []
     editor.type(document, MODEL.replace("-> Home", "-> Hone", 1))
@@ -24,7 +24,7 @@ async def test_mistakes_are_told_as_one_types(client, editor, folder):
     assert await editor.told(document) == []
 
 
-async def test_a_mistake_in_one_file_is_told_of_another(client, editor, folder):
+async def test_edit_causes_diagnostics_in_another_file(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     editor.type(document, MODEL.replace("Patrol {", "Petrol {"))
     await editor.told(document)
@@ -93,7 +93,7 @@ async def test_outline(client, editor, folder):
     assert named([found[-1].selection_range]) == ["Patrol"]
 
 
-async def test_declarations_of_all_files(client, editor, folder):
+async def test_workspace_symbols(client, editor, folder):
     editor.open(folder / "patrol.swarm")
     found = await client.workspace_symbol_async(lsp.WorkspaceSymbolParams(query="rov"))
     assert [each.name for each in found] == ["Rover", "Rovers", "rover"]
@@ -120,14 +120,14 @@ async def test_formatting(client, editor, folder):
     )
 
 
-async def test_a_file_of_no_project(client, editor, tmp_path_factory):
+async def test_file_without_a_project(client, editor, tmp_path_factory):
     path = tmp_path_factory.mktemp("elsewhere") / "alone.swarm"
     document = editor.open(path, "member M { behavior Nothing }\n")  # not on disk
     [found] = await editor.told(document)
     assert found.code == "SW0202"
 
 
-async def test_a_file_that_is_deleted_while_it_is_open(client, editor, folder):
+async def test_open_file_is_deleted(client, editor, folder):
     path = folder / "patrol.swarm"
     document = editor.open(path)
     path.unlink()
@@ -136,7 +136,7 @@ async def test_a_file_that_is_deleted_while_it_is_open(client, editor, folder):
     assert len(await editor.told(document)) == 1
 
 
-async def test_nonsense_is_answered(client, editor, folder):
+async def test_invalid_requests_are_answered(client, editor, folder):
     document = editor.open(folder / "patrol.swarm", "}{ \0 \ud83e statemachine")
     far = lsp.Position(line=10**6, character=10**6)
     assert await editor.told(document)
@@ -173,7 +173,7 @@ async def test_rename_across_files(client, editor, folder):
     assert await editor.told(document) == []
 
 
-async def test_names_that_cannot_be_given(client, editor, folder):
+async def test_rename_to_invalid_names(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     for word, name, why in (
         ("rounds =", "limit", "declared twice"),

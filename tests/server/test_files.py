@@ -13,7 +13,7 @@ from .model import MODEL, ROVER
 pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
-async def test_what_is_tried_for_a_rename_is_gone_afterwards(client, editor, folder):
+async def test_rejected_rename_leaves_no_trace(client, editor, folder):
     """A closed file is read from disk again, with a byte order mark and its ends of lines."""
     closed = folder / "rover.swarm"
     closed.write_bytes(b"\xef\xbb\xbf" + ROVER.replace("\n", "\r\n").encode())
@@ -29,7 +29,7 @@ async def test_what_is_tried_for_a_rename_is_gone_afterwards(client, editor, fol
     assert await editor.told(document) == []
 
 
-async def test_overriding_leaves_every_text_as_it_was(folder):
+async def test_overriding_changes_no_text(folder):
     path = folder / "patrol.swarm"
     text = "\ufeff" + MODEL.replace("\n", "\r\n")
     workspace = Workspace([folder], texts={path: text})
@@ -40,7 +40,7 @@ async def test_overriding_leaves_every_text_as_it_was(folder):
     assert workspace._store.edited(folder / "rover.swarm") is None
 
 
-async def test_mistakes_in_the_project_file(client, editor, folder):
+async def test_errors_in_the_project_file(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     assert await editor.told_of(folder / "swarm.toml") == []
     project = folder / "swarm.toml"
@@ -60,7 +60,7 @@ async def test_mistakes_in_the_project_file(client, editor, folder):
 
 
 @pytest.mark.parametrize("way", ["file", "ros", "link"])
-async def test_what_is_outside_of_the_workspace_is_not_read(client, editor, folder, tmp_path, way):
+async def test_files_outside_of_the_workspace_are_not_read(client, editor, folder, tmp_path, way):
     outside = folder.parent / f"outside_of_{folder.name}"
     (outside / "secret_msgs" / "msg").mkdir(parents=True)
     (outside / "secret.swarm").write_text("const SECRET : int32 = 5\n")
@@ -82,7 +82,7 @@ async def test_what_is_outside_of_the_workspace_is_not_read(client, editor, fold
     assert await editor.told(document) == []
 
 
-async def test_libraries_that_are_installed_are_read(client, editor, folder):
+async def test_installed_libraries_are_read(client, editor, folder):
     document = editor.open(
         folder / "uses.swarm",
         "import cpswarm.functions.*\nstatemachine M {\n  initial A\n"
@@ -91,7 +91,7 @@ async def test_libraries_that_are_installed_are_read(client, editor, folder):
     assert not [each for each in await editor.told(document) if each.range.start.line == 0]
 
 
-async def test_a_file_that_is_no_project_sees_its_folder_only(tmp_path):
+async def test_file_without_a_project_sees_only_its_folder(tmp_path):
     alone, above = tmp_path / "folder" / "alone.swarm", tmp_path / "above.swarm"
     alone.parent.mkdir()
     (alone.parent / "beside.swarm").write_text("const BESIDE : int32 = 5\n")
@@ -102,7 +102,7 @@ async def test_a_file_that_is_no_project_sees_its_folder_only(tmp_path):
     assert codes == ["SW0016"]
 
 
-async def test_a_name_in_a_library_stays(client, editor, folder):
+async def test_names_in_libraries_cannot_be_renamed(client, editor, folder):
     text = "import cpswarm.functions.*\nmember M { }\n"
     document = editor.open(folder / "uses.swarm", text)
     with pytest.raises(JsonRpcException, match="no name"):

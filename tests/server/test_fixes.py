@@ -70,7 +70,7 @@ def mended(path: Path) -> list[str]:
         assert len(titles) < 50
 
 
-def test_what_is_not_declared(tmp_path):
+def test_declaration_is_added(tmp_path):
     path = tmp_path / "counting.swarm"
     path.write_text(MODEL, encoding="utf-8")
     assert set(mended(path)) == {
@@ -94,7 +94,7 @@ def test_what_is_not_declared(tmp_path):
 
 
 @pytest.mark.parametrize("head", ["", "package p\n"])
-def test_on_one_line(tmp_path, head):
+def test_declaration_is_added_on_one_line(tmp_path, head):
     path = tmp_path / "m.swarm"
     machine = "endless statemachine M { initial A state A { on Go / n = true -> A } }"
     path.write_text(f"{head}{machine}\nmember R {{ behavior M }}\nswarm S {{ r : R }}\n")
@@ -118,7 +118,7 @@ def test_on_one_line(tmp_path, head):
         ),
     ],
 )
-def test_the_place_is_that_of_the_declaration_and_not_of_text(tmp_path, before, after):
+def test_fix_ignores_comments_and_strings(tmp_path, before, after):
     path = tmp_path / "m.swarm"
     rest = """initial A state A { on Go / n = true -> A } }
 event Go : std_msgs/Empty

@@ -25,7 +25,7 @@ async def test_pictures_follow_what_is_typed(client, editor, folder):
     assert await pictures(client, document) == {"broken": 1}
 
 
-async def test_a_file_that_is_not_open_has_none(client, editor, folder):
+async def test_closed_file_has_no_pictures(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     editor.close(document)
     assert await pictures(client, document) is None

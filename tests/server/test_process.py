@@ -30,7 +30,7 @@ def capabilities(stream):
     return answer(stream)["result"]["capabilities"]
 
 
-def test_an_editor_that_dies_takes_the_server_with_it():
+def test_server_ends_with_its_editor():
     process = subprocess.Popen(
         SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
@@ -41,7 +41,7 @@ def test_an_editor_that_dies_takes_the_server_with_it():
     assert (process.returncode, errors) == (1, b"")
 
 
-def test_an_editor_is_asked_to_tell_of_changes_on_disk():
+def test_server_registers_file_watchers():
     process = subprocess.Popen(SERVER, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     watching = {"workspace": {"didChangeWatchedFiles": {"dynamicRegistration": True}}}
     process.stdin.write(message(id=1, method="initialize", params={"capabilities": watching}))
@@ -56,7 +56,7 @@ def test_an_editor_is_asked_to_tell_of_changes_on_disk():
     assert {"globPattern": "**/*.swarm"} in watchers
 
 
-def test_an_editor_with_commands_of_its_own_is_offered_them(tmp_path):
+def test_lenses_use_commands_of_the_editor(tmp_path):
     uri = (tmp_path / "a.swarm").as_uri()
     document = {"uri": uri, "languageId": "swarm", "version": 1, "text": "swarm One { }\n"}
     commands = ["swarmdsl.preview", "swarmdsl.references"]
@@ -82,7 +82,7 @@ def test_an_editor_with_commands_of_its_own_is_offered_them(tmp_path):
     assert command["arguments"] == [uri, uses["range"]["start"], []]
 
 
-def test_a_server_on_a_port_of_the_loopback_interface():
+def test_server_on_a_loopback_port():
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
@@ -107,7 +107,7 @@ def test_a_server_on_a_port_of_the_loopback_interface():
 
 
 @pytest.mark.parametrize("arguments", ["--tcp 0", "--tcp x", "--stdio --tcp 5007"])
-def test_a_wrong_command_line(arguments):
+def test_invalid_command_line(arguments):
     ran = subprocess.run([*SERVER, *arguments.split()], capture_output=True, text=True)
     assert ran.returncode == 2
     assert "Usage:" in ran.stderr

@@ -73,7 +73,7 @@ def offered_at(place):
 
 
 @pytest.mark.parametrize("place", PLACES)
-def test_what_is_offered_can_stand_there(place):
+def test_offered_snippets_fit(place):
     before = PLACES[place]
     after = "\n}" * before.count("{") + "\n"
     for snippet in offered_at(place):
@@ -84,7 +84,7 @@ def test_what_is_offered_can_stand_there(place):
             assert not report.has_errors, (text, [each.message for each in report])
 
 
-def test_every_snippet_is_offered_somewhere():
+def test_every_snippet_is_offered():
     offered = {each.label for place in PLACES for each in offered_at(place)}
     assert offered == {f"{name} ..." for name in TABLE}
 
@@ -101,7 +101,7 @@ def test_every_construct_has_a_snippet():
 
 
 @pytest.mark.parametrize("name", TABLE)
-def test_stops_are_numbered_from_one(name):
+def test_fields_are_numbered_from_one(name):
     stops = {
         int(plain or braced) for plain, braced, _, _ in STOP.findall("".join(TABLE[name]["text"]))
     }
@@ -130,7 +130,7 @@ def offered(tmp_path, text, keywords):
     }
 
 
-def test_outcomes_that_are_left(tmp_path):
+def test_unhandled_outcomes(tmp_path):
     found = offered(tmp_path, work("|"), {"on"})
     assert filled(found["on the outcomes"]) == "on succeeded -> Target"
     assert "on the outcomes" not in offered(tmp_path, state("|"), {"on"})

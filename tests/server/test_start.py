@@ -16,11 +16,11 @@ print(*sys.modules)
 
 
 @pytest.mark.parametrize("module", FEATURES)
-def test_a_module_answers_what_is_said_of_it(module):
+def test_handlers_match_features(module):
     assert handlers_of(module).keys() == FEATURES[module].keys()
 
 
-def test_what_answers_is_imported_later():
+def test_handlers_are_imported_later():
     ran = subprocess.run([sys.executable, "-c", STARTED], capture_output=True, text=True)
     modules = ran.stdout.split()
     assert "swarmdsl.ide.server.session" in modules

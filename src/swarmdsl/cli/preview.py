@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 def _editor(_context: click.Context, _param: click.Parameter, text: str | None) -> Editor | None:
     """Return the editor of the command line, else an installed one."""
-    from swarmdsl.ide.preview.editors import TemplateError, editor, found_editor
+    from swarmdsl.ide.preview.editors import TemplateError, detect_editor, editor
 
     try:
-        return editor(text) if text is not None else found_editor()
+        return editor(text) if text is not None else detect_editor()
     except TemplateError as error:
         raise click.BadParameter(str(error)) from error
 
@@ -80,13 +80,13 @@ def preview(
     from swarmdsl.ide.preview.live_trace import follow
     from swarmdsl.ide.preview.pictures import pictures
     from swarmdsl.ide.preview.ros2 import PREFIX, UnavailableError, listening
-    from swarmdsl.ide.preview.serving import News, serving
+    from swarmdsl.ide.preview.serving import Snapshot, serving
 
     gc.enable()  # it runs for hours
     if hasattr(signal, "SIGPIPE"):
         # A page may be closed while it is written to; others stay.
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
-    news = News()
+    snapshot = Snapshot()
 
     def settings(report: Diagnostics) -> Settings:
         # Absolute paths, so that places open in an editor.
@@ -97,7 +97,7 @@ def preview(
     def show(result: Result, _settings: Settings) -> Concluded:
         def say() -> str:
             said = briefly(result, "text", sys.stdout)
-            news.tell(pictures(result))
+            snapshot.tell(pictures(result))
             return f"{said}; {address}"
 
         return Concluded(len(result.report) > 0, say)
@@ -108,17 +108,17 @@ def preview(
     nodes = [each.removeprefix(PREFIX) for each in traces if each.startswith(PREFIX)]
     with ExitStack() as stack:
         try:
-            stack.enter_context(listening(nodes, news, tell))
+            stack.enter_context(listening(nodes, snapshot, tell))
         except UnavailableError as error:
             report = Diagnostics()
-            report.report("ros2-unavailable", reason=str(error), help=error.way_out)
+            report.report("ros2-unavailable", reason=str(error), help=error.hint)
             tell(report)
             return 1
         try:
-            address = stack.enter_context(serving(news, port, editor))
+            address = stack.enter_context(serving(snapshot, port, editor))
         except OSError as error:
             raise click.ClickException(f"port {port}: {error.strerror}") from error
-        follow([each for each in traces if not each.startswith(PREFIX)], news, tell)
+        follow([each for each in traces if not each.startswith(PREFIX)], snapshot, tell)
         if opens:
             click.launch(address)
         return watch_files(paths, settings, show)

@@ -1,6 +1,6 @@
-"""Colours for .swarm files wherever Pygments makes them: Sphinx, LaTeX (minted), consoles.
+"""Pygments lexer for .swarm files, used by Sphinx, LaTeX (minted) and consoles.
 
-It is an entry point of Pygments: a fence of the language `swarm` needs nothing else.
+Registered as an entry point of Pygments: a code block of language `swarm` needs no setup.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ def _words(group: str) -> Any:
 
 
 class SwarmLexer(RegexLexer):  # type: ignore[misc]
-    """Models of swarms of robots."""
+    """Lexer of swarm models."""
 
     name = "Swarm"
     aliases: ClassVar[list[str]] = ["swarm"]
@@ -46,7 +46,7 @@ class SwarmLexer(RegexLexer):  # type: ignore[misc]
             (r"/\*(?:[^*]|\*(?!/))*\*/", Comment.Multiline),
             (r'"(?:[^"\\\n]|\\[^\n])*"', String),
             (r"(\.)(done)\b", bygroups(Punctuation, Keyword)),
-            # A field may be called as a keyword is.
+            # A field may have the name of a keyword.
             (rf"(\.)({_NAME})", bygroups(Punctuation, Name.Attribute)),
             (
                 rf"({_NAME})(\s*)(:)(?=\s*[A-Za-z_])",

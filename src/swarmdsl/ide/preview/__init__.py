@@ -1,1 +1,1 @@
-"""Pictures of a model that follow its text, in a browser or in a view of an editor."""
+"""Diagrams that follow the text of a model, in a browser or in an editor."""

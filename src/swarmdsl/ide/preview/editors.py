@@ -1,4 +1,4 @@
-"""How a place in a model is opened in the editor of the user."""
+"""Open a place of a model in the user's editor."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from urllib.parse import quote
 from swarmdsl.base.records import dataclass
 
 _PLACE = re.compile(r"(?P<file>.+):(?P<line>\d+):(?P<column>\d+)")
-_GAP = re.compile(r"\{(\w*)\}")
-_GAPS = ("file", "line", "column")
-# All of them are told so where to go.
+_FIELD = re.compile(r"\{(\w*)\}")
+_FIELDS = ("file", "line", "column")
+# All of these have the option --goto.
 _KNOWN = ("code", "codium", "cursor", "windsurf")
 
 
-class Opened(TypedDict, total=False):
-    """What becomes of a place: `address` is for the browser to open, `failed` says why not.
+class OpenResult(TypedDict, total=False):
+    """Result of opening a place: `address` to open in the browser, or the error in `failed`.
 
-    Nothing of both where the editor was started, `none` where there is none.
+    Empty if the editor was started; `none` if there is no editor.
     """
 
     address: str
@@ -31,26 +31,26 @@ class Opened(TypedDict, total=False):
 
 
 class TemplateError(ValueError):
-    """A command that cannot be one; says why."""
+    """Invalid editor command; the message names the reason."""
 
 
 @dataclass(frozen=True)
 class Editor:
-    """The words of a command, or an address; with `{file}`, `{line}` and `{column}` in them."""
+    """Command line or address with the placeholders `{file}`, `{line}` and `{column}`."""
 
     words: tuple[str, ...]
     is_address: bool = False
 
-    def open(self, place: str) -> Opened:
-        """Open a place, `FILE:LINE:COLUMN`; what the user sees of the program is its own matter."""
+    def open(self, place: str) -> OpenResult:
+        """Open a place `FILE:LINE:COLUMN`; output of the editor is discarded."""
         values = _values(place)
         if values is None:
-            return {"failed": "this is no place"}
+            return {"failed": "not a place FILE:LINE:COLUMN"}
         if self.is_address:
-            # A drive of Windows is a part of the path.
+            # Keep the colon of a Windows drive.
             path = quote(values["file"].replace("\\", "/"), safe="/:")
-            return {"address": _filled(self.words[0], {**values, "file": path})}
-        command = [_filled(word, values) for word in self.words]
+            return {"address": _substitute(self.words[0], {**values, "file": path})}
+        command = [_substitute(word, values) for word in self.words]
         try:
             subprocess.Popen(
                 command,
@@ -65,13 +65,13 @@ class Editor:
 
 
 def file_of(place: str) -> str | None:
-    """The file of a place."""
+    """Return the file of a place."""
     values = _values(place)
     return values["file"] if values is not None else None
 
 
 def editor(template: str) -> Editor:
-    """An editor as the user says how it is called. Raises TemplateError."""
+    """Parse the editor command given by the user. Raises TemplateError."""
     is_address = "://" in template
     try:
         words = (
@@ -79,18 +79,20 @@ def editor(template: str) -> Editor:
         )
     except ValueError as error:
         raise TemplateError(f"`{template}`: {str(error)[:1].lower()}{str(error)[1:]}") from error
-    unknown = sorted({gap for word in words for gap in _GAP.findall(word)} - {*_GAPS})
+    unknown = sorted({field for word in words for field in _FIELD.findall(word)} - {*_FIELDS})
     if unknown:
-        raise TemplateError(f"`{{{unknown[0]}}}` is none of {{file}}, {{line}} and {{column}}")
+        raise TemplateError(
+            f"unknown field `{{{unknown[0]}}}`, expected {{file}}, {{line}} or {{column}}"
+        )
     if not any("{file}" in word for word in words):
-        raise TemplateError("`{file}` must stand where the file is to be named")
+        raise TemplateError("field `{file}` is missing")
     if not is_address and shutil.which(words[0]) is None:
-        raise TemplateError(f"there is no program `{words[0]}`")
+        raise TemplateError(f"program `{words[0]}` not found")
     return Editor(words, is_address)
 
 
-def found_editor() -> Editor | None:
-    """The first editor on the PATH of those that are known to take a place."""
+def detect_editor() -> Editor | None:
+    """Return the first known editor on the PATH."""
     program = next(filter(None, map(shutil.which, _KNOWN)), None)
     return Editor((program, "--goto", "{file}:{line}:{column}")) if program is not None else None
 
@@ -100,5 +102,5 @@ def _values(place: str) -> dict[str, str] | None:
     return match.groupdict() if match is not None else None
 
 
-def _filled(text: str, values: dict[str, str]) -> str:
-    return _GAP.sub(lambda gap: values[gap[1]], text)
+def _substitute(text: str, values: dict[str, str]) -> str:
+    return _FIELD.sub(lambda field: values[field[1]], text)

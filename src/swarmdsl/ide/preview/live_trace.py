@@ -1,4 +1,4 @@
-"""Where robots are, as the traces say that they write: of a simulation, or their own."""
+"""Live states of robots, read from traces of a simulation or of the robots."""
 
 from __future__ import annotations
 
@@ -14,66 +14,71 @@ from typing import Any
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.trace_line import read_line
 from swarmdsl.ide.preview.pictures import Steps
-from swarmdsl.ide.preview.serving import News
+from swarmdsl.ide.preview.serving import Snapshot
 
 STDIN = "-"
-_PAUSE = 0.1
-"""Seconds between two looks at a file."""
+_POLL_INTERVAL = 0.1
+"""Seconds between two polls of a file."""
 _CHUNK = 1 << 20
-_MOMENT = 1000
+_RECENT = 1000
 """Milliseconds for which a transition counts as just taken."""
 _ROOT = ""
-"""The id of a machine itself, which is entered when it begins."""
+"""Id of the machine itself, which is entered at its start."""
 
 
-def follow(names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]) -> None:
-    """Tell pages what is written in each trace, and what will be while the process lasts.
+def follow(names: Sequence[str], snapshot: Snapshot, tell: Callable[[Diagnostics], None]) -> None:
+    """Publish each trace, from its beginning and as it grows, in background threads.
 
-    The first line of each that is none of a trace is told.
+    `tell` reports the first invalid line of each trace.
     """
     for name in names:
-        follower = Follower(name, len(names) > 1, news, tell)
-        Thread(target=_read, args=(name, follower), daemon=True).start()
+        reader = TraceReader(name, len(names) > 1, snapshot, tell)
+        Thread(target=_read, args=(name, reader), daemon=True).start()
 
 
-def _read(name: str, follower: Follower) -> None:
-    """Follow a file to its end, if it has one."""
+def _read(name: str, reader: TraceReader) -> None:
+    """Follow a file to its end, or forever if it has none."""
     for chunk in _stream() if name == STDIN else _chunks(Path(name)):
         if chunk is None:
-            follower.forget()
+            reader.forget()
         else:
-            follower.hear(chunk)
+            reader.read(chunk)
 
 
-class Follower:
-    """Tells pages what the lines of one trace say, as they come.
+class TraceReader:
+    """Publishes the lines of one trace.
 
-    A machine alone is called as the machine that it must be, and is `one_of_several` also as its
-    trace: `Guarding (dog.jsonl)`. The first line that is none of a trace is told.
+    A machine outside of a swarm is named after the only machine that fits; if it is
+    `one_of_several`, also after its trace: `Guarding (dog.jsonl)`. Only the first invalid line is
+    reported.
     """
 
     def __init__(
-        self, name: str, one_of_several: bool, news: News, tell: Callable[[Diagnostics], None]
+        self,
+        name: str,
+        one_of_several: bool,
+        snapshot: Snapshot,
+        tell: Callable[[Diagnostics], None],
     ) -> None:
         self._name = name
         self._one_of_several = one_of_several
-        self._news = news
+        self._snapshot = snapshot
         self._tell = tell
-        self._is_right = True
+        self._is_valid = True
         self._lines = 0
-        # Of a machine alone: the states that it was in, and what it was called at last.
+        # For a machine outside of a swarm: its states so far, and its last name.
         self._seen: set[str] = set()
-        self._called: str | None = None
+        self._machine_name: str | None = None
 
     def forget(self) -> None:
-        """The trace begins anew."""
+        """Restart with an empty trace."""
         self._lines = 0
         self._seen.clear()
-        self._called = None
-        self._news.forget(self._name)
+        self._machine_name = None
+        self._snapshot.forget(self._name)
 
-    def hear(self, lines: Iterable[str | bytes]) -> None:
-        """Some more lines, whole ones."""
+    def read(self, lines: Iterable[str | bytes]) -> None:
+        """Publish more complete lines."""
         active: dict[str, Sequence[str] | None] = {}
         steps: list[tuple[int, str, dict[str, Any]]] = []
         for line in lines:
@@ -82,37 +87,39 @@ class Follower:
                 continue
             value = read_line(line)
             if isinstance(value, str):
-                self._complain(value)
+                self._report_invalid(value)
                 continue
             member = value.get("member")
             if member is None:
                 member = self._machine(value)
-                if self._called not in (None, member):
-                    active[str(self._called)] = None
-                self._called = member
+                if self._machine_name not in (None, member):
+                    active[str(self._machine_name)] = None
+                self._machine_name = member
             active[member] = value["configuration"]
             steps.append((value["t"], member, value))
         if active:
-            self._news.move(self._name, active, _latest(steps))
+            self._snapshot.move(self._name, active, _latest(steps))
 
     def _machine(self, value: dict[str, Any]) -> str:
-        """What a machine alone is called: the only one that has all states that it was in."""
+        """Return the name of a machine outside of a swarm, found by its states so far."""
         self._seen.update(value["configuration"], value["entered"])
-        states = self._news.pictures.states
+        states = self._snapshot.pictures.states
         fitting = [name for name, ids in states.items() if self._seen <= ids]
         machine = fitting[0] if len(fitting) == 1 else ""
         if not self._one_of_several:
             return machine
         return f"{machine} ({self._name})" if machine else self._name
 
-    def _complain(self, reason: str) -> None:
-        if self._is_right:
-            self._is_right = False
+    def _report_invalid(self, reason: str) -> None:
+        if self._is_valid:
+            self._is_valid = False
             report = Diagnostics()
             report.report(
                 "bad-trace-line",
                 reason=reason,
-                notes=(f"line {self._lines} of {self._name}; others are passed over silently",),
+                notes=(
+                    f"line {self._lines} of {self._name}; further invalid lines are not reported",
+                ),
                 help="`swarmc simulate --trace json` writes such lines, "
                 "and nodes of target `ros2` do",
             )
@@ -120,12 +127,12 @@ class Follower:
 
 
 def _latest(steps: Sequence[tuple[int, str, dict[str, Any]]]) -> Steps:
-    """What members have done at the end of some steps: others are long past."""
+    """Return the recent steps of members; earlier ones are dropped."""
     taken: dict[str, list[str]] = {}
     entered: dict[str, list[str]] = {}
     last = max((time for time, _, _ in steps), default=0)
     for time, member, step in steps:
-        if time > last - _MOMENT:
+        if time > last - _RECENT:
             begun = [_ROOT] if step["event"] is None and step["entered"] else []
             if ids := step.get("taken"):
                 taken.setdefault(member, []).extend(ids)
@@ -135,26 +142,26 @@ def _latest(steps: Sequence[tuple[int, str, dict[str, Any]]]) -> Steps:
 
 
 def _chunks(path: Path) -> Iterator[list[bytes] | None]:
-    """The new whole lines of a file, again and again; None each time that it begins anew."""
+    """Yield new complete lines of a file; None each time that the file restarts."""
     while True:
         try:
             about = path.stat()
         except OSError:
-            sleep(_PAUSE)
+            sleep(_POLL_INTERVAL)
             continue
         try:
             with path.open("rb", buffering=0) as file:
                 yield None
                 if not stat.S_ISREG(about.st_mode):
-                    yield from _whole(lambda: os.read(file.fileno(), _CHUNK))
+                    yield from _lines_of(lambda: os.read(file.fileno(), _CHUNK))
                 else:
                     yield from _regular(path, file.fileno())
         except OSError:
-            sleep(_PAUSE)
+            sleep(_POLL_INTERVAL)
 
 
 def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
-    """The lines of a file while it only becomes longer."""
+    """Yield lines of a regular file until it is truncated or replaced."""
     rest, at = b"", 0
     while True:
         chunk = os.read(descriptor, _CHUNK)
@@ -162,18 +169,18 @@ def _regular(path: Path, descriptor: int) -> Iterator[list[bytes]]:
         *lines, rest = (rest + chunk).split(b"\n")
         yield lines
         if not chunk:
-            sleep(_PAUSE)
+            sleep(_POLL_INTERVAL)
             there, here = path.stat(), os.fstat(descriptor)
             if here.st_size < at or (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
                 return
 
 
 def _stream() -> Iterator[list[bytes] | None]:
-    """The lines of standard input, as soon as they are there."""
-    yield from _whole(lambda: os.read(sys.stdin.fileno(), _CHUNK))
+    """Yield lines of standard input as they arrive."""
+    yield from _lines_of(lambda: os.read(sys.stdin.fileno(), _CHUNK))
 
 
-def _whole(read: Callable[[], bytes]) -> Iterator[list[bytes]]:
+def _lines_of(read: Callable[[], bytes]) -> Iterator[list[bytes]]:
     rest = b""
     while chunk := read():
         *lines, rest = (rest + chunk).split(b"\n")

@@ -1,4 +1,4 @@
-"""What a preview shows of a model, as plain data: the same for a browser and for an editor."""
+"""Diagrams of a model as plain data, for browsers and editors."""
 
 from __future__ import annotations
 
@@ -20,22 +20,25 @@ _TITLES = {"composition": "swarm", "internal": "member", "statechart": "state ma
 
 
 class Steps(TypedDict, total=False):
-    """What members have just done, as a `Message` says it."""
+    """Recent steps of members, see `Message`."""
 
     taken: Mapping[str, Sequence[str]]
     entered: Mapping[str, Sequence[str]]
 
 
 class Message(Steps, total=False):
-    """News for a page: titles of all diagrams by their ids, one drawn, or why there is nothing new.
+    """Update for a page; all keys are optional.
 
-    `broken` is the number of mistakes. An id stays the same while its subject has its name.
-    `runs` says of the diagram of a state machine who runs it, each with what the ids of its states
-    begin with where it is reused: a role, `uav`, a part of one, `uav.camera`, or by its own name
-    the machine alone. `active` are the innermost active states of members; None, of those that
-    are gone. `taken` are transitions that members have just taken, by their ids, and `entered` the
-    states that they have entered with that, also those they have left since; the empty id is that
-    of a machine that has begun.
+    `titles` are titles of all diagrams by id, `id` and `svg` one drawn diagram, `broken` the number
+    of errors. The id of a diagram is stable while its subject keeps its name.
+
+    `runs` maps the diagram of a state machine to those who run it, each with the prefix of its
+    state ids in a submachine. A runner is a role (`uav`), a part of a role (`uav.camera`), or the
+    machine itself by its name.
+
+    `active` are the innermost active states of members, None for members that ended. `taken` are
+    the ids of transitions that members have just taken, `entered` the states that they entered,
+    including those left since; the empty id is a machine that started.
     """
 
     titles: dict[str, str]
@@ -47,28 +50,28 @@ class Message(Steps, total=False):
 
 
 class Pictures:
-    """The diagrams of a model, each drawn when it is asked for: most are not looked at."""
+    """Diagrams of a model, drawn on demand."""
 
     def __init__(self, system: System | None = None) -> None:
         self._system = system
         self._diagrams = tuple(diagrams(system)) if system is not None else ()
 
     def listed(self) -> Message:
-        """What there is."""
+        """Return titles and runners of all diagrams."""
         return {
             "titles": {each.stem: f"{each.name} ({_TITLES[each.kind]})" for each in self._diagrams},
             "runs": self._runs(),
         }
 
     def drawn(self, id_: str | None, hidden: Collection[str] = ()) -> Message:
-        """A diagram, or the first if there is none of this id; `hidden` are nodes to fold."""
+        """Draw the diagram of an id, else the first one; `hidden` nodes are folded."""
         named = (each for each in self._diagrams if each.stem == id_)
         found = next(named, self._diagrams[0] if self._diagrams else None)
         return {"id": found.stem, "svg": svg(folded(found, hidden))} if found is not None else {}
 
     @cached_property
     def files(self) -> frozenset[str]:
-        """The files in which what is drawn is written."""
+        """Return the files that contain the drawn elements."""
         return frozenset(
             origin.absolute.source.name
             for each in self._diagrams
@@ -78,7 +81,7 @@ class Pictures:
 
     @cached_property
     def states(self) -> Mapping[str, frozenset[str]]:
-        """The ids of the states of each machine, by its name."""
+        """Return the state ids of each machine by its name."""
         machines = self._system.machines if self._system is not None else ()
         return {each.name: frozenset(state.id for state in each.walk()) for each in machines}
 
@@ -86,11 +89,11 @@ class Pictures:
         found: dict[str, list[tuple[str, str]]] = defaultdict(list)
         for who, name, prefix in self._uses():
             found[f"{name}.statechart"].append((who, prefix))
-        # In the order of the diagrams, of which a page shows the first in which somebody is.
+        # In diagram order: the page shows the first diagram with an active member.
         return {each.stem: found[each.stem] for each in self._diagrams if each.stem in found}
 
     def _uses(self) -> Iterator[tuple[str, str, str]]:
-        """Who runs which machine, and what its states are called in that."""
+        """Yield runner, machine and prefix of the state ids."""
         if self._system is None:
             return
         machines = {each.name: each for each in self._system.machines}
@@ -111,14 +114,14 @@ class Pictures:
 
 
 def pictures(result: Result) -> Pictures | Message:
-    """The diagrams of a checked model; of one with errors a message that says so."""
+    """Return the diagrams of a valid model, else a message with the number of errors."""
     if result.system is None:
         return {"broken": result.report.count(Severity.ERROR)}
     return Pictures(result.system)
 
 
 def _origins(diagram: Diagram) -> Iterator[Span | None]:
-    """Where what is drawn is written."""
+    """Yield the source spans of the drawn elements."""
     yield from (edge.origin for edge in diagram.edges)
     for node in diagram.frame.walk():
         yield node.origin

@@ -1,4 +1,4 @@
-"""Where robots are, as the nodes of target `ros2` say while they run."""
+"""Live states of robots, received from nodes of target `ros2`."""
 
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from typing import Any
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.simulate.trace_line import NAMES
-from swarmdsl.ide.preview.live_trace import Follower
-from swarmdsl.ide.preview.serving import News
+from swarmdsl.ide.preview.live_trace import TraceReader
+from swarmdsl.ide.preview.serving import Snapshot
 
 PREFIX = "ros2:"
-"""What a node or a namespace is named with, beside files; alone, it stands for all nodes."""
+"""Prefix of a node or namespace on the command line; alone, it selects all nodes."""
 _NAME = re.compile(r"/?(?:[A-Za-z_]\w*(?:/[A-Za-z_]\w*)*/?)?", re.ASCII)
 _TYPE = "std_msgs/msg/String"
-_LOOK = 0.5
-"""Seconds between two looks at which nodes there are."""
+_POLL_INTERVAL = 0.5
+"""Seconds between two polls of the ROS graph."""
 
 
 class UnavailableError(Exception):
-    """ROS 2 cannot be used, or not with this name; says why."""
+    """ROS 2 is not available, or a name is invalid; the message names the reason."""
 
-    def __init__(self, reason: str, way_out: str) -> None:
+    def __init__(self, reason: str, hint: str) -> None:
         super().__init__(reason)
-        self.way_out = way_out
+        self.hint = hint
 
 
 @contextmanager
 def listening(
-    names: Sequence[str], news: News, tell: Callable[[Diagnostics], None]
+    names: Sequence[str], snapshot: Snapshot, tell: Callable[[Diagnostics], None]
 ) -> Iterator[None]:
-    """Tell pages what nodes say while the context lasts, also those that start later.
+    """Publish the states of nodes while the context lasts, including later nodes.
 
-    A name is that of a node or of a namespace. Raises UnavailableError.
+    A name selects a node or a namespace. Raises UnavailableError.
     """
     if not names:
         yield
@@ -47,7 +47,8 @@ def listening(
     for name in names:
         if _NAME.fullmatch(name) is None:
             raise UnavailableError(
-                f"`{name}` is no name in ROS", "name a node or a namespace, as `ros2:/sar/uav_0`"
+                f"`{name}` is not a valid ROS name",
+                "name a node or a namespace, e.g. `ros2:/sar/uav_0`",
             )
     try:
         rclpy = import_module("rclpy")
@@ -56,7 +57,7 @@ def listening(
     except ImportError as error:
         raise UnavailableError(
             f"{sys.executable} has no {error.name or 'rclpy'}: {error}",
-            "source the setup file of ROS 2, as `. /opt/ros/DISTRO/setup.sh`, and run a swarmc "
+            "source the setup file of ROS 2 (`. /opt/ros/DISTRO/setup.sh`) and run a swarmc "
             "that is installed for its Python",
         ) from error
     context = rclpy.Context()
@@ -70,11 +71,13 @@ def listening(
         )
     except Exception as error:
         context.try_shutdown()
-        raise UnavailableError(f"{error}".partition("\n")[0], "`ros2 doctor` says more") from error
+        raise UnavailableError(
+            f"{error}".partition("\n")[0], "run `ros2 doctor` for details"
+        ) from error
     executor = make_executor(context=context)
     executor.add_node(node)
-    ears = _Ears(rclpy.qos, string, node, names, news, tell)
-    node.create_timer(_LOOK, ears.look)
+    listener = _NodeListener(rclpy.qos, string, node, names, snapshot, tell)
+    node.create_timer(_POLL_INTERVAL, listener.poll)
     thread = Thread(target=executor.spin, daemon=True)
     thread.start()
     try:
@@ -86,8 +89,8 @@ def listening(
         context.try_shutdown()
 
 
-class _Ears:
-    """Hears those nodes that have a name, or are in a namespace of it."""
+class _NodeListener:
+    """Subscribes to nodes that have a name or are in its namespace."""
 
     def __init__(
         self,
@@ -95,85 +98,85 @@ class _Ears:
         string: Any,
         node: Any,
         names: Sequence[str],
-        news: News,
+        snapshot: Snapshot,
         tell: Callable[[Diagnostics], None],
     ) -> None:
         self._node = node
         self._names = [f"/{name.strip('/')}".rstrip("/") for name in names]
-        self._news = news
+        self._snapshot = snapshot
         self._tell = tell
         self._string = string
         self._all = qos.QoSProfile(depth=1000)
         self._last = qos.QoSProfile(depth=1, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
-        self._heard: dict[str, tuple[_Robot, list[Any]]] = {}
+        self._traces: dict[str, tuple[_NodeTrace, list[Any]]] = {}
         self._publishers: dict[str, set[tuple[int, ...]]] = {}
-        """Those of what is heard, by their ids in the middleware."""
+        """Endpoint ids of the publishers of each node."""
 
-    def look(self) -> None:
-        """Listen to nodes that have come, and forget those that are gone."""
+    def poll(self) -> None:
+        """Subscribe to new nodes, and drop those that ended."""
         known = dict(self._node.get_topic_names_and_types())
-        speaking = {
+        publishing = {
             owner: publishers
             for topic, types in known.items()
             for owner, _, last in [topic.rpartition("/")]
             if last == "transitions" and _TYPE in types and _TYPE in known.get(f"{owner}/state", ())
             if any(owner == name or owner.startswith(f"{name}/") for name in self._names)
-            # A topic that is listened to is there without anybody who speaks.
+            # A topic with subscribers exists even without publishers.
             if (publishers := self._publishers_of(topic))
         }
         for owner, before in self._publishers.items():
-            # A node that is killed stays in the graph for a while, also beside the next one.
-            if (now := speaking.get(owner)) and now <= before:
+            # A killed node stays in the graph for a while, also beside its successor.
+            if (now := publishing.get(owner)) and now <= before:
                 continue
-            robot, subscriptions = self._heard.pop(owner)
+            robot, subscriptions = self._traces.pop(owner)
             for each in subscriptions:
                 self._node.destroy_subscription(each)
-            robot.gone()
-        for owner in sorted(speaking.keys() - self._heard.keys()):
-            # There may be others, now or later.
-            robot = _Robot(Follower(owner, True, self._news, self._tell))
+            robot.on_end()
+        for owner in sorted(publishing.keys() - self._traces.keys()):
+            # There may be other nodes, now or later.
+            robot = _NodeTrace(TraceReader(owner, True, self._snapshot, self._tell))
             listen = self._node.create_subscription
-            self._heard[owner] = (
+            self._traces[owner] = (
                 robot,
                 [
-                    listen(self._string, f"{owner}/transitions", robot.moved, self._all),
-                    listen(self._string, f"{owner}/state", robot.placed, self._last),
+                    listen(self._string, f"{owner}/transitions", robot.on_transition, self._all),
+                    listen(self._string, f"{owner}/state", robot.on_state, self._last),
                 ],
             )
-        self._publishers = speaking
+        self._publishers = publishing
 
     def _publishers_of(self, topic: str) -> set[tuple[int, ...]]:
         found = self._node.get_publishers_info_by_topic(topic)
         return {tuple(each.endpoint_gid) for each in found}
 
 
-class _Robot:
-    """What one node says."""
+class _NodeTrace:
+    """Trace of one node."""
 
-    def __init__(self, follower: Follower) -> None:
-        self._follower = follower
+    def __init__(self, reader: TraceReader) -> None:
+        self._reader = reader
         self._has_moved = False
 
-    def moved(self, message: Any) -> None:
-        """On `~/transitions`: a line of its trace."""
+    def on_transition(self, message: Any) -> None:
+        """Handle `~/transitions`: a line of the trace."""
         self._has_moved = True
-        self._follower.hear([message.data])
+        self._reader.read([message.data])
 
-    def placed(self, message: Any) -> None:
-        """On `~/state`, which tells those who come late where it is already."""
+    def on_state(self, message: Any) -> None:
+        """Handle `~/state`, the latched state for late subscribers."""
         if not self._has_moved:
-            self._follower.hear([_as_line(message.data)])
+            self._reader.read([_as_line(message.data)])
 
-    def gone(self) -> None:
-        """It has ended."""
-        self._follower.forget()
+    def on_end(self) -> None:
+        """Handle the end of the node."""
+        self._reader.forget()
 
 
 def _as_line(state: str) -> str:
-    """A line of a trace in which nothing is said but where a node is; any other text as it is."""
+    """Convert a state message to a trace line; return invalid input unchanged."""
     try:
-        said = json.loads(state)
-        where = {key: said[key] for key in ("member", "configuration")}
+        value = json.loads(state)
+        state_of = {key: value[key] for key in ("member", "configuration")}
     except (ValueError, RecursionError, LookupError, TypeError):
         return state
-    return json.dumps({"t": 0, "event": None, **{name: [] for name in NAMES}, **where})
+    return json.dumps({"t": 0, "event": None, **{name: [] for name in NAMES}, **state_of})

@@ -1,4 +1,4 @@
-"""Serves the page of a preview on the loopback interface, and tells it what is new."""
+"""Local HTTP server of the preview page, with server-sent events."""
 
 from __future__ import annotations
 
@@ -12,48 +12,48 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from urllib.parse import parse_qs
 
-from swarmdsl.ide.preview.editors import Editor, Opened, file_of
+from swarmdsl.ide.preview.editors import Editor, OpenResult, file_of
 from swarmdsl.ide.preview.pictures import Message, Pictures, Steps
 
 PAGE = Path(__file__).resolve().parent / "page"
 _HOST = "127.0.0.1"
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
 _FILES = {f"/{path.name}": path for path in PAGE.iterdir() if path.suffix in _TYPES}
-# Nothing but the page itself runs in it or is fetched by it.
+# The page runs only its own scripts and fetches nothing else.
 _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self' 'unsafe-inline'; "
     "connect-src 'self'; img-src blob: data:"
 )
-# After so many seconds without news a connection is tried, to notice that a page is gone.
-_PULSE = 15.0
-# Moves of which a page that is slow to hear may still be told what was done.
-_REMEMBERED = 100
-_LONGEST = 1 << 16
-"""Bytes of a message of a page, at most."""
+# Interval of keep-alive comments in seconds; they reveal that a page is closed.
+_KEEP_ALIVE = 15.0
+# Number of recent updates kept for slow pages.
+_HISTORY = 100
+_MAX_BODY = 1 << 16
+"""Maximum length of a POST body in bytes."""
 
 
-class News:
-    """What pages show: the pictures of the last model without errors, and what came after it."""
+class Snapshot:
+    """Current state of the preview: diagrams of the last valid model, errors, live states."""
 
     def __init__(self) -> None:
         self.pictures = Pictures()
         self._changed = threading.Condition()
         self._messages: Sequence[Message] = ()
-        # By traces: the innermost active states of members.
+        # Innermost active states of members by trace.
         self._active: dict[str, dict[str, Sequence[str]]] = {}
         self._moves = 0
-        # The number of a move, and what was done in it.
-        self._steps: deque[tuple[int, Steps]] = deque(maxlen=_REMEMBERED)
+        # Update number and the steps in it.
+        self._steps: deque[tuple[int, Steps]] = deque(maxlen=_HISTORY)
 
-    def tell(self, made: Pictures | Message) -> None:
-        """Show something in all pages."""
+    def tell(self, update: Pictures | Message) -> None:
+        """Publish diagrams or a message to all pages."""
         with self._changed:
-            if isinstance(made, Pictures):
-                self.pictures = made
-                self._messages = (made.listed(),)
+            if isinstance(update, Pictures):
+                self.pictures = update
+                self._messages = (update.listed(),)
             else:
-                # Of mistakes the last count, beside the pictures from before them.
-                self._messages = (*(each for each in self._messages if "titles" in each), made)
+                # Keep the diagrams; only the last error count matters.
+                self._messages = (*(each for each in self._messages if "titles" in each), update)
             self._changed.notify_all()
 
     def move(
@@ -62,9 +62,9 @@ class News:
         active: Mapping[str, Sequence[str] | None],
         latest: Steps,
     ) -> None:
-        """Show where members are now, of which a trace says so; None is for those that are gone.
+        """Publish active states of members of a trace; None for members that ended.
 
-        `latest` is what they have just done, for pages that are there to see it.
+        `latest` are steps of the last moment, only for pages that are open.
         """
         with self._changed:
             there = self._active.setdefault(trace, {})
@@ -78,14 +78,14 @@ class News:
             self._changed.notify_all()
 
     def forget(self, trace: str) -> None:
-        """Forget what a trace has said: it begins anew."""
+        """Drop the states of a trace that restarts."""
         with self._changed:
             self._active.pop(trace, None)
             self._moves += 1
             self._changed.notify_all()
 
     def follow(self) -> Iterator[Sequence[Message]]:
-        """Yield what a page needs, now and after each change; nothing where there was none."""
+        """Yield the messages for a page, now and after each change; empty on a timeout."""
         sent: Sequence[Message] = ()
         active: dict[str, Sequence[str]] = {}
         moves = 0
@@ -96,31 +96,37 @@ class News:
 
         while True:
             with self._changed:
-                self._changed.wait_for(is_new, _PULSE)
+                self._changed.wait_for(is_new, _KEEP_ALIVE)
                 new = [each for each in self._messages if not any(each is old for old in sent)]
                 sent, moves = self._messages, self._moves
                 steps = [step for number, step in self._steps if number > seen]
                 seen = moves
-                now = {who: at for trace in self._active.values() for who, at in trace.items()}
+                now = {
+                    member: at for trace in self._active.values() for member, at in trace.items()
+                }
             moved: dict[str, Sequence[str] | None] = dict.fromkeys(active.keys() - now.keys())
-            moved.update((who, at) for who, at in now.items() if active.get(who) is not at)
+            moved.update(
+                (member, states)
+                for member, states in now.items()
+                if active.get(member) is not states
+            )
             active = now
             if moved:
                 new.append({"active": moved})
-            if done := _together(steps):
+            if done := _merged(steps):
                 new.append(done)
             yield new
 
 
-def _together(steps: Iterable[Steps]) -> Message:
-    """What was done in some steps; nothing of which there is none."""
+def _merged(steps: Iterable[Steps]) -> Message:
+    """Merge steps; omit empty keys."""
     taken: dict[str, list[str]] = {}
     entered: dict[str, list[str]] = {}
     for step in steps:
-        for who, ids in step.get("taken", {}).items():
-            taken.setdefault(who, []).extend(ids)
-        for who, ids in step.get("entered", {}).items():
-            entered.setdefault(who, []).extend(ids)
+        for member, ids in step.get("taken", {}).items():
+            taken.setdefault(member, []).extend(ids)
+        for member, ids in step.get("entered", {}).items():
+            entered.setdefault(member, []).extend(ids)
     done: Message = {}
     if taken:
         done["taken"] = taken
@@ -130,13 +136,13 @@ def _together(steps: Iterable[Steps]) -> Message:
 
 
 @contextmanager
-def serving(news: News, port: int, editor: Editor | None = None) -> Iterator[str]:
-    """Serve the page while the context lasts; yield its address. `port` 0 takes a free one.
+def serving(snapshot: Snapshot, port: int, editor: Editor | None = None) -> Iterator[str]:
+    """Serve the page while the context lasts; yield its address.
 
-    The editor shows what is clicked. Raises OSError if the port is taken.
+    Port 0 selects a free port. `editor` opens clicked places. Raises OSError if the port is taken.
     """
     server = _Server((_HOST, port), _Handler)
-    server.news, server.editor = news, editor
+    server.snapshot, server.editor = snapshot, editor
     threading.Thread(target=server.serve_forever, daemon=True).start()
     try:
         yield f"http://{_HOST}:{server.server_port}/"
@@ -148,15 +154,15 @@ def serving(news: News, port: int, editor: Editor | None = None) -> Iterator[str
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
     block_on_close = False
-    news: News
+    snapshot: Snapshot
     editor: Editor | None
 
-    def opened(self, place: str) -> Opened:
-        """Show a place of the model in the editor; nothing else is opened."""
+    def open_place(self, place: str) -> OpenResult:
+        """Open a place of the model in the editor; reject all other places."""
         if self.editor is None:
             return {"none": True}
-        if file_of(place) not in self.news.pictures.files:
-            return {"failed": "this is no place in the model"}
+        if file_of(place) not in self.snapshot.pictures.files:
+            return {"failed": "not a place in the model"}
         return self.editor.open(place)
 
 
@@ -164,7 +170,7 @@ class _Handler(BaseHTTPRequestHandler):
     server: _Server
 
     def do_GET(self) -> None:
-        if not self._is_asked_here():
+        if not self._is_local():
             self.send_error(HTTPStatus.FORBIDDEN)
             return
         if self.path == "/events":
@@ -173,7 +179,9 @@ class _Handler(BaseHTTPRequestHandler):
         path, _, query = self.path.partition("?")
         if path == "/picture":
             asked = parse_qs(query)
-            drawn = self.server.news.pictures.drawn(asked.get("id", [""])[0], asked.get("fold", []))
+            drawn = self.server.snapshot.pictures.drawn(
+                asked.get("id", [""])[0], asked.get("fold", [])
+            )
             self._answer(drawn)
             return
         file = _FILES.get("/index.html" if path == "/" else path)
@@ -184,20 +192,20 @@ class _Handler(BaseHTTPRequestHandler):
         self.wfile.write(file.read_bytes())
 
     def do_POST(self) -> None:
-        # A page of others may not send JSON here without asking before, which is not answered.
+        # Browsers let no foreign page send JSON without a preflight, which is not answered.
         is_json = self.headers.get("Content-Type") == "application/json"
-        if not (self.path == "/open" and is_json and self._is_asked_here()):
+        if not (self.path == "/open" and is_json and self._is_local()):
             self.send_error(HTTPStatus.FORBIDDEN)
             return
         try:
-            long = int(self.headers.get("Content-Length") or 0)
-            place = json.loads(self.rfile.read(max(0, min(long, _LONGEST))))
+            length = int(self.headers.get("Content-Length") or 0)
+            place = json.loads(self.rfile.read(max(0, min(length, _MAX_BODY))))
         except (ValueError, RecursionError):
             place = None
-        self._answer(self.server.opened(place if isinstance(place, str) else ""))
+        self._answer(self.server.open_place(place if isinstance(place, str) else ""))
 
-    def _is_asked_here(self) -> bool:
-        """Not by a page of others that has a name of its own lead here."""
+    def _is_local(self) -> bool:
+        """Return True unless the host name points to a foreign domain (DNS rebinding)."""
         return (self.headers.get("Host") or "").partition(":")[0] in (_HOST, "localhost")
 
     def _answer(self, value: Mapping[str, object]) -> None:
@@ -212,15 +220,15 @@ class _Handler(BaseHTTPRequestHandler):
         self.end_headers()
 
     def _events(self) -> None:
-        """Server-sent events, as HTML has them: https://html.spec.whatwg.org (section 9.2)."""
+        """Send server-sent events. Source: https://html.spec.whatwg.org (section 9.2)."""
         self._begin("text/event-stream")
         try:
-            for messages in self.server.news.follow():
+            for messages in self.server.snapshot.follow():
                 texts = [f"data: {json.dumps(each)}\n\n" for each in messages]
                 self.wfile.write("".join(texts or [": still here\n\n"]).encode())
                 self.wfile.flush()
         except OSError:
-            pass  # the page is gone
+            pass  # the page was closed
 
     def log_message(self, *_: object) -> None:
-        """Say nothing: what is asked for is no news to the user."""
+        """Suppress the request log."""

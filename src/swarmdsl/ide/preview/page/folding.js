@@ -1,23 +1,23 @@
-// Which nodes of which diagrams are folded, and the marks that fold and unfold them.
+// Folded nodes of diagrams, and their fold marks.
 
 import { made, sides } from "./shapes.js";
 
 const HALF = 7;
-const OUT = 3; // where no line ends
+const OUT = 3; // outside of the lines
 
 export class Folding {
-  #folded; // { ID OF A DIAGRAM: [IDS OF NODES] }
+  #folded; // { DIAGRAM ID: [NODE IDS] }
 
   constructor(folded = {}) {
     this.#folded = folded;
   }
 
-  /** All that is folded, to be remembered. */
+  /** State to store for a reload. */
   get all() {
     return this.#folded;
   }
 
-  /** The nodes of a diagram that are folded; there may be some that the text has no more. */
+  /** Folded node ids of a diagram; some may no longer exist in the model. */
   of(diagram) {
     return this.#folded[diagram] ?? [];
   }
@@ -28,7 +28,7 @@ export class Folding {
     this.#folded[diagram] = others.length < folded.length ? others : [...folded, id];
   }
 
-  /** Put a mark at the corner of each node that can be folded. */
+  /** Draw a mark at the corner of each foldable node. */
   mark(picture) {
     const svg = picture.querySelector("svg");
     for (const each of picture.querySelectorAll("[data-fold]")) {

@@ -1,7 +1,5 @@
-// Whom the page talks to: an editor in whose view it is, or swarmc, which serves it to a browser.
-//
-// An editor is told `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }` and
-// `{ save: { name, base64 } }`; swarmc is asked.
+// Connection to the host: an editor that embeds the page, or swarmc over HTTP. An editor receives
+// `{ want: { id, folded } }`, `{ reveal: "FILE:LINE:COLUMN" }` and `{ save: { name, base64 } }`.
 
 const editor = typeof acquireVsCodeApi === "function" ? acquireVsCodeApi() : undefined;
 const DARK = window.matchMedia("(prefers-color-scheme: dark)");
@@ -9,13 +7,13 @@ const KEY = "swarm-preview";
 
 export const isInEditor = editor !== undefined;
 
-/** Whether the page is dark: an editor has other colours than the system. */
+/** True if the page is dark; an editor has its own theme. */
 export function isDark() {
   const theme = document.body.classList;
   return editor ? theme.contains("vscode-dark") || theme.contains("vscode-high-contrast") : DARK.matches;
 }
 
-/** What was remembered, for as long as the page is in its view or its tab. */
+/** State stored for the lifetime of the view or tab. */
 export function remembered() {
   return editor?.getState() ?? JSON.parse(sessionStorage.getItem(KEY) ?? "{}");
 }
@@ -29,7 +27,7 @@ export function remember(state) {
   }
 }
 
-/** Ask for a picture, with nodes of it folded; an editor sends it later. */
+/** Request a diagram with folded nodes; an editor sends it later. */
 export async function want(id, folded, receive) {
   if (editor) {
     editor.postMessage({ want: { id, folded } });
@@ -39,7 +37,7 @@ export async function want(id, folded, receive) {
   receive(await (await fetch(`picture?${query}`)).json());
 }
 
-/** Lead to a place in the text. */
+/** Open a place in the text. */
 export async function reveal(place, say) {
   if (editor) {
     editor.postMessage({ reveal: place });
@@ -62,7 +60,7 @@ export async function reveal(place, say) {
   }
 }
 
-/** Write a file, where the user wants it. */
+/** Save a file where the user chooses. */
 export async function save(name, blob) {
   if (editor) {
     const bytes = new Uint8Array(await blob.arrayBuffer());
@@ -77,7 +75,7 @@ export async function save(name, blob) {
   URL.revokeObjectURL(link.href);
 }
 
-/** Hear what comes from outside, that it has ended, and that the colours are others. */
+/** Listen for messages, for the end of the connection and for changes of the theme. */
 export function listen(receive, ended, recoloured) {
   if (editor) {
     window.addEventListener("message", ({ data }) => receive(data));

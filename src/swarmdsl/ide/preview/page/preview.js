@@ -1,13 +1,13 @@
-// Shows the pictures of a model, in a browser beside `swarmc preview` or in a view of an editor.
+// Preview page, in a browser (`swarmc preview`) or in a view of an editor.
 //
-// From outside come `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with one of them drawn,
-// `{ broken }` with a number while the text has mistakes (the picture stays), `{ active }` with the
-// states in which robots are, `{ taken, entered }` with transitions that they have just taken and
-// states that they have entered with that, `{ cursor: { file, line } }`, and `{ show: ID }`.
+// Messages of the host: `{ titles: { ID: TITLE }, runs }`, `{ id, svg }` with a drawn diagram,
+// `{ broken }` with the number of errors (the picture stays), `{ active }` with active states,
+// `{ taken, entered }` with transitions just taken and states they entered,
+// `{ cursor: { file, line } }` and `{ show: ID }`.
 
 import { Folding } from "./folding.js";
 import * as host from "./host.js";
-import { Lights } from "./lights.js";
+import { Highlight } from "./highlight.js";
 import { node } from "./shapes.js";
 import { View } from "./view.js";
 
@@ -21,41 +21,41 @@ const [which, who, state, note, canvas, picture] = [
 ].map((id) => document.getElementById(id));
 const before = host.remembered();
 const folding = new Folding(before.folded);
-const lights = new Lights(who, () => light());
+const highlight = new Highlight(who, () => update());
 const view = new View(canvas, picture, click);
 let titles = {};
 let drawn; // { id, svg }
 let shown = (!host.isInEditor && decodeURIComponent(location.hash.slice(1))) || (before.shown ?? "");
 let cursor;
-let wants = 0; // how often a picture was asked for
-let touched; // the node that was folded or unfolded, until there is a picture of it
+let wants = 0; // number of requested pictures
+let touched; // node folded or unfolded last, until its picture arrives
 
-// ---- what is shown
+// ---- drawing
 
-/** A picture in the colours of the page. */
+/** A picture in the colours of the theme. */
 function coloured(svg) {
   return svg.replaceAll("(prefers-color-scheme: dark)", host.isDark() ? "all" : "not all");
 }
 
 function draw() {
-  // The text is that of swarmc, in which names are escaped, and the page runs no script in it.
+  // SVG from swarmc: names are escaped, and the page runs no scripts in it.
   picture.innerHTML = drawn ? coloured(drawn.svg) : "";
   mark();
   if (drawn) {
     folding.mark(picture);
-    light();
+    update();
   }
 }
 
-function light() {
-  lights.show(picture, shown);
+function update() {
+  highlight.show(picture, shown);
 }
 
-/** Ask for the picture that is to be shown; what it may be instead is said by who draws it. */
+/** Request the picture to show; an editor may answer with another one. */
 function want() {
   const number = ++wants;
   void host.want(shown, folding.of(shown), (message) => {
-    // The answer to an earlier one may take longer.
+    // A slower answer to an earlier request must not win.
     if (number === wants) {
       receive(message);
     }
@@ -69,7 +69,7 @@ function remember() {
 function receive(message) {
   if (message.titles) {
     list(message.titles);
-    lights.learn(message.runs ?? {});
+    highlight.learn(message.runs ?? {});
     if (!message.svg && Object.keys(titles).length) {
       want();
     }
@@ -79,21 +79,21 @@ function receive(message) {
   }
   which.value = shown;
   if (message.broken !== undefined) {
-    const mistakes = `${message.broken} mistake${message.broken === 1 ? "" : "s"}`;
-    state.textContent = drawn ? `${mistakes}: this is how it was before` : mistakes;
+    const errors = `${message.broken} error${message.broken === 1 ? "" : "s"}`;
+    state.textContent = drawn ? `${errors}: showing the last valid version` : errors;
   }
   if (message.active) {
-    lights.move(message.active);
+    highlight.move(message.active);
   }
-  // Where members are may be told before the diagrams are.
-  const inhabited = lights.arrive() ? lights.inhabited(shown) : shown;
+  // Active states may arrive before the diagrams.
+  const inhabited = highlight.arrive() ? highlight.inhabited(shown) : shown;
   if (inhabited !== shown) {
     show(inhabited);
   } else if (message.active) {
-    light();
+    update();
   }
   if (message.taken || message.entered) {
-    lights.flash(picture, shown, message.taken ?? {}, message.entered ?? {});
+    highlight.flash(picture, shown, message.taken ?? {}, message.entered ?? {});
   }
   if (message.show) {
     show(message.show);
@@ -135,7 +135,7 @@ function show(id) {
   want();
 }
 
-/** Mark what stands at the cursor: what begins last in front of it. */
+/** Mark the node at the cursor: the last one that starts before it. */
 function mark() {
   let best;
   let line = 0;
@@ -155,7 +155,7 @@ function parsed(place) {
   return found && { file: found[1], line: Number(found[2]), column: Number(found[3]) };
 }
 
-// ---- what the user does
+// ---- user actions
 
 function click(target) {
   const fold = target.closest(".fold");
@@ -184,7 +184,7 @@ picture.addEventListener("keydown", (event) => {
 which.addEventListener("change", () => show(which.value));
 document.getElementById("fit").addEventListener("click", () => view.fit());
 
-// ---- files of it
+// ---- export
 
 function asBlob(svg) {
   return new Blob([svg], { type: "image/svg+xml" });
@@ -205,13 +205,13 @@ document.getElementById("png").addEventListener("click", async () => {
   image.src = URL.createObjectURL(asBlob(coloured(svg)));
   await image.decode();
   const sheet = document.createElement("canvas");
-  [sheet.width, sheet.height] = view.size.map((each) => each * 2); // for screens and for print
+  [sheet.width, sheet.height] = view.size.map((each) => each * 2); // for print
   sheet.getContext("2d").drawImage(image, 0, 0, sheet.width, sheet.height);
   URL.revokeObjectURL(image.src);
   sheet.toBlob((blob) => blob && host.save(`${id}.png`, blob));
 });
 
-// ---- from outside
+// ---- messages of the host
 
 host.listen(receive, () => (state.textContent = "swarmc preview has ended"), draw);
 if (host.isInEditor) {

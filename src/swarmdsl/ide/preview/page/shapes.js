@@ -1,8 +1,8 @@
-// What the page draws on a picture: marks that are not part of its file.
+// Shapes drawn on a picture that are not part of its file.
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** An element of SVG with elements and texts inside. */
+/** Create an SVG element with children. */
 export function made(name, attributes, ...inside) {
   const element = document.createElementNS(SVG, name);
   for (const [key, value] of Object.entries(attributes)) {
@@ -12,12 +12,12 @@ export function made(name, attributes, ...inside) {
   return element;
 }
 
-/** The node of an id in a picture. */
+/** Find a node of a picture by its id. */
 export function node(picture, id) {
   return picture.querySelector(`.node[data-id="${CSS.escape(id)}"]`);
 }
 
-/** The corners of a node that matter: its left, right and upper side. */
+/** Left, right and top edges of a node. */
 export function sides(of) {
   const { x, y, width } = (of.querySelector("rect, circle") ?? of).getBBox();
   return { left: x, right: x + width, top: y };

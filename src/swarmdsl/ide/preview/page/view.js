@@ -1,9 +1,9 @@
-// Where in the view the picture is: moved, zoomed, or as large as fits.
+// Viewport of the picture: pan, zoom, fit.
 
 const LEAST = 0.05;
 const MOST = 8;
 const LARGEST_FIT = 1.5;
-const CLICK = 4; // pixels that a hand may shake in one
+const CLICK = 4; // maximum movement of a click in pixels
 
 export class View {
   #view;
@@ -12,14 +12,14 @@ export class View {
   #left = 0;
   #top = 0;
 
-  /** `click` is called with what was clicked, and not dragged. */
+  /** `click` is called with the target of a click, not of a drag. */
   constructor(view, picture, click) {
     this.#view = view;
     this.#picture = picture;
     this.#listen(click);
   }
 
-  /** The width and height of the picture itself. */
+  /** Width and height of the picture itself. */
   get size() {
     const svg = this.#picture.querySelector("svg");
     return svg ? [Number(svg.getAttribute("width")), Number(svg.getAttribute("height"))] : [1, 1];
@@ -34,7 +34,7 @@ export class View {
     this.#move();
   }
 
-  /** Change the picture, and leave what `find` finds in it where it is on the screen. */
+  /** Replace the picture; the element returned by `find` stays in place on the screen. */
   keeping(find, change) {
     const before = find()?.getBoundingClientRect();
     change();

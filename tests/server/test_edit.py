@@ -32,7 +32,7 @@ async def signature(client, editor, folder, line, instead="do sweep(speed = 1.0,
     return only.label, marks[active] if active < len(marks) else None
 
 
-async def test_what_a_call_takes(client, editor, folder):
+async def test_signature_help(client, editor, folder):
     of_sweep = "sweep(speed : float64, area : geometry_msgs/Pose)"
     for line, wanted in {
         "do sweep(|": (of_sweep, "speed : float64"),
@@ -54,7 +54,7 @@ async def test_what_a_call_takes(client, editor, folder):
         assert await signature(client, editor, folder, line) == wanted, line
 
 
-async def test_formatting_of_a_part(client, editor, folder):
+async def test_range_formatting(client, editor, folder):
     text = LAID_OUT.replace("  initial Idle", "initial   Idle").replace(
         "  final Home", "final   Home"
     )
@@ -71,7 +71,7 @@ async def test_formatting_of_a_part(client, editor, folder):
     assert edit.range.start == lsp.Position(line=start.line, character=0)
 
 
-async def test_formatting_changes_only_lines_that_change(client, editor, folder):
+async def test_formatting_edits_only_changed_lines(client, editor, folder):
     text = LAID_OUT.replace("  initial Idle", "initial   Idle").replace("\n", "\r\n")
     document = editor.open(folder / "patrol.swarm", text)
     [edit] = await client.text_document_formatting_async(

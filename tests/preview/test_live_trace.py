@@ -1,4 +1,4 @@
-"""Where robots are, by the traces that they write."""
+"""Tests of live states from traces."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from swarmdsl.cli import run
 from swarmdsl.driver import pipeline
 from swarmdsl.ide.preview.live_trace import follow
 from swarmdsl.ide.preview.pictures import Pictures, pictures
-from swarmdsl.ide.preview.serving import News
+from swarmdsl.ide.preview.serving import Snapshot
 
 PATIENCE = 60
 MODEL = """package yard
@@ -52,13 +52,13 @@ def step(member: str | None, *states: str, **more: Any) -> str:
 
 
 class Page:
-    """What a page is told of members."""
+    """Records the updates of members that a page receives."""
 
-    def __init__(self, news: News, key: str = "active") -> None:
+    def __init__(self, snapshot: Snapshot, key: str = "active") -> None:
         self._key = key
         self._told: SimpleQueue[Any] = SimpleQueue()
         self._hears = threading.Event()
-        threading.Thread(target=self._hear, args=(news.follow(),), daemon=True).start()
+        threading.Thread(target=self._hear, args=(snapshot.follow(),), daemon=True).start()
         assert self._hears.wait(PATIENCE)
 
     def _hear(self, messages: Iterator[Any]) -> None:
@@ -72,7 +72,7 @@ class Page:
         return self._told.get(timeout=PATIENCE)
 
     def wait_until(self, wanted: Any) -> None:
-        """Wait until it is told so; news that come fast are told together."""
+        """Wait until the merged updates are as expected; fast updates may arrive together."""
         found: Any = {}
         while found != wanted:
             found |= self.told()
@@ -88,13 +88,13 @@ def shown(tmp_path: Path) -> Pictures:
 
 
 @pytest.fixture
-def news(shown: Pictures) -> News:
-    news = News()
-    news.tell(shown)
-    return news
+def snapshot(shown: Pictures) -> Snapshot:
+    snapshot = Snapshot()
+    snapshot.tell(shown)
+    return snapshot
 
 
-def test_who_runs_which_machine_is_told_with_the_diagrams(shown: Pictures) -> None:
+def test_diagrams_name_the_runners(shown: Pictures) -> None:
     runs = shown.listed()["runs"]
     assert runs == {
         "Guarding.statechart": [("Guarding", ""), ("dog", "")],
@@ -104,18 +104,20 @@ def test_who_runs_which_machine_is_told_with_the_diagrams(shown: Pictures) -> No
     assert list(runs) == [each for each in shown.listed()["titles"] if each in runs]
 
 
-def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> None:
+def test_growing_trace_is_followed(snapshot: Snapshot, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     wrong: list[Diagnostics] = []
-    follow([str(trace)], news, wrong.append)
-    page = Page(news)
+    follow([str(trace)], snapshot, wrong.append)
+    page = Page(snapshot)
     trace.write_text(step("dog[0]", "Lie") + step("dog[1]", "Lie"), encoding="utf-8")
     assert page.told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
     with trace.open("a", encoding="utf-8") as file:
         file.write(step("dog[1]", "Patrol.Walk") + step("dog[0]", "Shut")[:-10])
         file.flush()
         assert page.told() == {"dog[1]": ["Patrol.Walk"]}
-        assert Page(news).told() == {"dog[0]": ["Lie"], "dog[1]": ["Patrol.Walk"]}, "a late page"
+        assert Page(snapshot).told() == {"dog[0]": ["Lie"], "dog[1]": ["Patrol.Walk"]}, (
+            "a late page"
+        )
         file.write(step("dog[0]", "Shut")[-10:])
     assert page.told() == {"dog[0]": ["Shut"]}
     trace.write_text(step("dog[1]", "Lie"), encoding="utf-8")
@@ -127,10 +129,10 @@ def test_a_trace_is_followed_while_it_is_written(news: News, tmp_path: Path) -> 
     assert wrong == []
 
 
-def test_transitions_are_told_that_were_taken_just_now(news: News, tmp_path: Path) -> None:
+def test_recent_transitions_are_published(snapshot: Snapshot, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
-    page = Page(news, "taken")
-    follow([str(trace)], news, pytest.fail)
+    page = Page(snapshot, "taken")
+    follow([str(trace)], snapshot, pytest.fail)
     steps = [
         step("dog[0]", "Patrol.Walk", t=100, taken=["Lie->0"]),
         step("dog[1]", "Patrol.Walk", t=9100, taken=["Lie->0"]),
@@ -140,53 +142,53 @@ def test_transitions_are_told_that_were_taken_just_now(news: News, tmp_path: Pat
     trace.write_text("".join(steps), encoding="utf-8")
     told = page.told()
     assert told == {"dog[1]": ["Lie->0"], "dog[0]": ["Patrol.Walk->0", "Patrol->0", "Lie->1"]}
-    late = Page(news, "taken")
+    late = Page(snapshot, "taken")
     with trace.open("a", encoding="utf-8") as file:
         file.write(step("dog[1]", "Patrol.Rest", t=20_000, taken=["Patrol.Walk->0"]))
     assert page.told() == late.told() == {"dog[1]": ["Patrol.Walk->0"]}
 
 
-def test_a_machine_alone_is_known_by_its_states(news: News, tmp_path: Path) -> None:
-    trace = tmp_path / "trace.jsonl"
-    follow([str(trace)], news, pytest.fail)
-    trace.write_text(step(None, "Lie"), encoding="utf-8")
-    assert Page(news).told() == {"Guarding": ["Lie"]}
-
-
-def test_of_several_machines_alone_each_is_called_as_its_trace_too(
-    news: News, tmp_path: Path
+def test_machine_outside_of_a_swarm_is_found_by_its_states(
+    snapshot: Snapshot, tmp_path: Path
 ) -> None:
+    trace = tmp_path / "trace.jsonl"
+    follow([str(trace)], snapshot, pytest.fail)
+    trace.write_text(step(None, "Lie"), encoding="utf-8")
+    assert Page(snapshot).told() == {"Guarding": ["Lie"]}
+
+
+def test_several_machines_are_named_after_their_traces(snapshot: Snapshot, tmp_path: Path) -> None:
     names = [str(tmp_path / name) for name in ("a.jsonl", "b.jsonl")]
     for name in names:
         Path(name).write_text(step(None, "Lie"), encoding="utf-8")
-    follow(names, news, pytest.fail)
-    Page(news).wait_until({f"Guarding ({name})": ["Lie"] for name in names})
+    follow(names, snapshot, pytest.fail)
+    Page(snapshot).wait_until({f"Guarding ({name})": ["Lie"] for name in names})
 
 
-def test_a_line_that_is_none_of_a_trace_is_told_once(news: News, tmp_path: Path) -> None:
+def test_only_the_first_invalid_line_is_reported(snapshot: Snapshot, tmp_path: Path) -> None:
     trace = tmp_path / "trace.jsonl"
     wrong: list[Diagnostics] = []
-    follow([str(trace)], news, wrong.append)
+    follow([str(trace)], snapshot, wrong.append)
     text = f"{step('dog[0]', 'Lie')}\nhello\n[1]\n{{}}\n{step('dog[1]', 'Lie')}"
     trace.write_text(text, encoding="utf-8")
-    assert Page(news).told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
+    assert Page(snapshot).told() == {"dog[0]": ["Lie"], "dog[1]": ["Lie"]}
     (report,) = wrong
     (found,) = report
     assert (found.code, found.notes) == (
         "SW1010",
-        (f"line 3 of {trace}; others are passed over silently",),
+        (f"line 3 of {trace}; further invalid lines are not reported",),
     )
 
 
 @pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
 def test_standard_input_is_followed(
-    news: News, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    snapshot: Snapshot, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     reading, writing = os.pipe()
     with os.fdopen(reading) as stdin, os.fdopen(writing, "wb", buffering=0) as stream:
         monkeypatch.setattr(sys, "stdin", stdin)
-        follow(["-"], news, pytest.fail)
-        page = Page(news)
+        follow(["-"], snapshot, pytest.fail)
+        page = Page(snapshot)
         stream.write(step("dog[0]", "Lie").encode())
         assert page.told() == {"dog[0]": ["Lie"]}
         # A last line may have no end.
@@ -198,14 +200,14 @@ def test_standard_input_is_followed(
 @pytest.mark.parametrize(
     ("name", "why"),
     [
-        ("/sar/uav 0", "`/sar/uav 0` is no name in ROS"),
-        ("sar//uav", "`sar//uav` is no name in ROS"),
-        ("/é", "`/é` is no name in ROS"),
-        (f"{'rescue_' * 20}uav_0-x", f"`{'rescue_' * 20}uav_0-x` is no name in ROS"),
+        ("/sar/uav 0", "`/sar/uav 0` is not a valid ROS name"),
+        ("sar//uav", "`sar//uav` is not a valid ROS name"),
+        ("/é", "`/é` is not a valid ROS name"),
+        (f"{'rescue_' * 20}uav_0-x", f"`{'rescue_' * 20}uav_0-x` is not a valid ROS name"),
         *((name, f"{sys.executable} has no rclpy") for name in ("/sar", "sar/uav_0/", "/", "")),
     ],
 )
-def test_nodes_that_cannot_be_followed(
+def test_invalid_node_names(
     name: str, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: Any
 ) -> None:
     monkeypatch.setitem(sys.modules, "rclpy", None)
@@ -229,15 +231,13 @@ def test_ros_2_without_its_usual_messages(tmp_path: Path, capsys: Any, monkeypat
 @pytest.mark.parametrize(
     ("command", "why"),
     [
-        ("nowhere-to-be-found {file}", "there is no program `nowhere-to-be-found`"),
-        ("code -g {path}", "`{path}` is none of {file}, {line} and {column}"),
-        ("code -g", "`{file}` must stand where the file is to be named"),
+        ("nowhere-to-be-found {file}", "program `nowhere-to-be-found` not found"),
+        ("code -g {path}", "unknown field `{path}`, expected {file}, {line} or {column}"),
+        ("code -g", "field `{file}` is missing"),
         ('code "{file}', "no closing quotation"),
-        ("", "`{file}` must stand"),
+        ("", "field `{file}` is missing"),
     ],
 )
-def test_an_editor_that_cannot_be_one(
-    command: str, why: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_invalid_editors(command: str, why: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["preview", "--editor", command]) == 2
     assert why in " ".join(capsys.readouterr().err.replace("│", " ").split())

@@ -41,7 +41,7 @@ async def tokens(client, document):
     )
 
 
-async def test_words_are_coloured_by_what_they_mean(client, editor, folder):
+async def test_semantic_tokens(client, editor, folder):
     text = MODEL + (
         "message a_msgs/Odd { state : int32 on : bool }\nevent Odd : a_msgs/Odd\n"
         "statemachine Uses {\n  initial A\n  state A { on Odd [event.state > abs(1)] -> B }\n"
@@ -73,7 +73,7 @@ async def test_words_are_coloured_by_what_they_mean(client, editor, folder):
     assert all(word.replace("_", "").isalnum() for word, *_ in found)
 
 
-async def test_colours_of_a_part_are_those_of_the_whole(client, editor):
+async def test_semantic_tokens_of_a_range(client, editor):
     document = editor.open(BEHAVIOURS)
     text = BEHAVIOURS.read_text(encoding="utf-8")
     all_ = coloured(client, (await tokens(client, document)).data, text)
@@ -90,7 +90,7 @@ async def test_colours_of_a_part_are_those_of_the_whole(client, editor):
     assert ("MissionStart", "event", "declaration") not in words
 
 
-async def test_changes_of_colours(client, editor, folder):
+async def test_semantic_token_edits(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     before = await tokens(client, document)
     text = MODEL.replace("state Idle", "state /* new */ Idle").replace("Stop", "Halt")
@@ -121,7 +121,7 @@ async def test_changes_of_colours(client, editor, folder):
         ("event Stop", "event"),
     ],
 )
-async def test_what_was_told_before_an_edit_is_moved_with_it(client, editor, folder, change):
+async def test_cached_results_move_with_edits(client, editor, folder, change):
     async def told(document):
         outline = await client.text_document_document_symbol_async(
             lsp.DocumentSymbolParams(text_document=document)
@@ -138,7 +138,7 @@ async def test_what_was_told_before_an_edit_is_moved_with_it(client, editor, fol
     assert await told(editor.open(folder / "patrol.swarm", MODEL.replace(*change))) == edited
 
 
-async def test_a_half_typed_file_keeps_its_colours(client, editor, folder):
+async def test_incomplete_file_keeps_its_semantic_tokens(client, editor, folder):
     text = MODEL.replace("on Stop -> Home", "on Stop ->")
     document = editor.open(folder / "patrol.swarm", text)
     found = coloured(client, (await tokens(client, document)).data, text)
@@ -146,7 +146,7 @@ async def test_a_half_typed_file_keeps_its_colours(client, editor, folder):
     assert ("rounds", "variable") in found
 
 
-async def test_folds(client, editor, folder):
+async def test_folding_range_request(client, editor, folder):
     text = (
         '// one\n// two\npackage p\nimport "a.swarm"\n\nimport "b.swarm"\n/* three\n four */\n'
         'statemachine M { // {\n  state A {\n  }\n  state B { "}"\n  do\n'
@@ -168,7 +168,7 @@ async def test_folds(client, editor, folder):
     assert blocks == [(8, 13), (11, 12)]
 
 
-async def test_a_selection_grows(client, editor, folder):
+async def test_selection_ranges(client, editor, folder):
     document = editor.open(folder / "patrol.swarm")
     [found] = await client.text_document_selection_range_async(
         lsp.SelectionRangeParams(text_document=document, positions=[at("FAST] /")])
@@ -186,7 +186,7 @@ async def test_a_selection_grows(client, editor, folder):
     assert texts[-1] == "/// Robots that go round. 🤖"
 
 
-async def test_policies_are_those_that_are_written(client, editor):
+async def test_policy_hints_match_the_output(client, editor):
     """Beside each activity stands what the compiler makes of it."""
     text = BEHAVIOURS.read_text(encoding="utf-8")
     document = editor.open(BEHAVIOURS)
@@ -204,7 +204,7 @@ async def test_policies_are_those_that_are_written(client, editor):
     assert len(set(wanted)) > 2
 
 
-async def test_hints_of_ports_and_numbers(client, editor):
+async def test_hints_of_ports_and_enum_values(client, editor):
     text = SAR.read_text(encoding="utf-8") + "\nenum Mode { A B = 4 C }\nswarm One { uav : Uav }\n"
     document = editor.open(SAR, text)
     found = await client.text_document_inlay_hint_async(
@@ -223,7 +223,7 @@ async def test_hints_of_ports_and_numbers(client, editor):
     assert [each.label for each in few] == [" = 0", " = 5"]
 
 
-async def test_links(client, editor, folder):
+async def test_document_links(client, editor, folder):
     text = 'import "patrol.swarm"\nimport cpswarm.functions.*\nimport "missing.swarm"\n'
     document = editor.open(folder / "links.swarm", text)
     found = await client.text_document_document_link_async(
@@ -235,7 +235,7 @@ async def test_links(client, editor, folder):
     assert "/library/cpswarm/functions" in found[1].target
 
 
-async def test_lenses(client, editor):
+async def test_code_lenses(client, editor):
     document = editor.open(SAR)
     text = SAR.read_text(encoding="utf-8")
     found = await client.text_document_code_lens_async(lsp.CodeLensParams(text_document=document))
@@ -258,7 +258,7 @@ async def hovered(client, editor, path, word, text=None):
     return found.contents.value
 
 
-async def test_hover_says_how_many_there_are_and_what_targets_make_of_it(client, editor):
+async def test_hover_shows_multiplicity_and_support_in_targets(client, editor):
     assert "role, 3 members" in await hovered(client, editor, SAR, "uav   :")
     assert "role, 1 to 5 members" in await hovered(client, editor, SAR, "rover :")
     found = await hovered(client, editor, BEHAVIOURS, "Mission {\n    region")
@@ -268,7 +268,7 @@ async def test_hover_says_how_many_there_are_and_what_targets_make_of_it(client,
     assert "event, of type `float64`" in found
 
 
-async def test_hover_says_what_the_targets_of_the_project_make_of_it(client, editor, folder):
+async def test_hover_shows_support_in_targets_of_the_project(client, editor, folder):
     (folder / "swarm.toml").write_text("[targets.smach]\nros = 2\n[targets.yasmin]\n")
     model = folder / "lab.swarm"
     model.write_text("statemachine M { initial A  state A { initial B  final B }  final C }\n")
@@ -293,7 +293,7 @@ async def called(client, editor, path, word):
     return [each.from_.name for each in incoming], [each.to.name for each in outgoing]
 
 
-async def test_who_can_reach_a_state(client, editor):
+async def test_call_hierarchy(client, editor):
     assert await called(client, editor, BEHAVIOURS, "Coverage {") == (
         ["TakeOff", "Tracking", "LocalCoverage"],
         ["SelectRover", "Abort", "uav_coverage"],

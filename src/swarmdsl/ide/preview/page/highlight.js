@@ -1,4 +1,4 @@
-// Where robots are: the states that are active light up, and for a moment the transitions taken.
+// Highlighting of active states, and briefly of transitions just taken.
 
 import { made, sides } from "./shapes.js";
 
@@ -6,29 +6,29 @@ const EVERYONE = "*";
 const NOBODY = "-";
 const MOST_NAMED = 12;
 const MOMENT = 1500; // milliseconds
-const INITIAL = "#initial->"; // how the ids of arrows to what is entered first end
+const INITIAL = "#initial->"; // suffix of the ids of arrows from initial states
 
-export class Lights {
-  #who; // the list of members
-  #runs = {}; // by diagrams: [[ROLE, PREFIX OF ITS STATES], ...]
+export class Highlight {
+  #who; // select element of members
+  #runs = {}; // { DIAGRAM: [[ROLE, PREFIX OF ITS STATES], ...] }
   #roles = new Set();
-  #active = new Map(); // by members: their innermost active states
+  #active = new Map(); // innermost active states by member
   #isDeserted = true;
-  #timers = new WeakMap(); // by transitions that are lit
+  #timers = new WeakMap(); // timers of highlighted transitions
 
-  /** `changed` is called when the user has chosen somebody else. */
+  /** `changed` is called when the user selects another member. */
   constructor(who, changed) {
     this.#who = who;
     who.addEventListener("change", changed);
   }
 
-  /** Learn who runs which state machine. */
+  /** Store who runs which state machine. */
   learn(runs) {
     this.#runs = runs;
     this.#roles = new Set(Object.values(runs).flatMap((each) => each.map(([role]) => role)));
   }
 
-  /** Move members. */
+  /** Update the active states of members. */
   move(active) {
     for (const [member, states] of Object.entries(active)) {
       if (states) {
@@ -40,21 +40,21 @@ export class Lights {
     this.#isDeserted ||= !this.#active.size;
   }
 
-  /** Whether members are there for the first time since there were none, and what they run is known. */
+  /** True once when the first members appear and their machines are known. */
   arrive() {
     const isFirst = this.#isDeserted && this.#active.size > 0 && Object.keys(this.#runs).length > 0;
     this.#isDeserted &&= !isFirst;
     return isFirst;
   }
 
-  /** A diagram in which somebody is; `diagram` itself if there is one in it. */
+  /** A diagram with an active member; `diagram` itself if it has one. */
   inhabited(diagram) {
     const members = [...this.#active.keys()];
     const isIn = (id) => members.some((each) => this.#prefixes(id, each).length);
     return isIn(diagram) ? diagram : (Object.keys(this.#runs).find(isIn) ?? diagram);
   }
 
-  /** Light up the states of the diagram in a picture. */
+  /** Highlight the active states in a picture of the diagram. */
   show(picture, diagram) {
     for (const each of picture.querySelectorAll(".lit, .around")) {
       each.classList.remove("lit", "around");
@@ -65,7 +65,7 @@ export class Lights {
     );
     const crew = [...this.#active.keys()].filter((each) => this.#prefixes(diagram, each).length);
     const chosen = this.#offer(crew);
-    const found = new Map(); // by nodes: who is there
+    const found = new Map(); // members by node
     for (const member of crew.filter((each) => chosen === EVERYONE || chosen === each)) {
       for (const id of this.#places(diagram, member, nodes)) {
         found.set(id, (found.get(id) ?? new Set()).add(member));
@@ -84,14 +84,14 @@ export class Lights {
   }
 
   /**
-   * Light up for a moment the transitions that members have just taken, by their ids, and the
-   * arrows to what they have `entered` first in a state or a machine.
+   * Highlight briefly the transitions that members have just taken, by their ids, and the arrows
+   * from initial states to states in `entered`.
    */
   flash(picture, diagram, taken, entered) {
     const edges = new Map(
       Array.from(picture.querySelectorAll(".edge"), (each) => [each.dataset.id, each]),
     );
-    const lines = Array.from(picture.querySelectorAll("text[data-id]")); // in the boxes of states
+    const lines = Array.from(picture.querySelectorAll("text[data-id]")); // inside the boxes of states
     const chosen = this.#who.value;
     for (const member of new Set([...Object.keys(taken), ...Object.keys(entered)])) {
       const prefixes = [EVERYONE, member].includes(chosen) ? this.#prefixes(diagram, member) : [];
@@ -113,16 +113,16 @@ export class Lights {
     this.#timers.set(edge, setTimeout(() => edge.classList.remove("taken"), MOMENT));
   }
 
-  /** What the ids of a member's states begin with where they are in a diagram. */
+  /** Prefixes of a member's state ids in a diagram. */
   #prefixes(diagram, member) {
     const role = member.replace(/\[\d+\]| \(.*\)$/, ""); // dog[1], Guarding (dog.jsonl)
     if (this.#roles.has(role)) {
       return (this.#runs[diagram] ?? []).filter(([each]) => each === role).map((each) => each[1]);
     }
-    return this.#runs[diagram] ? [""] : []; // of somebody else nothing is known but the states
+    return this.#runs[diagram] ? [""] : []; // of an unknown member, only the states are known
   }
 
-  /** The nodes in which a member is; where a state is not drawn, what is drawn around it. */
+  /** Nodes in which a member is; a hidden state maps to the node around it. */
   *#places(diagram, member, nodes) {
     for (const prefix of this.#prefixes(diagram, member)) {
       for (const state of this.#active.get(member)) {
@@ -137,7 +137,7 @@ export class Lights {
     }
   }
 
-  /** Offer those who are in a diagram; returns who is chosen. */
+  /** List the members of a diagram; returns the selection. */
   #offer(crew) {
     const who = this.#who;
     const wanted = [EVERYONE, NOBODY, ...crew];
@@ -145,7 +145,7 @@ export class Lights {
       const chosen = who.value;
       who.replaceChildren(
         new Option(crew.length > 1 ? `all ${crew.length}` : crew[0] || "the machine", EVERYONE),
-        new Option("no lights", NOBODY),
+        new Option("no highlighting", NOBODY),
         ...(crew.length > 1 ? crew : []).map((each) => new Option(each || "a machine", each)),
       );
       who.value = wanted.includes(chosen) ? chosen : EVERYONE;
@@ -156,12 +156,12 @@ export class Lights {
   }
 }
 
-/** The state around a state; empty for one at the top. */
+/** Parent id of a state; empty at the top level. */
 function above(id) {
   return id.slice(0, Math.max(id.lastIndexOf("."), 0));
 }
 
-/** Of some ids those in a diagram, where all have a prefix elsewhere; empty, that of its machine. */
+/** Ids without their prefix, if they are in the diagram; empty for the machine itself. */
 function here(ids, prefix) {
   const machine = prefix.slice(0, -1);
   return ids.flatMap((id) => {
@@ -171,8 +171,8 @@ function here(ids, prefix) {
 }
 
 /**
- * Whether an edge leads to what is entered first in a state, and was taken: of the transitions
- * that were, none leads from outside of the state to one in it.
+ * True if an edge leads from an initial state to an entered state, and no transition that was taken
+ * enters that region from outside.
  */
 function begins(edge, entered, taken, edges) {
   const { id, to } = edge.dataset;
@@ -187,14 +187,14 @@ function begins(edge, entered, taken, edges) {
   return entered.includes(around) && entered.includes(to) && !entersElsewhere;
 }
 
-/** How many are in a node, and who they are. */
+/** Draw the number of members in a node, with their names. */
 function count(node, members) {
   const { left, top } = sides(node);
   const named = members.slice(0, MOST_NAMED).join("\n");
   const others = members.length - MOST_NAMED;
   const text = String(members.length);
   const width = 10 + 7 * text.length;
-  const x = left + 4 - width; // where no line ends
+  const x = left + 4 - width; // outside of the lines
   return made(
     "g",
     { class: "count" },

@@ -41,7 +41,7 @@ def run(program):
     return ran.stdout
 
 
-def test_a_server_that_has_started_has_finished_few():
+def test_started_server_has_defined_few_types():
     unfinished = run(f"""{LOAD}
 from swarmdsl.ide.server.server import Server
 Server(None)
@@ -50,13 +50,13 @@ print(len(lazy_lsp_types.unfinished()))
     assert int(unfinished) > 450
 
 
-def test_each_is_what_it_would_be_at_once():
+def test_lazy_types_equal_eager_types():
     at_once = run(USE)
     assert "TextDocumentContentChangePartial" in at_once
     assert re.sub(r" at 0x\w+", "", run(LOAD + USE)) == re.sub(r" at 0x\w+", "", at_once)
 
 
-def test_two_threads_may_want_the_same():
+def test_two_threads_use_the_same_type():
     found = run(f"""{LOAD}
 import attrs, threading
 from lsprotocol import types

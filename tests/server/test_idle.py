@@ -40,7 +40,7 @@ def run(*messages, until):
     return out.getvalue().decode()
 
 
-def test_it_gets_ready_for_the_next_request(collected, monkeypatch):
+def test_idle_server_loads_modules(collected, monkeypatch):
     done = []
     monkeypatch.setattr(support, "load_generators", lambda: done.append("targets"))
     monkeypatch.setattr(server, "parse", lambda source, report: done.append(source.text))
@@ -48,14 +48,14 @@ def test_it_gets_ready_for_the_next_request(collected, monkeypatch):
     assert done == ["targets", "event"]
 
 
-def test_what_fails_then_is_told(collected, monkeypatch, capsys):
+def test_errors_while_idle_are_logged(collected, monkeypatch, capsys):
     monkeypatch.setattr(support, "load_generators", lambda: 1 / 0)
     assert "internal error: division by zero" in run(INITIALIZE, until=collected)
     assert "ZeroDivisionError" in capsys.readouterr().err
 
 
-def test_without_a_rest_garbage_is_looked_for_after_many_messages(collected, monkeypatch):
+def test_busy_server_collects_garbage(collected, monkeypatch):
     monkeypatch.setattr(server, "_MESSAGES_PER_COLLECTION", 3)
-    monkeypatch.setattr(server, "_REST", 60)
+    monkeypatch.setattr(server, "_IDLE_AFTER", 60)
     ask = {"jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": {"query": "a"}}
     assert '"id": 2' in run(INITIALIZE, ask, ask, until=collected)

@@ -8,7 +8,7 @@ from swarmdsl.base.source import Source
 from swarmdsl.ide.server.folding_range import FoldingRange, folding_ranges
 
 
-def test_what_can_be_folded() -> None:
+def test_folding_ranges() -> None:
     text = '/* a\n { */\nimport "a"\nimport "b"\n// c\n// d\nstruct S {\n  a : T\n}\n'
     assert folding_ranges(Source("model.swarm", text)) == [
         FoldingRange(0, 1, "comment"),
@@ -19,12 +19,12 @@ def test_what_can_be_folded() -> None:
 
 
 @pytest.mark.parametrize("begin", ["/*", '"', "// */ /*"])
-def test_what_has_no_end_hides_no_blocks(begin: str) -> None:
+def test_unterminated_token_hides_no_blocks(begin: str) -> None:
     text = f"struct S {{\n  a : T\n}}\n{begin} x\nstruct U {{\n  a : T\n}}\n"
     assert folding_ranges(Source("model.swarm", text)) == [FoldingRange(0, 1), FoldingRange(4, 5)]
 
 
 @pytest.mark.parametrize("text", ['"' + r"\"" * 100_000, "/* " * 70_000, "/*\n" * 70_000])
-def test_much_that_has_no_end(text: str) -> None:
+def test_many_unterminated_tokens(text: str) -> None:
     """It takes minutes where each looks for its end on its own."""
     assert folding_ranges(Source("model.swarm", text)) == []
