@@ -1,20 +1,20 @@
-;;; swarm-mode.el --- Models of swarms of robots  -*- lexical-binding: t; -*-
+;;; swarm-mode.el --- Major mode for swarm models  -*- lexical-binding: t; -*-
 
 ;; Package-Requires: ((emacs "27.1"))
 ;; Keywords: languages
 
 ;;; Commentary:
 
-;; Colours, comments and indentation for .swarm files, and `swarmc lsp' for Eglot.
+;; Highlighting, comments and indentation for .swarm files, and `swarmc lsp' for Eglot.
 
 ;;; Code:
 
 (defgroup swarm nil
-  "Models of swarms of robots."
+  "Major mode for swarm models."
   :group 'languages)
 
 (defcustom swarm-indent-offset 2
-  "By how many columns a block is indented."
+  "Number of columns to indent a block."
   :type 'integer
   :safe #'integerp)
 
@@ -91,7 +91,7 @@
     table))
 
 (defun swarm-indent-line ()
-  "Indent a line by the blocks around it."
+  "Indent the current line by its enclosing blocks."
   (interactive)
   (let ((depth (save-excursion
                  (beginning-of-line)
@@ -102,7 +102,7 @@
 
 ;;;###autoload
 (define-derived-mode swarm-mode prog-mode "Swarm"
-  "Models of swarms of robots."
+  "Major mode for swarm models."
   (setq-local comment-start "// "
               comment-start-skip "\\(?://+\\|/\\*+\\)[ \t]*"
               comment-end ""

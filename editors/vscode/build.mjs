@@ -1,5 +1,5 @@
-// Puts the extension and the packages it imports into one file, dist/extension.js, and beside it
-// the licences of these packages; and the script of the preview's page into dist/preview.js.
+// Bundles the extension into dist/extension.js, with the licences of its packages beside it, and
+// the script of the preview page into dist/preview.js.
 
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -19,7 +19,7 @@ const { metafile } = await build({
 });
 
 await build({
-  entryPoints: ["../../src/swarmdsl/preview/page/preview.js"],
+  entryPoints: ["../../src/swarmdsl/ide/preview/page/preview.js"],
   outfile: "dist/preview.js",
   bundle: true,
   target: "es2022",

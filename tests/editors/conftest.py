@@ -1,4 +1,4 @@
-"""What the tests of the editor support share: the words of the language, and the tools of Node."""
+"""Fixtures: words of the language, and tools of Node."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
 OFFLINE = re.compile(r"ENOTFOUND|EAI_AGAIN|ECONNREFUSED|ECONNRESET|ENETUNREACH|ETIMEDOUT")
 
-# For secrets, which takes longer than all the rest: they would be in the repository, too.
+# Skip the scan for secrets: it takes longer than all the rest, and they would be in the repository.
 UNSEARCHED = "--allow-package-all-secrets --allow-package-env-file"
 
-# A token: line, first column, column after it (from 0), scopes from the outermost.
+# Token: line, first column, column after it (from 0), scopes from the outermost.
 Token = tuple[int, int, int, list[str]]
 Npm = Callable[..., "subprocess.CompletedProcess[str]"]
 
 
 class Language:
-    """The textX grammar: the words it knows, and texts parsed with it."""
+    """Keywords of the textX grammar, and its parser."""
 
     def __init__(self) -> None:
         self.metamodel = metamodel_from_file(ROOT / "grammar" / "swarm.tx", autokwd=True)
-        # What a name refers to does not matter here, but textX wants an object.
+        # Reference targets do not matter here, but textX requires an object.
         self.metamodel.register_scope_providers({"*.*": lambda *_: object()})
         rules = list(_rules(self.metamodel._parser_blueprint.parser_model, set()))
         self.keywords = {rule.to_match for rule in rules if self.is_keyword(rule)}
@@ -44,11 +44,11 @@ class Language:
 
     @staticmethod
     def is_keyword(rule: Any) -> bool:
-        """Tell whether a rule of the parser is a keyword; `autokwd` makes regexes of them."""
+        """Return True if a parser rule is a keyword; `autokwd` turns them into regexes."""
         return isinstance(rule, StrMatch | RegExMatch) and rule.to_match.isalpha()
 
     def parse(self, text: str) -> list[Terminal]:
-        """Return what `text` consists of; textX raises where it is not the language."""
+        """Return the terminals of `text`. Raises an error of textX if it is invalid."""
         return list(_terminals(self.metamodel.model_from_str(text)._tx_parser.parse_tree))
 
 
@@ -75,7 +75,7 @@ def language() -> Language:
 
 @pytest.fixture(scope="session")
 def npm() -> Npm:
-    """Run npm in the folder of the extension, with its development tools installed."""
+    """Return a function that runs npm in the extension, with its development tools installed."""
     program = shutil.which("npm")
     if program is None or shutil.which("node") is None:
         pytest.skip("no Node: apt-get install nodejs npm")
@@ -97,7 +97,7 @@ def npm() -> Npm:
 
 @pytest.fixture(scope="session")
 def packages(npm: Npm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
-    """The extension, packaged twice: in two places of the world, but of one time."""
+    """Return two packages of the extension, built in different folders at the same time."""
     if shutil.which("make") is None:
         pytest.skip("no make: apt-get install make")
 
@@ -119,7 +119,7 @@ def packages(npm: Npm, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, 
 
 @pytest.fixture(scope="session")
 def tokenize(npm: Npm) -> Iterator[Callable[[str], list[Token]]]:
-    """Tokenise a text with the TextMate grammar, by the library that VS Code uses."""
+    """Return a tokenizer with the TextMate grammar, using the library of VS Code."""
     with subprocess.Popen(
         ["node", EXTENSION / "tests" / "tokenize.js"],
         stdin=subprocess.PIPE,

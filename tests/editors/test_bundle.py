@@ -1,4 +1,4 @@
-"""The server that the extension brings needs an interpreter of Python and nothing else."""
+"""The bundled server needs only a Python interpreter."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pytest_lsp import ClientServerConfig, LanguageClient
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
-# Without the packages that are installed here.
+# Without the packages installed here.
 BARE = [sys.executable, "-I", "-S", str(EXTENSION / "server")]
 
 BASE = '/// Begin.\nevent Start : std_msgs/Empty on "start"\n'
@@ -29,7 +29,7 @@ statemachine Patrol {
 
 @pytest.fixture(scope="module", autouse=True)
 def bundle() -> None:
-    """Make the server as `make vsix` does."""
+    """Build the bundled server as `make vsix` does."""
     program = [sys.executable, str(EXTENSION / "bundle" / "make.py")]
     made = subprocess.run(program, capture_output=True, text=True)
     if "Could not find a version" in made.stderr or "No matching distribution" in made.stderr:
@@ -53,7 +53,7 @@ async def client(lsp_client: LanguageClient, tmp_path: Path):
 
 
 @pytest.mark.asyncio
-async def test_it_serves_an_editor(client: LanguageClient, tmp_path: Path) -> None:
+async def test_bundle_serves_an_editor(client: LanguageClient, tmp_path: Path) -> None:
     uri = (tmp_path / "patrol.swarm").as_uri()
     client.text_document_did_open(
         lsp.DidOpenTextDocumentParams(
@@ -90,7 +90,7 @@ async def test_it_serves_an_editor(client: LanguageClient, tmp_path: Path) -> No
     assert edits
 
 
-def test_it_says_that_it_builds_nothing() -> None:
+def test_bundle_rejects_build() -> None:
     ran = subprocess.run([*BARE, "build", "."], capture_output=True, text=True)
     assert ran.returncode == 1
     assert "install the Python package swarmdsl" in ran.stderr

@@ -1,7 +1,8 @@
-"""The extension is complete, and its package holds what it should and nothing else."""
+"""Tests of the extension: manifest, problem matchers, editing rules, package."""
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import re
 import struct
@@ -15,7 +16,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 EXTENSION = ROOT / "editors" / "vscode"
-pytestmark = pytest.mark.timeout(900)  # npm may install its tools first
+pytestmark = pytest.mark.timeout(900)  # npm may have to install its tools first
 NAMED = {
     "language-configuration.json",
     "syntaxes/swarm.tmLanguage.json",
@@ -70,13 +71,25 @@ def test_settings_are_those_that_the_sources_read() -> None:
     assert trusted == settings - {"swarmdsl.trace.server"}
 
 
-def test_extension_icon_has_the_size_a_marketplace_wants() -> None:
+def test_sources_name_modules_and_files_that_exist() -> None:
+    preview = (EXTENSION / "src" / "preview.ts").read_text(encoding="utf-8")
+    [page] = re.findall(r'const page = \["server", (.*?)\];', preview)
+    assert ROOT.joinpath("src", *json.loads(f"[{page}]"), "index.html").is_file()
+    build = (EXTENSION / "build.mjs").read_text(encoding="utf-8")
+    [script] = re.findall(r'"(\S+/preview\.js)"\]', build)
+    assert (EXTENSION / script).is_file()
+    probe = (EXTENSION / "src" / "probe.ts").read_text(encoding="utf-8")
+    [module, _] = re.findall(r'for name in \("(\w+)", "(\w+)"\)', probe)[0]
+    assert importlib.util.find_spec(f"swarmdsl.{module}")
+
+
+def test_icon_has_the_size_of_the_marketplace() -> None:
     data = (EXTENSION / MANIFEST["icon"]).read_bytes()
     assert data.startswith(b"\x89PNG\r\n\x1a\n")
     assert struct.unpack(">II", data[16:24]) == (128, 128)
 
 
-def test_lock_file_names_no_place_to_fetch_from() -> None:
+def test_lock_file_names_no_registry() -> None:
     text = (EXTENSION / "package-lock.json").read_text(encoding="utf-8")
     assert '"resolved"' not in text
     assert "registry" not in text.lower()
@@ -90,7 +103,7 @@ def test_license_is_that_of_the_project() -> None:
 # ---- the sources
 
 
-def test_types_are_right(npm: Any) -> None:
+def test_types_check(npm: Any) -> None:
     result = npm("run", "--silent", "check")
     assert result.returncode == 0, result.stdout
 
@@ -101,7 +114,7 @@ def test_units(npm: Any) -> None:
     assert re.search(r"^# pass [1-9]", result.stdout, re.MULTILINE), result.stdout
 
 
-def test_a_new_model_is_right(tmp_path: Path) -> None:
+def test_template_of_a_new_model_is_valid(tmp_path: Path) -> None:
     model = EXTENSION / "templates" / "model.swarm"
     for command in (["check", "--deny", "warnings"], ["fmt", "--check"]):
         line = [sys.executable, "-m", "swarmdsl", *command, str(model)]
@@ -112,7 +125,7 @@ def test_a_new_model_is_right(tmp_path: Path) -> None:
 # ---- the problem matchers
 
 
-def test_problem_matcher_reads_what_the_compiler_prints(tmp_path: Path) -> None:
+def test_problem_matcher_reads_diagnostics(tmp_path: Path) -> None:
     model = tmp_path / "a model.swarm"
     model.write_text("package a\n\nswarm event Found : Nothing\n", encoding="utf-8")
     command = [sys.executable, "-m", "swarmdsl", "check", "--format", "concise", str(model)]
@@ -129,7 +142,7 @@ def test_problem_matcher_reads_what_the_compiler_prints(tmp_path: Path) -> None:
     assert "Nothing" in found[pattern["message"]]
 
 
-def test_background_matcher_knows_when_swarmc_looks_again(tmp_path: Path) -> None:
+def test_background_matcher_detects_rebuilds(tmp_path: Path) -> None:
     model = tmp_path / "model.swarm"
     model.write_text("package a\n", encoding="utf-8")
     command = [sys.executable, "-m", "swarmdsl", "check", "--watch", "--format", "concise", "."]
@@ -185,13 +198,13 @@ def test_enter_continues_documentation(line: str, documentation: bool) -> None:
         ("/* state { */", False),
     ],
 )
-def test_block_indents_what_follows(line: str, deeper: bool) -> None:
+def test_block_indents_the_next_line(line: str, deeper: bool) -> None:
     pattern = EDITING["indentationRules"]["increaseIndentPattern"]
     assert bool(re.search(pattern, line)) is deeper
 
 
 @pytest.mark.parametrize(("line", "back"), [("}", True), ("  )", True), ("final X }", False)])
-def test_closing_bracket_goes_back(line: str, back: bool) -> None:
+def test_closing_bracket_outdents(line: str, back: bool) -> None:
     pattern = EDITING["indentationRules"]["decreaseIndentPattern"]
     assert bool(re.search(pattern, line)) is back
 

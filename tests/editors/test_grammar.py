@@ -1,4 +1,4 @@
-"""Every part of a text gets the scope of its role: textX says what each part is."""
+"""Each token has the TextMate scope of its role according to textX."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 INLINE = ROOT / "editors" / "vscode" / "tests"
-# What is wrong in this one is wrong on purpose.
+# This one is invalid on purpose.
 INCOMPLETE = INLINE / "incomplete.swarm"
 MODELS = sorted(
     {
@@ -22,7 +22,7 @@ MODELS = sorted(
     - {INCOMPLETE}
 )
 
-# How the innermost scope of a part may begin, by what the part is.
+# Prefixes of the innermost scope of a terminal, by its role.
 KEYWORD = ("keyword.", "storage.")
 NAME = ("entity.", "variable.other.", "variable.parameter.", "support.")
 SEPARATOR = ("punctuation.accessor.", "punctuation.separator.")
@@ -30,7 +30,7 @@ STRING = ("string.", "punctuation.definition.string.", "constant.character.escap
 NUMBER = ("constant.numeric.", "keyword.other.unit.")
 OPERATOR = ("keyword.operator.", "punctuation.", "constant.language.unbounded.")
 COMMENT = ("comment.", "punctuation.definition.comment.")
-# Keywords that stand for a value rather than for a construct.
+# Keywords that are values, not constructs.
 VALUES = {
     "true": ("constant.language.",),
     "false": ("constant.language.",),
@@ -39,7 +39,7 @@ VALUES = {
 
 
 def scopes_of(part: Any, language: Any) -> tuple[str, ...]:
-    """Return how the scope of what textX read as `part` may begin."""
+    """Return the allowed scope prefixes of a terminal of textX."""
     if language.is_keyword(part.rule):
         return VALUES.get(part.value, KEYWORD)
     if part.value.startswith('"'):
@@ -48,15 +48,15 @@ def scopes_of(part: Any, language: Any) -> tuple[str, ...]:
         return NUMBER
     if re.match(r"[A-Za-z_]", part.value):
         return NAME
-    if re.match(r"[./][\w*]", part.value):  # the rest of `pkg.Name`, `pkg/Type` or `pkg.*`
+    if re.match(r"[./][\w*]", part.value):  # rest of `pkg.Name`, `pkg/Type` or `pkg.*`
         return (*NAME, *SEPARATOR, "keyword.operator.wildcard.")
-    if re.match(r"(\[|<=|\[\s*<=)\s*\d", part.value):  # the size of an array, a bound
+    if re.match(r"(\[|<=|\[\s*<=)\s*\d", part.value):  # array size, bound
         return OPERATOR + NUMBER
     return OPERATOR
 
 
 def miscoloured(text: str, language: Any, tokenize: Any) -> list[str]:
-    """Return the parts of `text` that do not have the scope of their role."""
+    """Return the parts of `text` without the scope of their role."""
     allowed = [COMMENT] * len(text)
     for part in language.parse(text):
         end = part.position + len(part.value)
@@ -87,8 +87,8 @@ def test_every_part_of_a_model_has_the_scope_of_its_role(
     assert miscoloured(path.read_text(encoding="utf-8"), language, tokenize) == []
 
 
-def test_a_wrong_scope_is_found(language: Any, tokenize: Any) -> None:
-    # TextMate grammars read line by line, so this one cannot know that `state` is a field here.
+def test_wrong_scope_is_found(language: Any, tokenize: Any) -> None:
+    # TextMate grammars work line by line, so this one cannot know that `state` is a field here.
     text = "message M {\n  state\n  : string }"
     assert miscoloured(text, language, tokenize) == ["line 2: `state` is keyword.other.swarm"]
 

@@ -1,4 +1,4 @@
-"""The TextMate grammar knows exactly the words of the textX grammar."""
+"""The TextMate grammar has exactly the keywords of the textX grammar."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ GRAMMAR = Path(__file__).resolve().parents[2] / "editors/vscode/syntaxes/swarm.t
 
 
 def words(regex: str) -> set[str]:
-    """Return the words that a regex spells out."""
+    """Return the words that a regex matches literally."""
     no_classes = re.sub(r"\[(?:\\.|[^\]\\])*\]", " ", regex)
     return set(re.findall(r"[A-Za-z]\w*", re.sub(r"\\.", " ", no_classes)))
 
@@ -49,17 +49,17 @@ def test_the_language_has_keywords_of_both_kinds(language: Any) -> None:
     assert {"goal", "by", "world"} <= language.contextual
 
 
-def test_every_keyword_is_coloured(language: Any, coloured: set[str]) -> None:
+def test_every_keyword_is_highlighted(language: Any, coloured: set[str]) -> None:
     assert (language.keywords | language.reserved) - coloured == set()
 
 
-def test_only_words_of_the_language_are_coloured(language: Any, coloured: set[str]) -> None:
+def test_only_words_of_the_language_are_highlighted(language: Any, coloured: set[str]) -> None:
     units = words(language.regexes["QUANTITY"]) | words(language.regexes["LENGTH"])
     known = language.keywords | language.reserved | units | set(PRIMITIVES)
     assert coloured - known == set()
 
 
-def test_every_unit_is_coloured(language: Any, textmate: Any) -> None:
+def test_every_unit_is_highlighted(language: Any, textmate: Any) -> None:
     repository = textmate["repository"]
     for name, regex in (("quantity", "QUANTITY"), ("environment", "LENGTH")):
         spelled = set().union(*map(words, regexes(repository[name])))

@@ -1,4 +1,4 @@
-"""Vim, Neovim, Emacs and Pygments colour the words that are keywords where they stand."""
+"""Tests of Vim, Neovim, Emacs, Pygments and pre-commit."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ qall!
 
 
 def places(text: str, found: list[tuple[int, int, str]], kinds: set[str]) -> set[int]:
-    """The offsets of words of some kinds; columns count bytes."""
+    """Return the offsets of words of some kinds; columns count bytes."""
     starts = [0]
     for line in text.splitlines(keepends=True):
         starts.append(starts[-1] + len(line.encode()))
@@ -128,11 +128,11 @@ def coloured(request: Any, tmp_path: Path) -> Coloured:
     return lambda text: of(text, tmp_path)
 
 
-def test_keywords_are_coloured_and_names_are_not(language: Any, coloured: Coloured) -> None:
+def test_only_keywords_are_highlighted_as_keywords(language: Any, coloured: Coloured) -> None:
     missed: list[str] = []
     wrong: list[str] = []
     texts = [file.read_text(encoding="utf-8") for file in FILES]
-    # One behind the other: an editor takes longer to start than to colour them all.
+    # All texts in one process: the start of an editor takes longer than highlighting them all.
     everywhere = coloured("".join(texts))
     end = 0
     for file, text in zip(FILES, texts, strict=True):
@@ -156,7 +156,7 @@ def test_keywords_are_coloured_and_names_are_not(language: Any, coloured: Colour
     assert (missed, wrong) == ([], [])
 
 
-def test_every_character_has_a_colour_of_pygments() -> None:
+def test_pygments_lexer_covers_every_character() -> None:
     lexer = get_lexer_for_filename("a.swarm")
     for file in FILES:
         text = file.read_text(encoding="utf-8")
@@ -166,7 +166,7 @@ def test_every_character_has_a_colour_of_pygments() -> None:
 
 
 def test_a_session_of_neovim(tmp_path: Path) -> None:
-    """The plugin in `editors/vim` starts the server, and what it says arrives."""
+    """The plugin in `editors/vim` starts the server and receives its messages."""
     nvim = shutil.which("nvim")
     if nvim is None:
         pytest.skip("no Neovim: apt-get install neovim")
@@ -212,8 +212,8 @@ vim.cmd("qall!")
     assert found["root"] == str(tmp_path)
 
 
-def test_hooks_of_pre_commit(tmp_path: Path) -> None:
-    """Each entry runs as pre-commit runs it: with the files that changed, or with none."""
+def test_pre_commit_hooks(tmp_path: Path) -> None:
+    """Each hook runs as in pre-commit: with changed files, or with none."""
     import yaml
 
     hooks = {

@@ -1,4 +1,4 @@
-"""A server for all tests of a module, which its client asks as editors do."""
+"""Fixtures: one server for all tests of a module, with a client as in an editor."""
 
 import gc
 import sys
@@ -16,7 +16,7 @@ SERVER = [sys.executable, "-m", "swarmdsl", "lsp"]
 
 @pytest.fixture(autouse=True)
 def stays_frozen(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Keep what pytest has made exempt from the garbage collections of a server in this process."""
+    """Keep objects frozen by pytest exempt from garbage collections of an in-process server."""
     monkeypatch.setattr(gc, "unfreeze", lambda: None)
 
 
@@ -39,7 +39,7 @@ async def client(lsp_client: LanguageClient, tmp_path_factory):
 
 @pytest.fixture
 def folder(tmp_path):
-    """The folder of a project with two files."""
+    """Return the folder of a project with two files."""
     (tmp_path / "swarm.toml").write_text('[project]\nname = "patrol"\n')
     (tmp_path / "patrol.swarm").write_text(MODEL, encoding="utf-8")
     (tmp_path / "rover.swarm").write_text(ROVER)
@@ -48,7 +48,7 @@ def folder(tmp_path):
 
 @pytest.fixture
 def editor(client):
-    """What a person does in an editor; all files are closed in the end."""
+    """Return an editor; all files are closed at the end."""
     editor = Editor(client)
     yield editor
     editor.close_all()

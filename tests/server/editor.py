@@ -1,4 +1,4 @@
-"""What a person does in an editor, as messages to the server."""
+"""Actions in an editor as messages to the server."""
 
 from lsprotocol import types as lsp
 
@@ -6,14 +6,14 @@ from .model import MODEL
 
 
 class Editor:
-    """Opens and changes files of a client, and knows what it is told of them."""
+    """Opens and edits files through a client; records the diagnostics."""
 
     def __init__(self, client):
         self.client = client
         self._open = {}
 
     def open(self, path, text=None):
-        """Show a file; return what names it in requests."""
+        """Open a file; return its text document identifier."""
         text = path.read_text(encoding="utf-8") if text is None else text
         uri = path if isinstance(path, str) else path.as_uri()
         document = lsp.TextDocumentItem(uri=uri, language_id="swarm", version=1, text=text)
@@ -22,7 +22,7 @@ class Editor:
         return lsp.TextDocumentIdentifier(uri=uri)
 
     def type(self, document, *changes):
-        """Change the text: all of it, or ranges with what is put there."""
+        """Replace the text, or ranges of it."""
         self._open[document.uri] = version = self._open.get(document.uri, 0) + 1
         self.client.text_document_did_change(
             lsp.DidChangeTextDocumentParams(
@@ -53,19 +53,19 @@ class Editor:
         )
 
     async def told(self, document):
-        """What is said of a file once all that was sent has been looked at."""
+        """Return the diagnostics of a file after all messages sent so far."""
         return await self.told_of(document.uri)
 
     async def told_of(self, uri):
         uri = uri if isinstance(uri, str) else uri.as_uri()
-        # What is wrong is told after the first answer, and before the second one.
+        # Diagnostics are published after the first answer and before the second one.
         for _ in range(2):
             await self.client.workspace_symbol_async(lsp.WorkspaceSymbolParams(query="\0"))
         return list(self.client.diagnostics.get(uri, []))
 
 
 def at(word, text=MODEL, inside=1):
-    """The position in a text where a word begins, a little further, in UTF-16."""
+    """Return the UTF-16 position `inside` characters after the start of a word."""
     return position(text, text.index(word) + inside)
 
 
@@ -76,7 +76,7 @@ def position(text, offset):
 
 
 def named(found, text=MODEL):
-    """The texts of ranges on a line each, which are in UTF-16."""
+    """Return the text of single-line UTF-16 ranges."""
     lines = [line.encode("utf-16-le") for line in text.split("\n")]
     return [
         lines[r.start.line][2 * r.start.character : 2 * r.end.character].decode("utf-16-le")

@@ -1,4 +1,4 @@
-"""The model that editors have open in these tests."""
+"""Models that are open in the editor during these tests."""
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
@@ -39,7 +39,7 @@ function go_round : abstraction { action "go" : patrol_msgs/GoRound }
   final Home
 }
 """
-# As `swarmc fmt` lays it out.
+# As formatted by `swarmc fmt`.
 LAID_OUT = formatted(Source("patrol.swarm", MODEL), Diagnostics())
 assert LAID_OUT != MODEL
 ROVER = """\

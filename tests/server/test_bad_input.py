@@ -1,4 +1,4 @@
-"""Clients that send nonsense or die, and files that nobody expects: the server goes on."""
+"""The server survives invalid messages, dead clients and unusual files."""
 
 import json
 import subprocess
@@ -14,7 +14,7 @@ from .test_process import SERVER, answer, message
 
 
 class Raw:
-    """A server, and bytes that are sent to it."""
+    """Server that receives raw bytes."""
 
     def __init__(self):
         self.process = subprocess.Popen(
@@ -82,7 +82,7 @@ def test_invalid_messages(raw):
 
 
 def test_invalid_params(raw, tmp_path):
-    """Each request with params that are missing, or not what they should be, is answered."""
+    """Requests with missing or invalid params are answered."""
     path = tmp_path / "a.swarm"
     raw.initialize(tmp_path)
     raw.open(path, MODEL)
@@ -154,7 +154,7 @@ def test_dead_client_with_open_pipe():
 
 
 def test_two_editors(tmp_path):
-    """Each has a server of its own, and each what it types."""
+    """Each editor has its own server and its own text."""
     first, second = Raw(), Raw()
     path = tmp_path / "a.swarm"
     path.write_text(MODEL)
@@ -235,7 +235,7 @@ def test_closed_files_are_released(tmp_path):
 
 
 def test_failed_workspace_is_rebuilt(tmp_path, monkeypatch):
-    """What is half done after a mistake of the server itself is not used again."""
+    """A workspace with a partial update is not used again after an internal error."""
     from swarmdsl.driver.workspace import Workspace
 
     models = Models()

@@ -1,4 +1,4 @@
-"""What is found in a text that cannot be parsed."""
+"""Tests of the lexical search."""
 
 import re
 
@@ -36,7 +36,7 @@ def test_search_in_a_part():
 @pytest.mark.timeout(60)
 @pytest.mark.parametrize("end", ["", "*/"])
 def test_many_unterminated_comments(end):
-    """A pattern of whole comments looks for the end of each, which takes minutes."""
+    """With a pattern for whole comments, this takes minutes."""
     text = "/*\n" * 40_000 + end + "{\n\n}"
     found = [(fold.first, fold.last, fold.kind) for fold in folding_ranges(Source("a.swarm", text))]
     comment = [(0, 40_000, "comment")] if end else []

@@ -1,4 +1,4 @@
-"""What can be written where: places at which a person types, most of them in unfinished text."""
+"""Tests of completion, mostly in incomplete text."""
 
 import pytest
 

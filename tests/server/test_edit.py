@@ -1,4 +1,4 @@
-"""What an editor offers to whoever writes: parameters, statements, layouts of parts."""
+"""Tests of signature help, formatting and incremental changes."""
 
 import pytest
 from lsprotocol import types as lsp
@@ -11,7 +11,7 @@ pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
 def cursor(text):
-    """A text without its cursor (`|`), and where that is."""
+    """Return a text without its cursor (`|`), and the position of the cursor."""
     offset = text.index("|")
     text = text.replace("|", "", 1)
     return text, position(text, offset)
@@ -85,7 +85,7 @@ async def test_formatting_edits_only_changed_lines(client, editor, folder):
 
 
 async def test_incremental_changes_in_utf_16(client, editor, folder):
-    """Places are counted in UTF-16, from the text that the changes before have made."""
+    """Positions are in UTF-16 and refer to the text after the previous changes."""
     document = editor.open(folder / "patrol.swarm")
     start = at("🤖🤖", inside=1)
     change = lsp.Range(

@@ -1,4 +1,4 @@
-"""Emacs with the configuration that docs/editors.md shows, against the server."""
+"""Test of the Emacs configuration in docs/editors.md."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""The server as a process, asked by a client of others what an editor asks."""
+"""Tests of the server process through a third-party client."""
 
 import pytest
 from lsprotocol import types as lsp
@@ -169,7 +169,7 @@ async def test_rename_across_files(client, editor, folder):
         "patrol.swarm": [(at("Patrol {").line, "Tour")],
         "rover.swarm": [(2, "Tour")],
     }
-    # Nothing has changed: the editor applies the edits.
+    # The file is unchanged: the editor applies the edits.
     assert await editor.told(document) == []
 
 

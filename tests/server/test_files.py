@@ -1,4 +1,4 @@
-"""Files as they lie on disk: which are read, and that nothing else is taken for them."""
+"""Tests of files on disk: which ones are read, and changes of them."""
 
 import pytest
 from lsprotocol import types as lsp
@@ -14,7 +14,7 @@ pytestmark = pytest.mark.asyncio(loop_scope="module")
 
 
 async def test_rejected_rename_leaves_no_trace(client, editor, folder):
-    """A closed file is read from disk again, with a byte order mark and its ends of lines."""
+    """A closed file is read from disk again, with its byte order mark and line ends."""
     closed = folder / "rover.swarm"
     closed.write_bytes(b"\xef\xbb\xbf" + ROVER.replace("\n", "\r\n").encode())
     document = editor.open(folder / "patrol.swarm", MODEL.replace("\n", "\r\n"))
@@ -48,7 +48,7 @@ async def test_errors_in_the_project_file(client, editor, folder):
     editor.changed_on_disk(project)
     [found] = await editor.told_of(project)
     assert (found.code, found.range.start.line) == ("SW0012", 2)
-    # The model is what it was, and what is typed in the project file counts.
+    # The workspace is up to date, including unsaved changes of the project file.
     assert await editor.told(document) == []
     opened = editor.open(project, '[project]\nname = "patrol"\nsources = ["rover.swarm"]\n')
     assert await editor.told_of(project) == []
@@ -76,7 +76,7 @@ async def test_files_outside_of_the_workspace_are_not_read(client, editor, folde
     document = editor.open(path)
     [found] = [each for each in await editor.told(document) if each.range.start.line == 0]
     assert found.code == "SW0016"
-    # What the project names as a library may be read.
+    # Libraries of the project may be read.
     (folder / "swarm.toml").write_text(f'[project]\nlibraries = ["../{outside.name}"]\n')
     editor.changed_on_disk(folder / "swarm.toml")
     assert await editor.told(document) == []

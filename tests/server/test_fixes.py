@@ -1,4 +1,4 @@
-"""Changes that mend what is wrong, each made and looked at by the compiler."""
+"""Tests of quick fixes: each is applied and checked by the compiler."""
 
 from pathlib import Path
 
@@ -51,7 +51,7 @@ swarm Counters { counter : Counter[2]  other : Looker  environment Field  fitnes
 
 
 def mended(path: Path) -> list[str]:
-    """The titles of the changes, made one after the other until none is left."""
+    """Apply all fixes, one at a time; return their titles."""
     titles: list[str] = []
     while True:
         checked = pipeline.check([path])

@@ -1,4 +1,4 @@
-"""What can be folded, also while somebody types, and in however long a text."""
+"""Tests of folding ranges, also in incomplete and in long text."""
 
 from __future__ import annotations
 
@@ -26,5 +26,5 @@ def test_unterminated_token_hides_no_blocks(begin: str) -> None:
 
 @pytest.mark.parametrize("text", ['"' + r"\"" * 100_000, "/* " * 70_000, "/*\n" * 70_000])
 def test_many_unterminated_tokens(text: str) -> None:
-    """It takes minutes where each looks for its end on its own."""
+    """With a separate search for each end, this takes minutes."""
     assert folding_ranges(Source("model.swarm", text)) == []

@@ -1,4 +1,4 @@
-"""What the server does while nobody asks for anything."""
+"""Tests of an idle server."""
 
 import gc
 import io
@@ -16,14 +16,14 @@ INITIALIZE = {"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"cap
 
 @pytest.fixture
 def collected(monkeypatch):
-    """An event for each time that garbage is looked for."""
+    """Return an event that is set by garbage collections."""
     event = threading.Event()
     monkeypatch.setattr(gc, "collect", lambda *_: event.set() or 0)
     return event
 
 
 def run(*messages, until):
-    """Serve messages until something happens; return what the server has sent."""
+    """Serve messages until an event; return the output of the server."""
     reader, writer = os.pipe()
     out = io.BytesIO()
     running = server.Server(Outgoing(out))

@@ -1,4 +1,4 @@
-"""The types of the protocol are what `lsprotocol` makes them, however late they are finished."""
+"""Lazily defined protocol types equal those of `lsprotocol`."""
 
 import re
 import subprocess

@@ -1,4 +1,4 @@
-"""The pictures that an editor shows beside the text."""
+"""Tests of the request for diagrams."""
 
 import pytest
 

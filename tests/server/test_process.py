@@ -1,4 +1,4 @@
-"""The server as a process: how it starts and how it ends."""
+"""Tests of the server process: start and end."""
 
 import json
 import socket

@@ -1,4 +1,4 @@
-"""What an editor shows of a file: colours, folds, hints, lenses, links, selections."""
+"""Tests of semantic tokens, folding, hints, lenses, links, selections and hover."""
 
 from pathlib import Path
 
@@ -22,7 +22,7 @@ def whole(text):
 
 
 def coloured(client, data, text):
-    """The words of a text with what they are, from the numbers of the protocol."""
+    """Decode semantic tokens to words with their types."""
     legend = client.offered.semantic_tokens_provider.legend
     lines = [line.encode("utf-16-le") for line in text.split("\n")]
     found, line, character = [], 0, 0
@@ -187,7 +187,7 @@ async def test_selection_ranges(client, editor, folder):
 
 
 async def test_policy_hints_match_the_output(client, editor):
-    """Beside each activity stands what the compiler makes of it."""
+    """The hint of each activity shows its policies as compiled."""
     text = BEHAVIOURS.read_text(encoding="utf-8")
     document = editor.open(BEHAVIOURS)
     found = await client.text_document_inlay_hint_async(
@@ -239,7 +239,7 @@ async def test_code_lenses(client, editor):
     document = editor.open(SAR)
     text = SAR.read_text(encoding="utf-8")
     found = await client.text_document_code_lens_async(lsp.CodeLensParams(text_document=document))
-    # A client that has no such commands is offered no preview.
+    # Without these commands in the client, there are no preview lenses.
     assert {each.command for each in found} == {None}
     counted = {}
     for each in found:
@@ -301,9 +301,9 @@ async def test_call_hierarchy(client, editor):
     incoming, outgoing = await called(client, editor, BEHAVIOURS, "Ready\n      state")
     assert incoming == ["Rescue", "Bid", "Drive"]
     assert outgoing == ["Bid"]
-    # A function is reached by the states that do it, in whatever file they are.
+    # A function is called by the states that perform it, in any file.
     functions = EXAMPLE / "functions.swarm"
     assert await called(client, editor, functions, "bid_action") == (["Bid"], [])
-    # A machine is reached by the members that run it.
+    # A machine is called by the members that run it.
     editor.open(SAR)
     assert (await called(client, editor, BEHAVIOURS, "RoverRescue {"))[0] == ["Rover"]

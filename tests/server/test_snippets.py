@@ -1,4 +1,4 @@
-"""Whole statements that are offered, as text that can be filled in and is right then."""
+"""Tests of snippets: they are offered where they fit and expand to valid models."""
 
 import json
 import re
@@ -24,7 +24,7 @@ TABLE = json.loads((SERVER / "snippets.json").read_text(encoding="utf-8"))
 FILE = "package a\n"
 MACHINE = FILE + "statemachine M {\n  initial A\n"
 STATE = MACHINE + "  state S {\n"
-# Where statements stand, by what is before them.
+# Text before the cursor, by kind of block.
 PLACES = {
     "file": "",
     "declaration": FILE,
@@ -44,7 +44,7 @@ STOP = re.compile(r"\$(?:(\d+)|\{(\d+)(?::([^}]*)|\|([^}]*)\|)\})")
 
 @cache
 def keywords_at(text):
-    """The keywords that completion offers behind a text."""
+    """Return the keywords that completion offers after a text."""
     with TemporaryDirectory() as folder:
         models = Models([Path(folder)])
         models.edit(Path(folder) / "a.swarm", text)
@@ -53,7 +53,7 @@ def keywords_at(text):
 
 
 def insertions(text):
-    """What a snippet inserts, with each of its choices."""
+    """Return the expansions of a snippet, one for each of its choices."""
     choices = {n: options.split(",") for _, n, _, options in STOP.findall(text) if options}
     return [
         STOP.sub(lambda stop, taken=taken: taken.get(stop[2]) or stop[3] or "", text)
@@ -115,7 +115,7 @@ def test_choices_are_all_inserted():
 
 
 def filled(text):
-    """A snippet as it is where somebody takes all that it suggests."""
+    """Return the expansion of a snippet with all defaults."""
     text = re.sub(r"\$\{\d+\|(\w+)[^}]*\}", r"\1", text)
     return re.sub(r"\$\{\d+:([^}]*)\}", r"\1", text).replace("$0", "")
 

@@ -1,4 +1,4 @@
-"""What the server consists of when it has started."""
+"""Tests of the modules that a started server has imported."""
 
 import subprocess
 import sys

@@ -1,4 +1,4 @@
-" What a person expects of any language: comments, indentation, folds by syntax on demand.
+" Comments, indentation, folding by syntax on demand.
 if exists("b:did_ftplugin")
   finish
 endif

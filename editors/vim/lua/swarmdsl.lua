@@ -1,4 +1,4 @@
--- The language server in Neovim, 0.7 or later: require("swarmdsl").setup()
+-- Language server for Neovim 0.7 or later: require("swarmdsl").setup()
 local M = {}
 
 local defaults = {
@@ -6,9 +6,9 @@ local defaults = {
   on_attach = nil,
   capabilities = nil,
 }
-local clients = {} -- by the folder that they serve; for versions without vim.lsp.start
+local clients = {} -- by root folder; for versions without vim.lsp.start
 
--- The folder of the project, or else that of the file.
+-- Folder of the project, else of the file.
 local function root(file)
   local folder = vim.fn.fnamemodify(file, ":p:h")
   local project = vim.fn.findfile("swarm.toml", vim.fn.escape(folder, " ,;") .. ";")

@@ -1,4 +1,4 @@
-" Colours for .swarm files. Contextual keywords are matched with the token after them.
+" Highlighting of .swarm files. Contextual keywords are matched with the token after them.
 if exists("b:current_syntax")
   finish
 endif
@@ -6,7 +6,7 @@ endif
 syn match swarmType "\<\h\w*/\h\w*\>"
 syn match swarmFunction "\%(\<\%(function\|do\)\)\@<=\s\+\h[A-Za-z0-9_.]*"
 syn match swarmArrow "->\|=>"
-" A field of any name: the word behind a dot, or before a colon or an equals sign, is none.
+" Field names may be keywords: a word after a dot, or before a colon or an equals sign.
 syn match swarmField "\.\s*\%(done\>\)\@!\h\w*"
 syn match swarmField "\%(\s\|[({,]\_s*\)\h\w*\ze\s*\%(:\|=>\|=[^=]\)"
 

@@ -1,9 +1,9 @@
-"""Makes the server that the extension brings: the language server, and the packages it imports.
+"""Build the server bundled with the extension: swarmdsl and the packages it imports.
 
-`python editors/vscode/bundle/make.py` fills the folder `server`, which an interpreter runs by its
-name. All of it is pure Python, so one extension serves every platform and every Python from 3.10.
-What is compiled and what only the generators import is left out: this copy serves editors and
-builds nothing. The same checkout gives the same files.
+`python editors/vscode/bundle/make.py` fills the folder `server`, which an interpreter can run. All
+of it is pure Python, so one extension serves every platform and every Python from 3.10. Compiled
+packages and those that only generators import are left out: this copy serves editors and builds
+nothing. The same checkout gives the same files.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ REQUIREMENTS = HERE / "requirements.txt"
 WHEELS = EXTENSION / ".wheels"
 SERVER = EXTENSION / "server"
 
-# What a wheel says of its installation; what it says of its licence stays.
+# Installation records of a wheel; its licence stays.
 _RECORDS = {"RECORD", "WHEEL", "entry_points.txt", "top_level.txt"}
 
 
 def make() -> None:
-    """Make the folder anew."""
+    """Recreate the folder."""
     shutil.rmtree(SERVER, ignore_errors=True)
     for wheel in _wheels():
         with zipfile.ZipFile(wheel) as archive:
@@ -40,7 +40,7 @@ def make() -> None:
 
 
 def _wheels() -> list[Path]:
-    """The wheels that the requirements name, fetched once."""
+    """Return the required wheels, downloading them once."""
     wanted = REQUIREMENTS.read_text(encoding="utf-8")
     mark = WHEELS / REQUIREMENTS.name
     if not mark.exists() or mark.read_text(encoding="utf-8") != wanted:

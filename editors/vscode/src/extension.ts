@@ -1,4 +1,4 @@
-// What VS Code calls: the extension begins, with its commands, and ends.
+// Entry points of the extension: activation with its commands, deactivation.
 
 import * as vscode from "vscode";
 
@@ -33,23 +33,23 @@ export function activate(context: vscode.ExtensionContext): void {
     command("showLog", () => log.show()),
     command("newModel", () => newModel(context.extensionUri)),
     command("simulate", (file?: vscode.Uri | string, subject?: Subject) => {
-      const uri = asked(file);
+      const uri = targetFile(file);
       return uri && simulate(started, uri, subject);
     }),
     command("simulateInRealTime", (file?: vscode.Uri | string, subject?: Subject) => {
-      const uri = asked(file);
+      const uri = targetFile(file);
       return uri && simulate(started, uri, subject, preview);
     }),
     command("followTrace", (file?: vscode.Uri | string) => {
-      const uri = asked(file);
+      const uri = targetFile(file);
       return uri && followTrace(preview, uri);
     }),
     command("followNodes", (file?: vscode.Uri | string) => {
-      const uri = asked(file);
+      const uri = targetFile(file);
       return uri && followNodes(started, preview, uri, log);
     }),
     command("preview", (file?: vscode.Uri | string, subject?: Subject) => {
-      const uri = asked(file);
+      const uri = targetFile(file);
       return uri && preview.show(uri, subject);
     }),
     command("references", (file: string, at: Place["range"]["start"], places: Place[]) =>
@@ -74,8 +74,8 @@ function command(name: string, run: (...args: never[]) => unknown): vscode.Dispo
   return vscode.commands.registerCommand(`swarmdsl.${name}`, run);
 }
 
-/** The file that a command is for: the one that is named, or the one in front. */
-function asked(file: vscode.Uri | string | undefined): vscode.Uri | undefined {
+/** File of a command: its argument, or the active file. */
+function targetFile(file: vscode.Uri | string | undefined): vscode.Uri | undefined {
   if (typeof file === "string") {
     return vscode.Uri.parse(file);
   }

@@ -1,8 +1,8 @@
-// The commands that show in the preview where robots are.
+// Commands that show live states in the preview.
 
 import * as vscode from "vscode";
 
-import { tell, tellBundled } from "./missing.ts";
+import { showMissing, showBundledLimit } from "./missing.ts";
 import { Nodes } from "./nodes.ts";
 import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
@@ -11,10 +11,10 @@ import { Trace } from "./trace.ts";
 const NAME = /^\/?([A-Za-z_]\w*(\/[A-Za-z_]\w*)*\/?)?$/;
 let last = "";
 
-/** Light up where robots are in the preview of a file's model, by a trace that they write. */
+/** Highlight active states in the preview of a file's model, from a trace. */
 export async function followTrace(preview: Preview, file: vscode.Uri): Promise<void> {
   const chosen = await vscode.window.showOpenDialog({
-    title: "The trace of a simulation, or of robots",
+    title: "Trace of a simulation or of robots",
     openLabel: "Follow",
     defaultUri: vscode.Uri.joinPath(file, ".."),
     filters: { Traces: ["jsonl", "json"], "All files": ["*"] },
@@ -22,11 +22,11 @@ export async function followTrace(preview: Preview, file: vscode.Uri): Promise<v
   const trace = chosen?.[0];
   if (trace) {
     await preview.show(file);
-    preview.light((moved) => new Trace(trace.fsPath, "", moved));
+    preview.highlight((moved) => new Trace(trace.fsPath, "", moved));
   }
 }
 
-/** The same, by what nodes of ROS 2 say while they run. */
+/** Highlight active states from running ROS 2 nodes. */
 export async function followNodes(
   server: Server,
   preview: Preview,
@@ -38,29 +38,29 @@ export async function followNodes(
     return;
   }
   if (launch.bundled) {
-    tellBundled("follow nodes of ROS 2");
+    showBundledLimit("follow ROS 2 nodes");
     return;
   }
   const name = await vscode.window.showInputBox({
     title: "Follow ROS 2 Nodes",
-    prompt: "The name of a node or of a namespace; nothing for all nodes",
+    prompt: "Name of a node or namespace; empty for all nodes",
     placeHolder: "/sar/uav_0",
     value: last,
-    validateInput: (text) => (NAME.test(text) ? undefined : "This is no name in ROS."),
+    validateInput: (text) => (NAME.test(text) ? undefined : "Not a valid ROS name."),
   });
   if (name === undefined) {
     return;
   }
   last = name;
   await preview.show(file);
-  preview.light(
+  preview.highlight(
     (moved) =>
       new Nodes(launch, file.fsPath, name, moved, (said) => {
         log.error(said);
-        // What is wrong and what to do, each in a line of its own.
+        // Join the error and its help, one line each.
         const lines = [...said.matchAll(/^(?:error\[SW\d+\]:|\s*= help:) (.*)$/gm)];
         const why = lines.map(([, line]) => line).join("; ");
-        tell({ missing: why || "The swarmc that follows nodes of ROS 2 has ended." });
+        showMissing({ missing: why || "The swarmc process that follows ROS 2 nodes has ended." });
       }),
   );
 }

@@ -1,4 +1,4 @@
-// The command that selects the interpreter which runs swarmc.
+// Command that selects the interpreter for swarmc.
 
 import * as vscode from "vscode";
 
@@ -11,17 +11,17 @@ interface Choice extends vscode.QuickPickItem {
 }
 
 const AUTOMATIC: Choice = {
-  label: "$(search) Find it",
-  detail: "That of the Python extension, of .venv, or on the PATH; else what the extension brings",
+  label: "$(search) Find automatically",
+  detail: "Python extension, .venv or PATH; else the bundled server",
   interpreter: "",
 };
 const BROWSE: Choice = { label: "$(folder-opened) Browse...", interpreter: undefined };
 
-/** Ask for an interpreter, and set it for the workspace, or for the user where none is open. */
+/** Ask for an interpreter; store it for the workspace, or for the user without one. */
 export async function selectInterpreter(): Promise<void> {
   const chosen = await vscode.window.showQuickPick(choices(), {
-    title: "Python that runs swarmc",
-    placeHolder: "An interpreter with the package swarmdsl, or any of Python 3.10 or later",
+    title: "Select the Python for swarmc",
+    placeHolder: "Interpreter with the package swarmdsl, or any Python 3.10 or later",
   });
   if (!chosen) {
     return;
@@ -36,7 +36,7 @@ export async function selectInterpreter(): Promise<void> {
   const settings = vscode.workspace.getConfiguration();
   await settings.update(INTERPRETER_SETTING, interpreter || undefined, target);
   if (settings.inspect<string>(PATH_SETTING)?.workspaceValue) {
-    // It would go before the interpreter.
+    // It takes precedence over the interpreter.
     await settings.update(PATH_SETTING, undefined, target);
   }
 }

@@ -1,53 +1,53 @@
-// Which swarmc is used: the places where one may be, in the order in which they are tried.
+// Search for swarmc: all locations in order of preference.
 
-/** How a swarmc is started: a program, and its arguments before the name of a command. */
+/** Command line of swarmc, up to the subcommand. */
 export interface Launch {
   readonly command: string;
   readonly args: readonly string[];
-  /** Where it was found, in the words of a sentence: "the setting ...". */
+  /** Origin as part of a sentence: "the setting ...". */
   readonly origin: string;
-  /** Whether it is the copy that comes with the extension, which serves editors and no more. */
+  /** True for the copy in the extension, which only serves editors. */
   readonly bundled: boolean;
 }
 
-/** What an interpreter of Python says of itself. */
+/** Properties of a Python interpreter. */
 export interface Python {
   readonly version: readonly [number, number];
   readonly hasServer: boolean;
 }
 
-/** Runs programs to learn what they are; undefined for what does not run. */
+/** Runs programs to inspect them; undefined if they fail. */
 export interface Probe {
   python(interpreter: string): Promise<Python | undefined>;
-  /** Whether a program is a swarmc that can serve editors. */
+  /** True if a program is a swarmc with a language server. */
   swarmc(program: string): Promise<boolean>;
 }
 
 export interface Places {
-  /** The settings; empty where the user has set nothing. */
+  /** Settings; empty if not set. */
   readonly path: string;
   readonly interpreter: string;
-  /** The interpreter that is selected in the Python extension. */
+  /** Interpreter selected in the Python extension. */
   readonly selected: string | undefined;
-  /** The interpreters in `.venv` of the folders that are open, as far as they exist. */
+  /** Existing interpreters in `.venv` of the open folders. */
   readonly environments: readonly string[];
-  /** The programs that stand on the PATH, as far as they are there. */
+  /** Existing programs on the PATH. */
   readonly swarmc: readonly string[];
   readonly pythons: readonly string[];
-  /** The folder of the server that comes with the extension. */
+  /** Folder of the bundled server. */
   readonly bundle: string;
 }
 
 export type Found =
   | { readonly launch: Launch }
-  /** Why nothing can be started, and whether it is due to a setting. */
+  /** Reason that nothing can be started, and the setting that causes it. */
   | { readonly missing: string; readonly setting?: string };
 
 const OLDEST = [3, 10] as const;
 export const PATH_SETTING = "swarmdsl.server.path";
 export const INTERPRETER_SETTING = "swarmdsl.server.interpreter";
 
-/** Find the swarmc to use. What a setting names is used or reported, never passed over. */
+/** Find the swarmc to use. An invalid setting is reported, never skipped. */
 export async function find(
   places: Places,
   probe: Probe,
@@ -57,7 +57,7 @@ export async function find(
     return (await probe.swarmc(places.path))
       ? { launch: installed(places.path, [], `the setting ${PATH_SETTING}`) }
       : {
-          missing: `${places.path} is not a swarmc that serves editors.`,
+          missing: `${places.path} is not a swarmc with a language server.`,
           setting: PATH_SETTING,
         };
   }
@@ -107,7 +107,7 @@ export async function find(
   const [first] = usable;
   return first
     ? { launch: bundled(places.bundle, ...first) }
-    : { missing: `There is no swarmc, and no Python ${OLDEST.join(".")} or later to run one.` };
+    : { missing: `No swarmc found, and no Python ${OLDEST.join(".")} or later to run the bundled one.` };
 }
 
 function place(interpreter: string, origin: string): [string, string] {
@@ -118,7 +118,7 @@ function installed(command: string, args: readonly string[], origin: string): La
   return { command, args, origin, bundled: false };
 }
 
-// Isolated: neither PYTHONPATH nor packages of the user change what it imports.
+// Isolated mode: PYTHONPATH and user site packages have no effect.
 function bundled(bundle: string, interpreter: string, origin: string): Launch {
   const whole = `the extension, run by the Python of ${origin}`;
   return { command: interpreter, args: ["-I", bundle], origin: whole, bundled: true };

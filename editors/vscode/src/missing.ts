@@ -1,4 +1,4 @@
-// What the user can do where no swarmc can be run.
+// Error messages for a missing swarmc.
 
 import * as vscode from "vscode";
 
@@ -6,8 +6,8 @@ const SELECT = "Select Interpreter";
 const SETTINGS = "Open Settings";
 const LOG = "Show Log";
 
-/** Tell why there is none, with buttons for what helps. */
-export function tell(found: { readonly missing: string; readonly setting?: string }): void {
+/** Show the reason, with buttons for remedies. */
+export function showMissing(found: { readonly missing: string; readonly setting?: string }): void {
   const buttons = found.setting ? [SETTINGS, SELECT, LOG] : [SELECT, LOG];
   void vscode.window.showErrorMessage(found.missing, ...buttons).then((chosen) => {
     if (chosen === SELECT) {
@@ -20,7 +20,7 @@ export function tell(found: { readonly missing: string; readonly setting?: strin
   });
 }
 
-/** Show a setting where it is set. */
+/** Open the settings editor in the scope of the setting. */
 function openSettings(setting: string): Thenable<unknown> {
   const inWorkspace = vscode.workspace.getConfiguration().inspect(setting)?.workspaceValue;
   return vscode.commands.executeCommand(
@@ -29,8 +29,8 @@ function openSettings(setting: string): Thenable<unknown> {
   );
 }
 
-/** Tell that the copy that comes with the extension does not do what is asked for. */
-export function tellBundled(what: string): void {
+/** Show that the bundled copy lacks a feature. */
+export function showBundledLimit(what: string): void {
   const text = `To ${what}, install the Python package swarmdsl, and select its interpreter.`;
   void vscode.window.showErrorMessage(text, SELECT).then((chosen) =>
     chosen ? vscode.commands.executeCommand("swarmdsl.selectInterpreter") : undefined,

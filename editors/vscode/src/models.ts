@@ -1,10 +1,10 @@
-// The command that makes a new model.
+// Command that creates a new model.
 
 import { basename } from "node:path";
 
 import * as vscode from "vscode";
 
-/** Ask for a file, write a small model to it, and open it. */
+/** Ask for a file, write a template to it, and open it. */
 export async function newModel(extension: vscode.Uri): Promise<void> {
   const [folder] = vscode.workspace.workspaceFolders ?? [];
   const chosen = await vscode.window.showSaveDialog({
@@ -24,7 +24,7 @@ export async function newModel(extension: vscode.Uri): Promise<void> {
   await vscode.window.showTextDocument(file);
 }
 
-/** The name of a package that a file name stands for. */
+/** Package name for a file name. */
 function packageName(file: string): string {
   const name = file.toLowerCase().replace(/\W+/g, "_").replace(/^_+|_+$/g, "");
   return /^[a-z]/.test(name) ? name : `model_${name}`.replace(/_$/, "");

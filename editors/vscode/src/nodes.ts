@@ -1,26 +1,26 @@
-// Follows nodes of ROS 2 while they run: a swarmc listens to them, and says what it tells its page.
+// Follows running ROS 2 nodes through `swarmc preview`, whose page events it reads.
 
 import { type ChildProcess, spawn } from "node:child_process";
 import { get } from "node:http";
 import { dirname } from "node:path";
 
 import type { Launch } from "./launch.ts";
-import type { Active, Lights, Moved } from "./lights.ts";
+import type { Active, Highlights, Moved } from "./highlights.ts";
 
 const ADDRESS = /http:\/\/127\.0\.0\.1:\d+\//;
 const EVENT = "data: ";
-const MOST_KEPT = 10_000; // characters of what it says
+const MAX_OUTPUT = 10_000; // characters of output
 
-export class Nodes implements Lights {
+export class Nodes implements Highlights {
   private readonly child: ChildProcess;
   private readonly moved: Moved;
   private active: Active = {};
-  private said = "";
+  private output = "";
   private disposed = false;
 
   /**
-   * `name` is that of a node or of a namespace; empty, it stands for all. `ended` is called with
-   * what swarmc has said last if it ends by itself.
+   * `name` selects a node or a namespace; empty, all nodes. `ended` is called with the last output
+   * if swarmc ends by itself.
    */
   constructor(
     launch: Launch,
@@ -36,14 +36,14 @@ export class Nodes implements Lights {
       { cwd: dirname(model), stdio: ["ignore", "pipe", "pipe"] },
     );
     let address: string | undefined;
-    const hear = (chunk: string): void => {
-      this.said = (this.said + chunk).slice(-MOST_KEPT);
-      if (address === undefined && (address = ADDRESS.exec(this.said)?.[0]) !== undefined) {
+    const collect = (chunk: string): void => {
+      this.output = (this.output + chunk).slice(-MAX_OUTPUT);
+      if (address === undefined && (address = ADDRESS.exec(this.output)?.[0]) !== undefined) {
         this.listen(`${address}events`);
       }
     };
-    this.child.stdout?.setEncoding("utf8").on("data", hear);
-    this.child.stderr?.setEncoding("utf8").on("data", hear);
+    this.child.stdout?.setEncoding("utf8").on("data", collect);
+    this.child.stderr?.setEncoding("utf8").on("data", collect);
     const end = (why: string): void => {
       if (!this.disposed) {
         this.dispose();
@@ -51,10 +51,10 @@ export class Nodes implements Lights {
       }
     };
     this.child.on("error", (error) => end(error.message));
-    this.child.on("close", () => end(this.said.trim()));
+    this.child.on("close", () => end(this.output.trim()));
   }
 
-  again(): void {
+  resend(): void {
     this.moved(this.active, {});
   }
 
@@ -65,22 +65,22 @@ export class Nodes implements Lights {
     this.active = {};
   }
 
-  /** Server-sent events, as HTML has them: https://html.spec.whatwg.org (section 9.2). */
+  /** Read server-sent events. Source: https://html.spec.whatwg.org (section 9.2). */
   private listen(address: string): void {
     let rest = "";
     get(address, (answer) => {
       answer.setEncoding("utf8").on("data", (chunk: string) => {
         const lines = (rest + chunk).split("\n");
         rest = lines.pop() ?? "";
-        lines.filter((line) => line.startsWith(EVENT)).forEach((line) => this.hear(line));
+        lines.filter((line) => line.startsWith(EVENT)).forEach((line) => this.receive(line));
       });
-      answer.on("error", () => undefined); // it has ended, which is noticed elsewhere
+      answer.on("error", () => undefined); // the end is handled by the process events
     }).on("error", () => undefined);
   }
 
-  private hear(line: string): void {
+  private receive(line: string): void {
     const { active, taken, entered } = JSON.parse(line.slice(EVENT.length));
-    // Of the diagrams another one tells.
+    // Diagrams come from the language server.
     if ((active || taken || entered) && !this.disposed) {
       const now = Object.entries({ ...this.active, ...active }).filter(([, states]) => states);
       this.active = Object.fromEntries(now) as Active;

@@ -1,32 +1,32 @@
-// The view beside the text that shows the diagrams of a model, as the text is now.
+// Preview panel with the diagrams of a model, updated as the user types.
 
 import { randomBytes } from "node:crypto";
 
 import * as vscode from "vscode";
 
-import type { Lights, Moved } from "./lights.ts";
+import type { Highlights, Moved } from "./highlights.ts";
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
 
-/** What the page says. */
-interface Said {
+/** Messages of the page. */
+interface PageMessage {
   readonly want?: { readonly id: string; readonly folded: readonly string[] };
   readonly reveal?: string;
   readonly save?: { readonly name: string; readonly base64: string };
 }
 
-// Diagrams by what they are of, as swarmc calls them.
+// Diagram kinds of swarmc by kind of subject.
 const DIAGRAMS = { swarm: "composition", member: "internal", machine: "statechart" } as const;
-const PAUSE = 150;
+const DEBOUNCE = 150;
 
-/** One view for all models: it follows the file in front. */
+/** Single panel for all models; it follows the active file. */
 export class Preview implements vscode.Disposable {
   private panel: vscode.WebviewPanel | undefined;
   private file: vscode.Uri | undefined;
-  private first: string | undefined; // what is shown when the page begins
-  private wanted: Said["want"];
-  private lights: Lights | undefined;
-  private begins = false;
+  private first: string | undefined; // initial diagram of a new page
+  private wanted: PageMessage["want"];
+  private highlights: Highlights | undefined;
+  private isNew = false;
   private timer: NodeJS.Timeout | undefined;
   private readonly extension: vscode.Uri;
   private readonly server: Server;
@@ -38,17 +38,17 @@ export class Preview implements vscode.Disposable {
     this.listening = vscode.Disposable.from(
       vscode.workspace.onDidChangeTextDocument(({ document }) => this.follow(document)),
       vscode.window.onDidChangeActiveTextEditor((each) => each && this.follow(each.document)),
-      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.point(textEditor)),
-      // Also where a file was changed that is not shown, or not even open.
+      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.markCursor(textEditor)),
+      // Catches changes of files that are not shown or not open.
       vscode.languages.onDidChangeDiagnostics(
-        ({ uris }) => uris.some(({ path }) => path.endsWith(".swarm")) && this.later(),
+        ({ uris }) => uris.some(({ path }) => path.endsWith(".swarm")) && this.scheduleUpdate(),
       ),
-      server.onFiles(() => this.later()),
-      server.onChange(({ kind }) => kind === "running" && this.later()),
+      server.onFiles(() => this.scheduleUpdate()),
+      server.onChange(({ kind }) => kind === "running" && this.scheduleUpdate()),
     );
   }
 
-  /** Show the diagrams of a file's model, beside it; that of `subject` if one is named. */
+  /** Show the diagrams of a file's model beside it, starting with that of `subject`. */
   async show(file: vscode.Uri, subject?: Subject): Promise<void> {
     this.file = file;
     const wanted = subject && `${subject.name}.${DIAGRAMS[subject.kind]}`;
@@ -65,34 +65,34 @@ export class Preview implements vscode.Disposable {
       { enableScripts: true, localResourceRoots: [], retainContextWhenHidden: true },
     );
     this.panel = panel;
-    this.begins = true;
+    this.isNew = true;
     panel.onDidDispose(() => {
       this.panel = undefined;
-      this.lights?.dispose();
-      this.lights = undefined;
+      this.highlights?.dispose();
+      this.highlights = undefined;
     });
-    panel.webview.onDidReceiveMessage((said: Said) => this.hear(said));
+    panel.webview.onDidReceiveMessage((message: PageMessage) => this.receive(message));
     panel.webview.html = await this.html();
   }
 
-  /** Light up where members are by what `begin` begins, in place of what did so before. */
-  light<Kind extends Lights>(begin: (moved: Moved) => Kind): Kind {
-    this.lights?.dispose();
-    const lights = begin((active, steps) => void this.panel?.webview.postMessage({ active, ...steps }));
-    this.lights = lights;
-    return lights;
+  /** Highlight active states from a new source, replacing the previous one. */
+  highlight<Kind extends Highlights>(start: (moved: Moved) => Kind): Kind {
+    this.highlights?.dispose();
+    const highlights = start((active, steps) => void this.panel?.webview.postMessage({ active, ...steps }));
+    this.highlights = highlights;
+    return highlights;
   }
 
   dispose(): void {
     clearTimeout(this.timer);
-    this.lights?.dispose();
+    this.highlights?.dispose();
     this.listening.dispose();
     this.panel?.dispose();
   }
 
-  /** The page with all that it needs: nothing is fetched when it is shown. */
+  /** The page with inlined resources: it fetches nothing. */
   private async html(): Promise<string> {
-    const page = ["server", "swarmdsl", "preview", "page"];
+    const page = ["server", "swarmdsl", "ide", "preview", "page"];
     const [text, style, script] = await Promise.all([
       this.read(...page, "index.html"),
       this.read(...page, "preview.css"),
@@ -116,18 +116,18 @@ export class Preview implements vscode.Disposable {
     return new TextDecoder().decode(await vscode.workspace.fs.readFile(file));
   }
 
-  private async hear({ want, reveal, save }: Said): Promise<void> {
+  private async receive({ want, reveal, save }: PageMessage): Promise<void> {
     if (want !== undefined) {
-      // The page says at first what it showed before, if anything.
-      const first = this.begins ? this.first : undefined;
-      this.begins = false;
+      // A restored page first requests the diagram that it showed before.
+      const first = this.isNew ? this.first : undefined;
+      this.isNew = false;
       if (first !== undefined && first !== want.id) {
         await this.panel?.webview.postMessage({ show: first });
         return;
       }
       this.wanted = want;
       await this.update();
-      this.lights?.again();
+      this.highlights?.resend();
     }
     const place = /^(.*):(\d+):(\d+)$/.exec(reveal ?? "");
     if (place?.[1] !== undefined) {
@@ -150,14 +150,14 @@ export class Preview implements vscode.Disposable {
   private follow(document: vscode.TextDocument): void {
     if (this.panel && document.languageId === "swarm" && document.uri.scheme === "file") {
       this.file = document.uri;
-      this.later();
+      this.scheduleUpdate();
     }
   }
 
-  // Keys come faster than pictures.
-  private later(): void {
+  // Debounce updates while the user types.
+  private scheduleUpdate(): void {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => void this.update(), PAUSE);
+    this.timer = setTimeout(() => void this.update(), DEBOUNCE);
   }
 
   private async update(): Promise<void> {
@@ -170,11 +170,11 @@ export class Preview implements vscode.Disposable {
     });
     await this.panel?.webview.postMessage(shown ?? {});
     if (vscode.window.activeTextEditor) {
-      this.point(vscode.window.activeTextEditor);
+      this.markCursor(vscode.window.activeTextEditor);
     }
   }
 
-  private point({ document, selection }: vscode.TextEditor): void {
+  private markCursor({ document, selection }: vscode.TextEditor): void {
     if (this.panel && document.languageId === "swarm") {
       const cursor = { file: document.uri.fsPath, line: selection.active.line + 1 };
       void this.panel.webview.postMessage({ cursor });

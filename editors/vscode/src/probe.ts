@@ -1,4 +1,4 @@
-// Runs programs to learn what they are.
+// Inspects programs by running them.
 
 import { execFile } from "node:child_process";
 import { access, constants } from "node:fs/promises";
@@ -7,20 +7,21 @@ import { delimiter, join } from "node:path";
 import type { Probe, Python } from "./launch.ts";
 
 const WINDOWS = process.platform === "win32";
-const PATIENCE = 15_000;
-const QUESTION = `
+const TIMEOUT = 15_000;
+const SCRIPT = `
 import sys
+from importlib.util import find_spec
 try:
-    import swarmdsl.server
-    found = 1
+    # Older versions have the server in swarmdsl.server.
+    found = any(find_spec(f"swarmdsl.{name}") for name in ("ide", "server"))
 except ImportError:
-    found = 0
-print(*sys.version_info[:2], found)
+    found = False
+print(*sys.version_info[:2], int(found))
 `;
 
 export const probe: Probe = {
   async python(interpreter): Promise<Python | undefined> {
-    const answer = await output(interpreter, ["-c", QUESTION]);
+    const answer = await output(interpreter, ["-c", SCRIPT]);
     const numbers = /^(\d+) (\d+) ([01])\s*$/.exec(answer ?? "");
     return numbers
       ? { version: [Number(numbers[1]), Number(numbers[2])], hasServer: numbers[3] === "1" }
@@ -31,21 +32,21 @@ export const probe: Probe = {
   },
 };
 
-/** What a program prints; undefined if it cannot be run or fails. */
+/** Output of a program; undefined if it fails. */
 function output(program: string, args: string[]): Promise<string | undefined> {
   return new Promise((resolve) => {
-    // Python imports from the folder that it runs in.
-    execFile(program, args, { timeout: PATIENCE, cwd: __dirname }, (error, stdout) => resolve(error ? undefined : stdout));
+    // Python imports modules from its working directory.
+    execFile(program, args, { timeout: TIMEOUT, cwd: __dirname }, (error, stdout) => resolve(error ? undefined : stdout));
   });
 }
 
-/** The interpreter of an environment that lies in a folder; undefined if there is none. */
+/** Interpreter of a virtual environment; undefined if there is none. */
 export async function interpreterIn(folder: string): Promise<string | undefined> {
   const path = WINDOWS ? join(folder, "Scripts", "python.exe") : join(folder, "bin", "python");
   return (await runs(path)) ? path : undefined;
 }
 
-/** Where programs of some names stand on the PATH. */
+/** Paths of programs on the PATH. */
 export async function onPath(...names: string[]): Promise<string[]> {
   const found: string[] = [];
   const folders = (process.env["PATH"] ?? "").split(delimiter).filter((each) => each !== "");

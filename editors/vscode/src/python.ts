@@ -1,8 +1,8 @@
-// The interpreter that is selected in the extensions for Python, where one of them is installed.
+// Interpreter selected in an installed Python extension.
 
 import * as vscode from "vscode";
 
-// What is used of the interfaces of these extensions.
+// The used parts of the APIs of these extensions.
 interface Environments {
   getEnvironment(
     scope: vscode.Uri | undefined,
@@ -19,7 +19,7 @@ interface PythonExtension {
   };
 }
 
-/** The selected interpreter; undefined without such an extension, or if none is selected. */
+/** The selected interpreter; undefined without such an extension or a selection. */
 export async function selectedInterpreter(
   folder: vscode.Uri | undefined,
 ): Promise<string | undefined> {
@@ -33,11 +33,11 @@ export async function selectedInterpreter(
     const resolved = await older?.resolveEnvironment(older.getActiveEnvironmentPath(folder));
     return resolved?.executable.uri?.fsPath;
   } catch {
-    return undefined; // what is wrong with another extension is told by that
+    return undefined; // errors of other extensions are not ours to report
   }
 }
 
-/** Tells when another interpreter is selected. */
+/** Listen for changes of the selected interpreter. */
 export async function onSelect(listener: () => void): Promise<vscode.Disposable> {
   const newer = await exported<Environments>("ms-python.vscode-python-envs");
   const older = await exported<PythonExtension>("ms-python.python");

@@ -1,8 +1,8 @@
-// The command behind what stands above a declaration: how often it is used, and where.
+// Command of the references lens.
 
 import * as vscode from "vscode";
 
-/** A place as the language server names it. */
+/** Location sent by the language server. */
 export interface Place {
   readonly uri: string;
   readonly range: { readonly start: At; readonly end: At };
@@ -12,7 +12,7 @@ interface At {
   readonly character: number;
 }
 
-/** Show where something is used that is declared at a place in a file. */
+/** Show the references to the declaration at a position. */
 export async function showReferences(
   file: string,
   at: At,

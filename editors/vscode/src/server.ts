@@ -1,4 +1,4 @@
-// The language server: finds it, starts it, and starts it again when something else is found.
+// Language server: finds it, starts it, and restarts it when another one is found.
 
 import { homedir } from "node:os";
 import { join } from "node:path";
@@ -9,7 +9,7 @@ import { LanguageClient, State, TransportKind } from "vscode-languageclient/node
 import { find, type Found, type Launch, type Places } from "./launch.ts";
 import { interpreterIn, onPath, probe } from "./probe.ts";
 import { selectedInterpreter } from "./python.ts";
-import { tell } from "./missing.ts";
+import { showMissing } from "./missing.ts";
 
 export type Status =
   | { readonly kind: "starting" | "stopped" }
@@ -19,12 +19,12 @@ export type Status =
 export class Server implements vscode.Disposable {
   private readonly changed = new vscode.EventEmitter<Status>();
   readonly onChange = this.changed.event;
-  private readonly told = new vscode.EventEmitter<void>();
-  /** The server was told that files have changed on disk. */
-  readonly onFiles = this.told.event;
+  private readonly filesChanged = new vscode.EventEmitter<void>();
+  /** Fires when the client reports changes of files on disk. */
+  readonly onFiles = this.filesChanged.event;
   private client: LanguageClient | undefined;
   private launch: Launch | undefined;
-  // One start or stop at a time, in the order in which they were asked for.
+  // Starts and stops run one at a time, in order.
   private queue: Promise<unknown> = Promise.resolve();
 
   private readonly extension: vscode.Uri;
@@ -35,7 +35,7 @@ export class Server implements vscode.Disposable {
     this.log = log;
   }
 
-  /** Stop the server if it runs, find it anew and start it. */
+  /** Stop a running server, search again and start. */
   restart(): Promise<void> {
     return this.queued(async () => {
       await this.end();
@@ -43,7 +43,7 @@ export class Server implements vscode.Disposable {
     });
   }
 
-  /** Start again if something else would be started now. */
+  /** Restart if the search finds another server. */
   refresh(): Promise<void> {
     return this.queued(async () => {
       const found = await this.search();
@@ -55,7 +55,7 @@ export class Server implements vscode.Disposable {
     });
   }
 
-  /** How to run swarmc; undefined if there is none, which the user is told. */
+  /** Launch of swarmc; shows an error and returns undefined if there is none. */
   async swarmc(): Promise<Launch | undefined> {
     await this.queue;
     if (this.launch) {
@@ -65,11 +65,11 @@ export class Server implements vscode.Disposable {
     if ("launch" in found) {
       return found.launch;
     }
-    tell(found);
+    showMissing(found);
     return undefined;
   }
 
-  /** Ask the server something that the protocol has no request for. */
+  /** Send a request that is not part of the protocol. */
   async request<Answer>(method: string, parameters: unknown): Promise<Answer | undefined> {
     await this.queue;
     return this.client?.sendRequest<Answer>(method, parameters);
@@ -77,7 +77,7 @@ export class Server implements vscode.Disposable {
 
   dispose(): void {
     this.changed.dispose();
-    this.told.dispose();
+    this.filesChanged.dispose();
   }
 
   stop(): Promise<void> {
@@ -98,7 +98,7 @@ export class Server implements vscode.Disposable {
     if (!("launch" in found)) {
       this.log.error(found.missing);
       this.changed.fire({ kind: "missing", why: found.missing });
-      tell(found);
+      showMissing(found);
       return;
     }
     const { launch } = found;
@@ -112,15 +112,15 @@ export class Server implements vscode.Disposable {
         command: launch.command,
         args: [...launch.args, "lsp"],
         transport: TransportKind.stdio,
-        // Python imports from the folder that it runs in.
+        // Python imports modules from its working directory.
         options: { cwd: this.extension.fsPath },
       },
       {
         documentSelector: [{ scheme: "file", language: "swarm" }],
-        // That of the problem matcher, so that a problem is shown once.
+        // The same as in the problem matcher, so that each problem is shown once.
         diagnosticCollectionName: "swarmdsl",
         outputChannel: this.log,
-        // Those that the server may name above declarations.
+        // Commands that the server may use in code lenses.
         initializationOptions: {
           commands: ["swarmdsl.references", "swarmdsl.preview", "swarmdsl.simulate"],
         },
@@ -128,7 +128,7 @@ export class Server implements vscode.Disposable {
           workspace: {
             didChangeWatchedFile: async (event, next) => {
               await next(event);
-              this.told.fire();
+              this.filesChanged.fire();
             },
           },
         },
@@ -148,7 +148,7 @@ export class Server implements vscode.Disposable {
       await client.start();
     } catch (error) {
       this.log.error(String(error));
-      tell({ missing: `The swarmc of ${launch.origin} did not start.` });
+      showMissing({ missing: `The swarmc of ${launch.origin} did not start.` });
     }
   }
 
@@ -159,7 +159,7 @@ export class Server implements vscode.Disposable {
     try {
       await client?.dispose();
     } catch (error) {
-      this.log.warn(String(error)); // of a server that is gone already
+      this.log.warn(String(error)); // the server is gone already
     }
   }
 }
@@ -168,7 +168,7 @@ async function places(extension: vscode.Uri): Promise<Places> {
   const folders = vscode.workspace.workspaceFolders ?? [];
   const settings = vscode.workspace.getConfiguration("swarmdsl.server");
   const [first] = folders;
-  // What lies in a workspace that is not trusted is not run.
+  // Never run programs of an untrusted workspace.
   const trusted = vscode.workspace.isTrusted;
   const environments = trusted
     ? await Promise.all(folders.map((each) => interpreterIn(join(each.uri.fsPath, ".venv"))))

@@ -1,4 +1,4 @@
-// The commands that run a model in a terminal, in virtual or in real time.
+// Commands that simulate a model in a terminal, in virtual time or in real time.
 
 import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -6,7 +6,7 @@ import { dirname, join } from "node:path";
 
 import * as vscode from "vscode";
 
-import { tellBundled } from "./missing.ts";
+import { showBundledLimit } from "./missing.ts";
 import type { Preview } from "./preview.ts";
 import type { Server } from "./server.ts";
 import type { Subject } from "./subject.ts";
@@ -17,13 +17,13 @@ interface Scenario extends vscode.QuickPickItem {
   readonly uri: vscode.Uri | undefined;
 }
 
-// By what the outline calls them.
+// Keys are details of document symbols.
 const KINDS: Record<string, Subject["kind"]> = { swarm: "swarm", "state machine": "machine" };
 
 /**
- * Simulate `subject` of a file; without it what the user chooses of those in the file.
+ * Simulate `subject`, or let the user choose one of the file.
  *
- * With a preview it runs in real time, and the states that are active light up there.
+ * With a preview, simulate in real time and highlight the active states there.
  */
 export async function simulate(
   server: Server,
@@ -36,7 +36,7 @@ export async function simulate(
     return;
   }
   if (launch.bundled) {
-    tellBundled("simulate a model");
+    showBundledLimit("simulate a model");
     return;
   }
   const chosen = subject ?? (await chooseSubject(file));
@@ -44,7 +44,7 @@ export async function simulate(
   if (!scenario) {
     return;
   }
-  // It reads what is on disk.
+  // swarmc reads files from disk.
   await vscode.workspace.saveAll(false);
   const folder = preview && (await mkdtemp(join(tmpdir(), "swarm-")));
   const trace = folder && join(folder, "trace.jsonl");
@@ -66,12 +66,12 @@ export async function simulate(
   }
   const machine = chosen.kind === "machine" ? chosen : undefined;
   await preview.show(file, machine);
-  const lights = preview.light((moved) => new Trace(trace, machine?.name ?? "", moved));
+  const highlights = preview.highlight((moved) => new Trace(trace, machine?.name ?? "", moved));
   const running = await vscode.tasks.executeTask(task);
   const ended = vscode.tasks.onDidEndTask(async ({ execution }) => {
     if (execution === running) {
       ended.dispose();
-      await lights.end();
+      await highlights.end();
       await rm(folder, { recursive: true, force: true });
     }
   });
@@ -102,7 +102,7 @@ async function chooseSubject(file: vscode.Uri): Promise<Subject | undefined> {
   return (await vscode.window.showQuickPick(items, { title: "Simulate" }))?.each;
 }
 
-/** What happens around the swarm: one of the scenarios beside the file, if there are any. */
+/** Let the user choose a scenario beside the file, if there are any. */
 async function chooseScenario(file: vscode.Uri): Promise<Scenario | undefined> {
   const none: Scenario = {
     label: "No scenario",

@@ -1,4 +1,4 @@
-// What the status bar says of the server, beside files of the language.
+// Status bar item of the server, for files of the language.
 
 import * as vscode from "vscode";
 
@@ -10,12 +10,12 @@ const LINKS = [
   "[Show Log](command:swarmdsl.showLog)",
 ].join(" · ");
 
-/** Show an item while a file of the language is in front. */
+/** Show the item while a file of the language is active. */
 export function showStatus(server: Server): vscode.Disposable {
   const item = vscode.window.createStatusBarItem("swarmdsl", vscode.StatusBarAlignment.Right, 100);
   item.name = "Swarm";
   item.command = "swarmdsl.showLog";
-  const say = (status: Status): void => {
+  const show = (status: Status): void => {
     const { icon, text, detail, wrong } = described(status);
     item.text = `$(${icon}) ${text}`;
     item.accessibilityInformation = { label: `Swarm: ${detail.replaceAll(/\s+/g, " ")}` };
@@ -27,11 +27,11 @@ export function showStatus(server: Server): vscode.Disposable {
   };
   const follow = (editor: vscode.TextEditor | undefined): void =>
     editor?.document.languageId === "swarm" ? item.show() : item.hide();
-  say({ kind: "stopped" });
+  show({ kind: "stopped" });
   follow(vscode.window.activeTextEditor);
   return vscode.Disposable.from(
     item,
-    server.onChange(say),
+    server.onChange(show),
     vscode.window.onDidChangeActiveTextEditor(follow),
   );
 }
@@ -44,9 +44,9 @@ function described(status: Status): { icon: string; text: string; detail: string
       return { icon: "check", text: `swarmc ${version}`, detail };
     }
     case "starting":
-      return { icon: "loading~spin", text: "swarmc", detail: "swarmc starts" };
+      return { icon: "loading~spin", text: "swarmc", detail: "swarmc is starting" };
     case "stopped":
-      return { icon: "circle-slash", text: "swarmc", detail: "swarmc does not run", wrong: true };
+      return { icon: "circle-slash", text: "swarmc", detail: "swarmc is not running", wrong: true };
     case "missing":
       return { icon: "warning", text: "swarmc", detail: status.why, wrong: true };
   }

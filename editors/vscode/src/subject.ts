@@ -1,4 +1,4 @@
-// What of a model is shown or run: a declaration, as the language server names it.
+// Declaration to show or run, as named by the language server.
 
 export interface Subject {
   readonly kind: "swarm" | "member" | "machine";

@@ -1,4 +1,4 @@
-// Tasks of type `swarmdsl`: what swarmc does, with its mistakes in the view of problems.
+// Tasks of type `swarmdsl`, with diagnostics in the problems view.
 
 import * as vscode from "vscode";
 
@@ -24,18 +24,18 @@ export function provideTasks(server: Server): vscode.Disposable {
       const launch = await server.swarmc();
       const folders = vscode.workspace.workspaceFolders ?? [];
       return launch
-        ? folders.flatMap((folder) => OFFERED.map((each) => made(each, folder, launch)))
+        ? folders.flatMap((folder) => OFFERED.map((each) => createTask(each, folder, launch)))
         : [];
     },
     async resolveTask({ definition, scope }) {
       const launch = await server.swarmc();
       const folder = scope && typeof scope === "object" ? scope : vscode.workspace.workspaceFolders?.[0];
-      return launch && folder && made(definition as Definition, folder, launch);
+      return launch && folder && createTask(definition as Definition, folder, launch);
     },
   });
 }
 
-function made(definition: Definition, folder: vscode.WorkspaceFolder, launch: Launch): vscode.Task {
+function createTask(definition: Definition, folder: vscode.WorkspaceFolder, launch: Launch): vscode.Task {
   const { command, watch = false, args = [] } = definition;
   const line = [command, ...(watch ? ["--watch"] : []), ...args];
   const reported = command === "check" || command === "build";
@@ -56,7 +56,7 @@ function made(definition: Definition, folder: vscode.WorkspaceFolder, launch: La
   return task;
 }
 
-/** How a task runs swarmc. */
+/** Execution of swarmc in a task. */
 export function run(launch: Launch, args: readonly string[], cwd: string): vscode.ProcessExecution {
   return new vscode.ProcessExecution(launch.command, [...launch.args, ...args], { cwd });
 }

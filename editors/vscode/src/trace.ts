@@ -1,12 +1,12 @@
-// Follows a trace while it is written: a line of JSON for each step of a member.
+// Follows a growing trace: one JSON line for each step of a member.
 
 import { type FileHandle, open, stat } from "node:fs/promises";
 
-import type { Active, Lights, Moved, Steps } from "./lights.ts";
+import type { Active, Highlights, Moved, Steps } from "./highlights.ts";
 
-const PAUSE = 100; // milliseconds between two looks at the file
+const POLL_INTERVAL = 100; // milliseconds between polls of the file
 const CHUNK = 1 << 20;
-const MOMENT = 1000; // milliseconds for which a step counts as just done
+const RECENT = 1000; // milliseconds for which a step counts as just taken
 
 interface Step {
   readonly time: number;
@@ -16,7 +16,7 @@ interface Step {
   readonly entered: readonly string[];
 }
 
-export class Trace implements Lights {
+export class Trace implements Highlights {
   private readonly path: string;
   private readonly alone: string;
   private readonly moved: Moved;
@@ -29,19 +29,19 @@ export class Trace implements Lights {
   private reading: Promise<void> | undefined;
   private disposed = false;
 
-  /** `alone` is what a member without a name is called. The file may come later. */
+  /** `alone` is the name of a member without a name. The file may be created later. */
   constructor(path: string, alone: string, moved: Moved) {
     this.path = path;
     this.alone = alone;
     this.moved = moved;
-    this.timer = setInterval(() => void this.look(), PAUSE);
+    this.timer = setInterval(() => void this.look(), POLL_INTERVAL);
   }
 
-  again(): void {
+  resend(): void {
     this.moved(this.active, {});
   }
 
-  /** What is written is all there will be: read the rest, and leave all where they are. */
+  /** The trace is complete: read the rest, and keep the last states. */
   async end(): Promise<void> {
     clearInterval(this.timer);
     await this.reading;
@@ -67,7 +67,7 @@ export class Trace implements Lights {
       return Promise.resolve();
     }
     this.reading ??= this.read()
-      .catch(() => undefined) // it is not there yet, or not any more
+      .catch(() => undefined) // the file does not exist yet, or no longer
       .then(() => (this.reading = undefined));
     return this.reading;
   }
@@ -88,7 +88,7 @@ export class Trace implements Lights {
         break;
       }
       this.at += bytesRead;
-      // As one byte a character, since a chunk may end within one of several.
+      // Latin-1 keeps bytes: a chunk may end inside a UTF-8 character.
       const lines = (this.rest + buffer.toString("latin1", 0, bytesRead)).split("\n");
       this.rest = lines.pop() ?? "";
       steps.push(...lines.flatMap((line) => this.step(line) ?? []));
@@ -112,12 +112,12 @@ export class Trace implements Lights {
             member: member ?? this.alone,
             configuration,
             taken: Array.isArray(taken) ? taken : [],
-            // The machine itself is entered when it begins.
+            // The machine itself is entered at its start.
             entered: event === null && states.length ? ["", ...states] : states,
           }
         : undefined;
     } catch {
-      return undefined; // no line of a trace
+      return undefined; // not a trace line
     }
   }
 
@@ -127,12 +127,12 @@ export class Trace implements Lights {
   }
 }
 
-/** What members have done at the end of some steps: others are long past. */
+/** Recent steps of members; older ones are dropped. */
 function latest(steps: readonly Step[]): Steps {
   const last = steps.reduce((most, { time }) => Math.max(most, time), 0);
   const taken: Record<string, string[]> = {};
   const entered: Record<string, string[]> = {};
-  for (const each of steps.filter(({ time }) => time > last - MOMENT)) {
+  for (const each of steps.filter(({ time }) => time > last - RECENT)) {
     (taken[each.member] ??= []).push(...each.taken);
     (entered[each.member] ??= []).push(...each.entered);
   }

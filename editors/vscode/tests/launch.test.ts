@@ -1,4 +1,4 @@
-// Which swarmc is used, of the places where one may be.
+// Tests of the search for swarmc.
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
@@ -15,7 +15,7 @@ const NOWHERE: Places = {
   bundle: "/extension/server",
 };
 
-// Interpreters by their names; programs that serve editors are called `swarmc`.
+// Interpreters by name; programs with a language server are called `swarmc`.
 const PYTHONS: Record<string, Python> = {
   full: { version: [3, 11], hasServer: true },
   plain: { version: [3, 10], hasServer: false },
@@ -28,7 +28,7 @@ const probe: Probe = {
   swarmc: async (program) => program.endsWith("swarmc"),
 };
 
-/** What is run, as a line, or why nothing is. */
+/** Command line, or the reason that there is none. */
 async function line(places: Partial<Places>): Promise<string> {
   const found = await find({ ...NOWHERE, ...places }, probe, () => undefined);
   return "launch" in found
@@ -44,17 +44,17 @@ const EVERYWHERE: Partial<Places> = {
 };
 const BUNDLED = "-I /extension/server";
 
-test("a setting goes before all else", async () => {
+test("settings come first", async () => {
   assert.equal(await line({ ...EVERYWHERE, path: "my/swarmc", interpreter: "plain" }), "my/swarmc");
   assert.equal(await line({ ...EVERYWHERE, interpreter: "plain" }), `plain ${BUNDLED}`);
 });
 
-test("what a setting names is not passed over", async () => {
+test("an invalid setting is reported", async () => {
   for (const path of ["nothing", "full"]) {
     const setting = "swarmdsl.server.path";
     assert.equal(
       await line({ ...EVERYWHERE, path }),
-      `${setting}: ${path} is not a swarmc that serves editors.`,
+      `${setting}: ${path} is not a swarmc with a language server.`,
     );
   }
   for (const interpreter of ["nothing", "old", "two"]) {
@@ -66,7 +66,7 @@ test("what a setting names is not passed over", async () => {
   }
 });
 
-test("the selected interpreter goes before the environment of the workspace", async () => {
+test("the selected interpreter comes before the environment of the workspace", async () => {
   assert.equal(await line(EVERYWHERE), "full -m swarmdsl");
   assert.equal(
     await line({ ...EVERYWHERE, selected: "plain" }),
@@ -82,19 +82,19 @@ test("the PATH comes after environments without swarmdsl", async () => {
   assert.equal(await line({ ...places, swarmc: [], pythons: ["full"] }), "full -m swarmdsl");
 });
 
-test("without an installed swarmc, the first Python that is recent runs the bundled one", async () => {
+test("without an installed swarmc, the first recent Python runs the bundled one", async () => {
   const places = { selected: "old", environments: ["other"], pythons: ["plain"] };
   assert.equal(await line(places), `other ${BUNDLED}`);
   assert.equal(await line({ ...places, environments: [] }), `plain ${BUNDLED}`);
 });
 
 test("without a recent Python, there is none", async () => {
-  const missing = ": There is no swarmc, and no Python 3.10 or later to run one.";
+  const missing = ": No swarmc found, and no Python 3.10 or later to run the bundled one.";
   assert.equal(await line({}), missing);
   assert.equal(await line({ selected: "two", swarmc: ["old"], pythons: ["old", "gone"] }), missing);
 });
 
-test("only what the extension brings is said to be bundled", async () => {
+test("only the copy in the extension counts as bundled", async () => {
   for (const [pythons, bundled] of [["plain", true], ["full", false]] as const) {
     const found = await find({ ...NOWHERE, environments: [pythons] }, probe, () => undefined);
     assert.equal("launch" in found && found.launch.bundled, bundled);

@@ -1,4 +1,4 @@
-// What a swarmc that listens to nodes tells of them, and that it has ended.
+// Tests of following ROS 2 nodes.
 
 import assert from "node:assert/strict";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -6,10 +6,10 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import type { Active, Steps } from "../src/lights.ts";
+import type { Active, Steps } from "../src/highlights.ts";
 import { Nodes } from "../src/nodes.ts";
 
-// In place of swarmc: it says what it was started with, and serves the news of its page.
+// Fake swarmc: prints its arguments and serves events of a page.
 const SERVES = `
 const { createServer } = require("node:http");
 const news = [
@@ -21,7 +21,7 @@ const news = [
 const server = createServer((asked, answer) => {
   if (asked.url !== "/events") throw new Error(asked.url);
   const bytes = Buffer.from(": here\\n\\n" + news.map((each) => "data: " + JSON.stringify(each) + "\\n\\n").join(""));
-  const within = bytes.indexOf(0xc3) + 1; // a letter
+  const within = bytes.indexOf(0xc3) + 1; // inside a UTF-8 character
   answer.write(bytes.subarray(0, within), () => setTimeout(() => answer.write(bytes.subarray(within)), 50));
 });
 server.listen(0, "127.0.0.1", () =>
@@ -33,7 +33,7 @@ const FAILS = `console.error("error[SW1012]: cannot follow ROS 2 nodes\\n  = hel
 interface Told {
   readonly nodes: Nodes;
   readonly model: string;
-  /** The next of what is told: who has moved and what was taken, or why it has ended. */
+  /** Next change, or the reason of the end. */
   next(): Promise<[Active, Steps] | string>;
 }
 
@@ -64,7 +64,7 @@ async function followed(script: string, run: (told: Told) => Promise<void>): Pro
   }
 }
 
-test("nodes are followed until nobody looks any more", () =>
+test("nodes are followed until disposal", () =>
   followed(SERVES, async ({ nodes, model, next }) => {
     const line = `preview ${model} --follow ros2:/sar`;
     const nothing = { taken: undefined, entered: undefined };
@@ -72,13 +72,13 @@ test("nodes are followed until nobody looks any more", () =>
     assert.deepEqual(await next(), [{ "uav[0]": null }, nothing]);
     const steps = { taken: { "uav[1]": ["Höhe->0"] }, entered: { "uav[1]": ["Tal"] } };
     assert.deepEqual(await next(), [{}, steps]);
-    nodes.again();
+    nodes.resend();
     assert.deepEqual(await next(), [{ [line]: ["Idle"] }, {}]);
     nodes.dispose();
     assert.deepEqual(await next(), [{ [line]: null }, {}]);
   }));
 
-test("why nodes cannot be followed is told", () =>
+test("errors of swarmc are reported", () =>
   followed(FAILS, async ({ next }) => {
     assert.deepEqual(await next(), [{}, {}]);
     assert.match(String(await next()), /^error\[SW1012\].*\n.*source it$/);

@@ -1,4 +1,4 @@
-// Reads .swarm texts on standard input, a JSON string on each line, and answers each with its
+// Reads .swarm texts from standard input, one JSON string per line, and answers each with its
 // tokens as a JSON list of [line, first column, column after it, scopes]; lines and columns count
 // from 0.
 "use strict";

@@ -1,4 +1,4 @@
-// What a trace says of members while it is written.
+// Tests of following a trace.
 
 import assert from "node:assert/strict";
 import { appendFile, mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 
-import type { Active, Steps } from "../src/lights.ts";
+import type { Active, Steps } from "../src/highlights.ts";
 import { Trace } from "../src/trace.ts";
 
 const DEADLINE = 20_000;
@@ -21,7 +21,7 @@ function taken(t: number, member: string, ...taken: string[]): string {
   return `${JSON.stringify({ t, member, event, configuration, taken, entered: configuration })}\n`;
 }
 
-test("a trace is followed while it is written, and when it begins anew", async (test) => {
+test("a trace is followed as it grows and when it restarts", async (test) => {
   const folder = await mkdtemp(join(tmpdir(), "trace-"));
   const path = join(folder, "trace.jsonl");
   const told: Active[] = [];
@@ -34,7 +34,7 @@ test("a trace is followed while it is written, and when it begins anew", async (
       steps.push(done);
     }
   });
-  test.after(() => trace.dispose()); // else it looks for ever
+  test.after(() => trace.dispose()); // else it polls forever
   const next = async (): Promise<Active | undefined> => {
     const end = Date.now() + DEADLINE;
     while (!told.length && Date.now() < end) {
@@ -46,7 +46,7 @@ test("a trace is followed while it is written, and when it begins anew", async (
   await writeFile(path, step("uav[0]", "Mission.Idle") + step("uav[1]", "Mission.Idle"));
   assert.deepEqual(await next(), { "uav[0]": ["Mission.Idle"], "uav[1]": ["Mission.Idle"] });
   const line = Buffer.from(step("ü", "Höhe", "Weite"));
-  await appendFile(path, line.subarray(0, line.indexOf(0xbc))); // within a letter
+  await appendFile(path, line.subarray(0, line.indexOf(0xbc))); // inside a UTF-8 character
   await new Promise((resolve) => setTimeout(resolve, 300));
   await appendFile(path, line.subarray(line.indexOf(0xbc)));
   assert.deepEqual(await next(), { ü: ["Höhe", "Weite"] });
@@ -76,7 +76,7 @@ test("a trace is followed while it is written, and when it begins anew", async (
   assert.deepEqual(told, []);
   trace.dispose();
   assert.deepEqual(told, [{ "uav[0]": null }]);
-  await trace.end(); // as when the task that wrote it ends later
+  await trace.end(); // as when the writing task ends later
   assert.deepEqual(told, [{ "uav[0]": null }]);
   await rm(folder, { recursive: true });
 });

@@ -1,4 +1,4 @@
-"""One Visual Studio Code for all tests, with the extension as its users get it."""
+"""Fixtures: one VS Code with the packaged extension for all tests."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NOTE = "```swarm\nstate Idle {\n}\n```\n\nstate Idle\n"
 EXAMPLE = ROOT / "examples" / "search_and_rescue"
 
 
-# Not for longer: while a browser is driven, no test with asyncio runs.
+# Not for the session: while Playwright runs, no asyncio test can run.
 @pytest.fixture(scope="module")
 def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory) -> Iterator:
     chromium = shutil.which("chromium")
@@ -47,11 +47,11 @@ def whole(packages: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory)
 
 @pytest.fixture
 def window(whole):
-    """The window, with nothing open and the files as in the example."""
+    """Return the window, with no open files and the example restored."""
     whole.leave()
     for path in EXAMPLE.iterdir():
         copy = whole.folder / path.name
-        # A file that is written again is read again, perhaps while it is edited.
+        # A rewritten file is read again, perhaps during an edit.
         if path.read_bytes() != copy.read_bytes():
             shutil.copy(path, copy)
     return whole

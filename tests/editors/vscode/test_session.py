@@ -1,4 +1,4 @@
-"""What a person does in VS Code with the search-and-rescue example, and sees of it."""
+"""Session of a user in VS Code with the search-and-rescue example."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .window import Window
 
 pytestmark = pytest.mark.timeout(900)  # on a busy machine, each step may take two minutes
 
-# Transitions do not light up for long: one that has is noted.
+# Transitions are highlighted only briefly, so the page records them.
 NOTE_TAKEN = """picture => {
   const note = ({ target }) => {
     if (target.matches(".taken")) picture.dataset.taken = target.dataset.id;
@@ -35,19 +35,19 @@ def text(window: Window, name: str) -> str:
 
 
 def photograph(window: Window, config: pytest.Config, folder: Path, name: str) -> None:
-    """Take a picture in light and in dark; with `--bless` they are those of the documentation."""
+    """Take screenshots in light and dark; with `--bless`, store them in the documentation."""
     blesses = config.getoption("--bless")
     folder = PICTURES if blesses else folder
     for scheme, theme in (("light", "vs"), ("dark", "vs-dark")):
         window.page.emulate_media(color_scheme=scheme)
         expect(window.page.locator(f".monaco-workbench.{theme}")).to_have_count(1)
         if blesses:
-            window.page.wait_for_timeout(1000)  # for what fades
+            window.page.wait_for_timeout(1000)  # fading elements
         window.page.screenshot(path=folder / f"{name}-{scheme}.png")
     window.page.emulate_media(color_scheme="light")
 
 
-def test_the_server_of_the_extension_runs_with_any_python(window: Window) -> None:
+def test_bundled_server_runs_with_any_python(window: Window) -> None:
     window.open("behaviours.swarm")
     window.server(__version__)
     window.found("the extension")
@@ -90,7 +90,7 @@ def test_completion(window: Window) -> None:
     window.press("Escape")
 
 
-def test_a_mistake_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
+def test_error_has_a_squiggle_and_a_quick_fix(window: Window) -> None:
     before = text(window, "behaviours.swarm")
     window.place("behaviours.swarm", "Coverage", after="on succeeded -> ")
     for _ in range(4):
@@ -144,14 +144,14 @@ def test_pictures(window: Window, tmp_path: Path, pytestconfig: pytest.Config) -
     expect(window.problems().filter(has_text="no state called")).to_have_count(1)
     window.focus()
     if pytestconfig.getoption("--bless"):
-        window.page.wait_for_timeout(3000)  # what stands between the lines follows later
+        window.page.wait_for_timeout(3000)  # lenses appear later
     window.mend()
     photograph(window, pytestconfig, tmp_path, "vscode")
     window.press("Enter")
     window.saved("behaviours.swarm", lambda now: now == before)
 
 
-def test_uses_stand_above_a_declaration_and_lead_there(window: Window) -> None:
+def test_reference_lens(window: Window) -> None:
     window.open("behaviours.swarm")
     lens = window.page.locator(".codelens-decoration a", has_text="1 reference").first
     window.again(lens.click, window.page.locator(".zone-widget"))
@@ -159,7 +159,7 @@ def test_uses_stand_above_a_declaration_and_lead_there(window: Window) -> None:
     expect(window.page.locator(".zone-widget")).to_have_count(0)
 
 
-def test_the_preview_follows_the_text_and_leads_to_it(
+def test_preview_follows_the_text_and_opens_places(
     window: Window, tmp_path: Path, pytestconfig: pytest.Config
 ) -> None:
     window.place("behaviours.swarm", "Bid {")
@@ -184,14 +184,14 @@ def test_the_preview_follows_the_text_and_leads_to_it(
     window.rename("Travel")
     expect(picture.get_by_text("Travel", exact=True)).to_be_visible()
     window.page.keyboard.type("!")
-    expect(page.locator("#state")).to_contain_text("this is how it was before")
+    expect(page.locator("#state")).to_contain_text("showing the last valid version")
     expect(picture.get_by_text("Travel", exact=True)).to_be_visible()
     window.press("Backspace")
     expect(page.locator("#state")).to_be_empty()
     window.saved("behaviours.swarm", lambda now: "state Travel {" in now)
     photograph(window, pytestconfig, tmp_path, "preview")
 
-    # A file that is not open is written by something else, and is right before and after.
+    # Another program changes a file that is not open; the model is valid before and after.
     page.locator("#which").select_option("SearchAndRescue.composition")
     expect(picture).to_contain_text("1..5")
     changed = text(window, "sar.swarm").replace("Rover[1..5]", "Rover[1..6]")
@@ -199,7 +199,7 @@ def test_the_preview_follows_the_text_and_leads_to_it(
     expect(picture).to_contain_text("1..6")
 
 
-def test_blocks_in_markdown_have_colours(window: Window) -> None:
+def test_markdown_blocks_are_highlighted(window: Window) -> None:
     window.open("NOTES.md")
     block, prose = (window.line("state Idle").nth(each) for each in range(2))
     expect(block.locator("span span").first).to_have_text("state")
@@ -208,7 +208,7 @@ def test_blocks_in_markdown_have_colours(window: Window) -> None:
     ).first.get_attribute("class")
 
 
-def test_a_new_model(window: Window) -> None:
+def test_new_model(window: Window) -> None:
     window.command("Swarm: New Model...")
     path = window.folder / "Night Watch.swarm"
     window.choose_file(path)
@@ -216,7 +216,7 @@ def test_a_new_model(window: Window) -> None:
     assert "package night_watch\n" in path.read_text(encoding="utf-8")
 
 
-def test_what_a_setting_names_is_told_if_it_is_no_swarmc(window: Window) -> None:
+def test_invalid_server_path_is_reported(window: Window) -> None:
     window.open("behaviours.swarm")
     with window.settings({"swarmdsl.server.path": "/bin/false"}):
         told = window.page.locator(".notification-toast", has_text="/bin/false is not a swarmc")
@@ -229,7 +229,7 @@ def test_what_a_setting_names_is_told_if_it_is_no_swarmc(window: Window) -> None
 
 
 def test_an_interpreter_is_selected_and_builds_and_simulates(window: Window) -> None:
-    """Whatever swarmc is installed beside these tests."""
+    """The interpreter is the one that runs these tests."""
     window.open("sar.swarm")
     window.server(__version__)
     window.command("Swarm: Simulate")

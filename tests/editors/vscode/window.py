@@ -1,6 +1,6 @@
-"""A window of Visual Studio Code in a browser, and what a person does in it.
+"""VS Code window in a browser, with the actions of a user.
 
-The selectors are those of Code 1.139, whose page has no others that are promised.
+The selectors are those of VS Code 1.139; its page has no stable ones.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from playwright.sync_api import (
 
 from . import environment
 
-# Of what a page does, in milliseconds: machines that do other things besides are slow.
+# Timeout of an action of a page in milliseconds; busy machines are slow.
 PATIENCE = 120_000
-# After which what shows nothing is done again: keys may be lost while a page does other things.
+# An action without visible effect after this time is repeated: a busy page may lose keys.
 _SOON = 10_000
 SIZE = {"width": 1280, "height": 800}
 _SETTINGS = {
@@ -38,11 +38,11 @@ _SETTINGS = {
     "extensions.ignoreRecommendations": True,
     "git.enabled": False,
     "telemetry.telemetryLevel": "off",
-    "terminal.integrated.gpuAcceleration": "off",  # so that the page has its text
+    "terminal.integrated.gpuAcceleration": "off",  # until the page shows its text
     "update.mode": "none",
     "window.autoDetectColorScheme": True,
     "workbench.layoutControl.enabled": False,
-    # What comes into focus late does not close what asks for something.
+    # Late changes of focus must not close an input.
     "workbench.quickOpen.closeOnFocusLost": False,
     "workbench.preferredDarkColorTheme": "Default Dark Modern",
     "workbench.preferredLightColorTheme": "Default Light Modern",
@@ -59,7 +59,7 @@ _BROWSER = [
 
 
 class Window:
-    """What a person sees and does; `folder` is the one that is open."""
+    """Window with its user actions; `folder` is the open folder."""
 
     def __init__(self, page: Page, folder: Path) -> None:
         self.page = page
@@ -67,7 +67,7 @@ class Window:
         self.press = page.keyboard.press
 
     def again(self, act: Callable[[], object], seen: Locator) -> None:
-        """Do something until it is seen."""
+        """Repeat an action until an element is visible."""
         deadline = time.monotonic() + PATIENCE / 1000
         while True:
             try:
@@ -79,17 +79,17 @@ class Window:
                     raise
 
     def command(self, title: str) -> None:
-        """Run a command by its title, as the palette has it."""
+        """Run a command by its title in the command palette."""
         self._pick("F1", f">{title}", title)
 
     def open(self, name: str, line: int = 1, column: int = 1) -> None:
-        """Open a file of the folder, with the cursor at a place in it."""
+        """Open a file of the folder at a position."""
         self._pick("Control+p", f"{name}:{line}:{column}", name)
         expect(self.tab(name)).to_have_count(1)
         self.at(line, column)
 
     def _pick(self, key: str, text: str, title: str) -> None:
-        """Write into the field that a key opens, and choose what it lists by its title."""
+        """Type into the input opened by a key, and choose an item by its title."""
         row = self._asked.locator(
             ".monaco-list-row", has=self.page.get_by_text(title, exact=True)
         ).first
@@ -102,21 +102,21 @@ class Window:
         row.click()
 
     def focus(self) -> None:
-        """Go back to the text."""
+        """Return to the text."""
         self.command("View: Focus Active Editor Group")
         self._focused()
 
     def _focused(self) -> None:
-        """Wait until keys go to the text."""
+        """Wait until the text has the focus."""
         expect(self.page.locator(".editor-instance .monaco-editor.focused")).to_have_count(1)
 
     def mend(self) -> None:
-        """Show the quick fixes at the cursor; the first is chosen."""
+        """Show the quick fixes at the cursor and apply the first one."""
         first = self.page.locator(".action-widget .monaco-list-row.focused")
         self.again(lambda: self.press("Control+."), first)
 
     def rename(self, name: str) -> None:
-        """Give what is at the cursor another name."""
+        """Rename the element at the cursor."""
         entry = self.page.locator(".rename-box input")
         self.again(lambda: self.press("F2"), entry)
         entry.fill(name)
@@ -133,21 +133,21 @@ class Window:
         return self._asked.locator("input[type=text]")
 
     def answer(self, title: str, text: str) -> None:
-        """Write into a field that opens in the middle, and close it."""
-        # The list of commands has one, too, until it has closed.
+        """Type into an input in the middle of the window and confirm it."""
+        # The command palette has an input, too, until it is closed.
         expect(self._asked.locator(".quick-input-title")).to_have_text(title)
         self._entry.fill(text)
         self._entry.press("Enter")
         expect(self._asked).to_have_count(0)
 
     def choose(self, text: str) -> None:
-        """Choose what a list offers that has opened in the middle."""
+        """Choose an item of an open list in the middle of the window."""
         self._asked.locator(".monaco-list-row", has_text=text).first.click()
 
     def choose_file(self, path: Path) -> None:
-        """Name a file in a dialog that asks for one."""
-        # What is written before it has listed the folder that it begins in is replaced by that one;
-        # an Enter before it has listed that of the file counts for whatever it lists.
+        """Enter a file name in a file dialog."""
+        # Input before the dialog has listed its first folder is replaced; an Enter before it has
+        # listed the folder of the file applies to the list shown.
         self._lists([".."])
         self._entry.fill(str(path))
         self._lists([each.name for each in path.parent.iterdir()])
@@ -155,39 +155,39 @@ class Window:
         expect(self._asked).to_have_count(0)
 
     def _lists(self, names: Sequence[str]) -> None:
-        """Wait until a dialog that asks for a file lists one of these names."""
+        """Wait until a file dialog lists one of these names."""
         name = re.compile(f"^({'|'.join(map(re.escape, names))})/?$")
         expect(self._asked.locator(".monaco-list-row").get_by_text(name).first).to_be_visible()
 
     def leave(self) -> None:
-        """Close what asks for something, and all files; there are no changes to save."""
+        """Close inputs and all files; there are no unsaved changes."""
         deadline = time.monotonic() + PATIENCE / 1000
         while self._asked.count():
             assert time.monotonic() < deadline, self._asked.inner_text()
-            # Without waiting for it: it may be closing.
+            # Do not wait: it may be closing.
             self._entry.evaluate_all("all => all.forEach(each => each.focus())")
             self.press("Escape")
         self.command("View: Close All Editors")
         expect(self.page.locator(".tab")).to_have_count(0)
 
     def tab(self, name: str) -> Locator:
-        """The tab of a file, if it is in front."""
+        """Return the tab of a file, if it is active."""
         return self.page.locator(f".tab.active[data-resource-name='{name}']")
 
     def at(self, line: int, column: int) -> None:
-        """Wait until the cursor is at a place, where keys go."""
+        """Wait until the cursor is at a position and has the focus."""
         expect(self.status("status.editor.selection")).to_contain_text(f"Ln {line}, Col {column}")
         self._focused()
 
     def place(self, name: str, text: str, after: str = "") -> None:
-        """Open a file with the cursor at the first `text` after the first `after`."""
+        """Open a file at the first `text` after the first `after`."""
         whole = (self.folder / name).read_text(encoding="utf-8")
         offset = whole.index(text, whole.index(after))
         before = whole[:offset]
         self.open(name, before.count("\n") + 1, len(before) - before.rfind("\n"))
 
     def status(self, item: str) -> Locator:
-        """An item of the status bar."""
+        """Return an item of the status bar."""
         return self.page.locator(f'.statusbar-item[id="{item}"]')
 
     def server(self, version: str) -> None:
@@ -197,20 +197,20 @@ class Window:
         expect(item).to_contain_text(f"swarmc {version}")
 
     def found(self, origin: str) -> None:
-        """Wait until the server is the one that was found somewhere, as its item says."""
+        """Wait until the status item shows the origin of the server."""
         item = self.status("swarmdsl.swarm.swarmdsl")
         expect(item.locator(f"[aria-label*='{origin}']")).to_have_count(1)
 
     def view(self) -> FrameLocator:
-        """What an extension shows in a view of its own."""
+        """Return the content of a webview."""
         return self.page.frame_locator("iframe.webview.ready").frame_locator("#active-frame")
 
     def line(self, text: str) -> Locator:
-        """The lines in sight that have a text."""
+        """Return the visible lines with a text."""
         return self.page.locator(".editor-instance .view-line", has_text=_spaced(text))
 
     def saved(self, name: str, right: Callable[[str], bool]) -> None:
-        """Save all files until one of them is as it should be: what changes it may come later."""
+        """Save all files until one has the expected content; edits may arrive late."""
         file = self.folder / name
         deadline = time.monotonic() + PATIENCE / 1000
         while not right(file.read_text(encoding="utf-8")):
@@ -220,7 +220,7 @@ class Window:
 
     @contextmanager
     def settings(self, settings: Mapping[str, object]) -> Iterator[None]:
-        """Set something for the folder, for a while."""
+        """Apply settings to the folder while the context lasts."""
         file = self.folder / ".vscode" / "settings.json"
         file.parent.mkdir(exist_ok=True)
         file.write_text(json.dumps(settings), encoding="utf-8")
@@ -230,13 +230,13 @@ class Window:
             file.write_text("{}", encoding="utf-8")
 
     def problems(self) -> Locator:
-        """The rows of the view of problems, files and what is wrong in them."""
+        """Return the rows of the problems view, files and diagnostics."""
         self.command("Problems: Focus on Problems View")
         return self.page.locator(".markers-panel .monaco-list-row")
 
 
 def _spaced(text: str) -> re.Pattern[str]:
-    """Match a text as the page has it, where blanks do not break."""
+    """Match a text as the page shows it, with non-breaking spaces."""
     return re.compile(re.escape(text).replace("\\ ", "[ \u00a0]"))
 
 
@@ -244,7 +244,7 @@ def _spaced(text: str) -> re.Pattern[str]:
 def opened(
     host: Path, chromium: str, extension: Path, folder: Path, scratch: Path
 ) -> Iterator[Window]:
-    """Serve a folder by a VS Code of its own, with an extension, and open it in a browser."""
+    """Serve a folder with a separate VS Code and an extension, and open it in a browser."""
     machine = scratch / "data" / "Machine"
     user = scratch / "data" / "User"
     for settings in (machine, user):
@@ -259,10 +259,10 @@ def opened(
     ]
     surroundings = {
         "HOME": str(scratch),
-        "PATH": "/usr/bin:/bin",  # without the environment that runs these tests
+        "PATH": "/usr/bin:/bin",  # without the environment of these tests
         "SHELL": "/bin/sh",
         "LANG": "C.UTF-8",
-        "EXTENSIONS_GALLERY": "{}",  # else the page asks one
+        "EXTENSIONS_GALLERY": "{}",  # else the page asks for one
     }
     subprocess.run(
         [*program, "--install-extension", str(extension)],
@@ -295,7 +295,7 @@ def opened(
             yield Window(page, folder)
             browser.close()
     finally:
-        # The processes of extensions live on without their window.
+        # Processes of extensions outlive their window.
         os.killpg(server.pid, signal.SIGTERM)
         try:
             server.wait(20)
