@@ -1,9 +1,9 @@
-"""Measures swarmdsl and what it is compared with, and writes docs/performance.md.
+"""Measure swarmdsl and comparable tools, and update docs/performance.md.
 
-    python benchmarks/bench.py [GROUP[,GROUP...]] [--show]
+Usage: `python benchmarks/bench.py [GROUP[,GROUP...]] [--show]`
 
-Groups are those of GROUPS; none stands for all. A block of the page is written anew for
-each group that was measured, unless it shall only be shown.
+Default: all GROUPS. Each measured group replaces its block of the page; with `--show`, the page is
+not changed.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ GROUPS: dict[str, Callable[[Path], Section]] = {
 
 
 def main() -> None:
-    """Measure the groups of the command line."""
+    """Measure the groups given on the command line."""
     words = [word for word in sys.argv[1:] if word != "--show"]
     names = [name for word in words for name in word.split(",") if name] or list(GROUPS)
     unknown = [name for name in names if name not in GROUPS]
@@ -62,7 +62,7 @@ def main() -> None:
 
 
 def replaced(page: str, name: str, text: str) -> str:
-    """The page with that text in the block of a group."""
+    """Replace the block of a group in the page."""
     begin, end = f"<!-- bench {name} -->", f"<!-- end of {name} -->"
     block = re.compile(f"{re.escape(begin)}\n.*?{re.escape(end)}", re.DOTALL)
     made, count = block.subn(lambda _: f"{begin}\n\n{text}\n{end}", page)

@@ -1,4 +1,4 @@
-"""A client of a language server, as small as what measures with it: it waits for each answer."""
+"""Minimal client of a language server; it waits for each answer."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from measure import ENVIRONMENT
 
 
 class Client:
-    """A server that was started for a folder, and the messages to it and from it."""
+    """Server process for a folder, and its messages."""
 
     def __init__(self, command: Sequence[str], folder: Path) -> None:
         self.started = perf_counter()
@@ -36,13 +36,13 @@ class Client:
         self.tell("initialized", {})
 
     def open(self, file: Path, text: str) -> None:
-        """Show a file, and wait for what is wrong with it."""
+        """Open a file and wait for its diagnostics."""
         document = {"uri": file.as_uri(), "languageId": "swarm", "version": 1, "text": text}
         self.tell("textDocument/didOpen", {"textDocument": document})
         self.wait_for_diagnostics(file)
 
     def type(self, file: Path, version: int, line: int, character: int, text: str) -> None:
-        """Type a text at a place, or take away one character where it is empty."""
+        """Insert a string at a position, or delete one character if it is empty."""
         start = {"line": line, "character": character}
         end = {"line": line, "character": character + (not text)}
         change = {"range": {"start": start, "end": end}, "text": text}
@@ -55,7 +55,7 @@ class Client:
         )
 
     def wait_for_diagnostics(self, file: Path) -> None:
-        """Wait until something is said of a file."""
+        """Wait for the next diagnostics of a file."""
         self._until(
             lambda message: (
                 message.get("method") == "textDocument/publishDiagnostics"
@@ -64,7 +64,7 @@ class Client:
         )
 
     def ask(self, method: str, params: Any) -> Any:
-        """Ask something, and wait for the answer."""
+        """Send a request and wait for the answer."""
         self._last += 1
         self._send({"id": self._last, "method": method, "params": params})
         answer = self._until(lambda message: message.get("id") == self._last)
@@ -73,18 +73,18 @@ class Client:
         return answer["result"]
 
     def tell(self, method: str, params: Any) -> None:
-        """Send a message that has no answer."""
+        """Send a notification."""
         self._send({"method": method, "params": params})
 
     @property
     def cpu(self) -> float:
-        """Seconds of the processor that the threads of the server have taken so far."""
+        """CPU seconds used so far by the threads of the server."""
         tasks = Path(f"/proc/{self._process.pid}/task").glob("*/schedstat")
         return sum(int(each.read_text(encoding="utf-8").split()[0]) for each in tasks) / 1e9
 
     @property
     def memory(self) -> int:
-        """The peak of its memory, in bytes."""
+        """Peak memory in bytes."""
         lines = self._system("status").splitlines()
         return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) * 1024
 
@@ -114,7 +114,7 @@ class Client:
             if not length:
                 raise RuntimeError("the server is gone")
             message = json.loads(self._process.stdout.read(length))
-            if "method" in message and "id" in message:  # it asks for something itself
+            if "method" in message and "id" in message:  # a request of the server
                 self._send({"id": message["id"], "result": None})
             elif wanted(message):
                 return message

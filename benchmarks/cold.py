@@ -1,4 +1,4 @@
-"""Measures how long `swarmc` takes from its start to its end."""
+"""Measure the run time of `swarmc` commands."""
 
 from __future__ import annotations
 
@@ -15,17 +15,19 @@ ROUNDS = 15
 LINES = 300
 
 JAVA = 1.5
-"""Seconds that the original generator takes from its start to its end for one state machine with
-ten states that call actions, where the model here has five with eight; measured once, on two
-processors like these."""
+"""Run time of the original generator in seconds.
+
+For one state machine with ten states that call actions; the model here has five with eight.
+Measured once, on two comparable processors.
+"""
 SHARE = 0.12
-"""Of the time of the original generator."""
+"""Goal: share of the time of the original generator."""
 
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
 
 
 def section(folder: Path) -> Section:
-    """Run `swarmc` on a model of a few hundred lines, and Python on nothing."""
+    """Run `swarmc` on a model of a few hundred lines, and Python on an empty program."""
     model = folder / "bench.swarm"
     lines = workspace.write_file(model, LINES, plain=True)
     out = folder / "out"

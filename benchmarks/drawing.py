@@ -1,4 +1,4 @@
-"""Measures how long it takes to draw large state machines."""
+"""Measure the drawing of large state machines."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _EVENTS = 20
 
 
 def nested() -> Iterator[str]:
-    """Composite states of ten states each, with transitions in them and across their borders."""
+    """Yield composite states of ten states each, with transitions inside and across them."""
     count = STATES // 10
     yield "  initial C0"
     for number in range(count):
@@ -34,7 +34,7 @@ def nested() -> Iterator[str]:
 
 
 def flat() -> Iterator[str]:
-    """States one after the other, some of which lead back a little."""
+    """Yield a chain of states, some with a transition a few states back."""
     yield "  initial S0"
     for number in range(STATES):
         yield f"  state S{number} {{\n    on E{number % _EVENTS} -> S{(number + 1) % STATES}"
@@ -44,13 +44,13 @@ def flat() -> Iterator[str]:
 
 
 def model(states: Iterator[str]) -> str:
-    """A model with one state machine."""
+    """Return a model with one state machine."""
     events = (f"event E{number} : std_msgs/Empty" for number in range(_EVENTS))
     return "\n".join(["package large", *events, "endless statemachine Large {", *states, "}\n"])
 
 
 def section(folder: Path) -> Section:
-    """Draw a machine of each kind, in each format, as a process of its own."""
+    """Draw a machine of each kind in each format, in a separate process."""
     commands: dict[str, list[str]] = {}
     for name, states in (("in composite states", nested()), ("side by side", flat())):
         path = folder / f"{name.rpartition(' ')[2]}.swarm"

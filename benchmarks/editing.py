@@ -1,6 +1,6 @@
-"""Measures language servers: what an editor waits for, from the start on.
+"""Measure the response times of language servers.
 
-Time is that of the processor that the threads of the server take, from a message to its answer.
+Time is the CPU time of the threads of the server from a message to its answer.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from measure import Section, spread
 
 ROUNDS = 5
 KEYS = 100
-# Of a server that takes seconds for each.
+# For servers that take seconds for each edit.
 FEW = 10
 SEED = 13
 LINES_OF_A_FILE = 10_000
@@ -30,7 +30,7 @@ _PEERS = peers.FOLDER
 
 @dataclass(frozen=True)
 class Server:
-    """A language server to be measured."""
+    """Language server to measure."""
 
     name: str
     peer: str | None
@@ -46,7 +46,7 @@ LANGIUM = Server(
 
 
 def section(folder: Path) -> Section:
-    """Start servers, type in a large file, and open a large workspace."""
+    """Start servers, edit a large file, and open a large workspace."""
     small, single, large = folder / "small", folder / "single", folder / "large"
     workspace.write(small, 2)
     single.mkdir()
@@ -94,10 +94,7 @@ def section(folder: Path) -> Section:
 
 
 def _start(server: Server, folder: Path) -> tuple[float, float]:
-    """Seconds from the start of a server to what is wrong with the file that is opened.
-
-    The first are of the processor, the second of the clock.
-    """
+    """Return CPU and wall-clock seconds from the start to the first diagnostics."""
     file = folder / "area0.swarm"
     client = Client(server.command, folder)
     client.open(file, f"{file.read_text(encoding='utf-8')}\nwrong\n")
@@ -108,7 +105,7 @@ def _start(server: Server, folder: Path) -> tuple[float, float]:
 
 @dataclass
 class Typed:
-    """Seconds of the processor for each of some actions."""
+    """CPU seconds of several actions."""
 
     keys: list[float]
     completions: list[float]
@@ -116,7 +113,7 @@ class Typed:
 
 
 def _typed(server: Server, file: Path, count: int) -> Typed:
-    """Type a word that is no declaration in many places, and take it away again."""
+    """Type a word that is no declaration in many places, and delete it again."""
     text = file.read_text(encoding="utf-8")
     rows = text.split("\n")
     client = Client(server.command, file.parent)
@@ -145,7 +142,7 @@ def _typed(server: Server, file: Path, count: int) -> Typed:
 
 
 def _place(rows: Sequence[str], dice: Random) -> tuple[int, int]:
-    """A place in a line with something in it."""
+    """Return a position in a non-empty line."""
     while not rows[line := dice.randrange(len(rows))].strip():
         pass
     return line, dice.randrange(len(rows[line]))
@@ -159,7 +156,7 @@ def _asked(client: Client, file: Path, method: str, line: int, character: int) -
 
 
 def _peak(server: Server, folder: Path) -> int:
-    """The peak of a server's memory with a file of a large workspace open, in bytes."""
+    """Return the peak memory with a file of a large workspace open, in bytes."""
     file = folder / "area5.swarm"
     client = Client(server.command, folder)
     client.open(file, f"{file.read_text(encoding='utf-8')}\nwrong\n")
@@ -174,5 +171,5 @@ def _figures(seconds: list[float]) -> str:
 
 
 def _high(seconds: list[float]) -> float:
-    """95th percentile."""
+    """Return the 95th percentile."""
     return quantiles(seconds, n=20)[-1]

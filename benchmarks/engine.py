@@ -1,4 +1,4 @@
-"""Measures the engine of state machines, against those of others."""
+"""Measure the state machine engine and comparable engines."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from swarmdsl.execution.scxml import read
 RUNS = 5
 INSTANCES = 1_000
 EVENTS = 100_000
-"""How many events a run of the engine takes; one of the other engine takes fewer."""
+"""Number of events in a run of the engine; other engines take fewer."""
 FEWER = 50
 
 HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" datamodel="ecmascript"'
@@ -41,7 +41,7 @@ GUARDED = f"""{HEAD} initial="off">
 
 
 def region(name: str) -> str:
-    """A region with three states."""
+    """Return a region with three states."""
     return f"""<state id="R{name}">
       <state id="{name}a">
         <transition event="e1" target="{name}b"/><transition event="both" target="{name}b"/>
@@ -60,7 +60,7 @@ DEEP = f"""{HEAD}>
 
 
 def large(states: int) -> str:
-    """A machine of that many states, in groups of ten, which events lead around."""
+    """Return a machine of `states` states in groups of ten, connected in a ring."""
     groups = []
     for first in range(0, states, 10):
         inner = "".join(
@@ -83,21 +83,21 @@ CASES = {
 
 
 class World:
-    """In which nothing happens: the machines here ask for nothing."""
+    """World without effects: the machines here request nothing."""
 
     def schedule(self, *asked: object) -> Any:
-        """Fail, whatever it is: it would be measured as well."""
+        """Raise an error: the request would distort the measurement."""
         raise NotImplementedError(asked)
 
     unschedule = start = cancel = send = failed = schedule
 
 
 class Silent(Observer):
-    """Is told everything and says nothing."""
+    """Observer that ignores everything."""
 
 
 def machine(text: str) -> Machine:
-    """The machine of a document."""
+    """Return the machine of a document."""
     report = Diagnostics()
     found = read(Source("bench.scxml", text), report)
     assert found is not None, [each.message for each in report]
@@ -105,21 +105,21 @@ def machine(text: str) -> Machine:
 
 
 def instance(made: Machine, observer: Observer | None = None) -> Instance:
-    """A started instance."""
+    """Return a started instance."""
     running = Instance(made, World(), observer=observer)
     running.start()
     return running
 
 
 def seconds(action: Callable[[], object]) -> float:
-    """How long it takes, by time of the processor."""
+    """Return the CPU seconds of an action."""
     start = process_time()
     action()
     return process_time() - start
 
 
 def events_a_second(running: Instance, names: list[str]) -> float:
-    """How many events the engine takes, each made anew, and the active states looked at."""
+    """Return events per second; each event is created, and active states are read after it."""
     rounds = EVENTS // len(names)
 
     def run() -> None:
@@ -132,7 +132,7 @@ def events_a_second(running: Instance, names: list[str]) -> float:
 
 
 def events_of_statemachine(text: str, names: list[str]) -> float:
-    """The same of python-statemachine."""
+    """Return events per second of python-statemachine."""
     from statemachine.io import load
 
     running = load(text, format="scxml", trusted=True)()
@@ -148,7 +148,7 @@ def events_of_statemachine(text: str, names: list[str]) -> float:
 
 
 def events_of_scion(text: str, names: list[str], folder: Path) -> float:
-    """The same of SCION, in a process of its own."""
+    """Return events per second of SCION, in a separate process."""
     file = folder / "scion.json"
     file.write_text(json.dumps([[text, names, EVENTS]]), encoding="utf-8")
     script = str(peers.FOLDER / "scion.mjs")
@@ -156,7 +156,7 @@ def events_of_scion(text: str, names: list[str], folder: Path) -> float:
 
 
 def bytes_an_instance(made: Machine, names: list[str]) -> float:
-    """How much memory each of many instances needs, after some events."""
+    """Return the memory of one of many instances after some events, in bytes."""
     warm = instance(made)
     for name in names:
         warm.receive(Event(name))
@@ -174,7 +174,7 @@ def bytes_an_instance(made: Machine, names: list[str]) -> float:
 
 @dataclass(frozen=True)
 class Engine:
-    """An engine, and how many events a second it takes; `peer` is what must be installed."""
+    """Engine with its events per second; `peer` is the package that it needs."""
 
     name: str
     speed: Callable[[str, list[str]], float]

@@ -1,4 +1,4 @@
-"""Measures how long a ROS package takes to be generated, from cold, by the size of the machine."""
+"""Measure the generation of ROS packages by the size of the state machine."""
 
 from __future__ import annotations
 
@@ -13,16 +13,18 @@ from measure import Section, interleaved, process, spread
 ROUNDS = 7
 
 JAVA = {10: 1.5, 100: 2.5, 1000: 5.3, 5000: 18.2}
-"""Seconds that the original generator takes from its start to its end for a state machine with so
-many states that call actions; measured once, on two processors like these."""
+"""Run time of the original generator in seconds, by number of states that call actions.
+
+Measured once, on two comparable processors.
+"""
 SHARE = 0.2
-"""Of the time of the original generator."""
+"""Goal: share of the time of the original generator."""
 
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
 
 
 def section(folder: Path) -> Section:
-    """Build packages of ROS 1 for state machines in which each state calls an action."""
+    """Build ROS 1 packages for state machines whose states all call actions."""
     out = folder / "out"
     commands: dict[str, list[str]] = {}
     for states in JAVA:
@@ -56,7 +58,7 @@ def section(folder: Path) -> Section:
 
 
 def machine(states: int) -> str:
-    """A machine that goes round in so many states."""
+    """Return a machine whose states form a ring."""
     lines = [
         "package bench",
         "action Go { goal { x : float64 } }",

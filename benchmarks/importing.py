@@ -1,4 +1,4 @@
-"""Measures how long it takes to make a model of a large document."""
+"""Measure the import of large documents."""
 
 from __future__ import annotations
 
@@ -14,15 +14,17 @@ ROUNDS = 7
 STATES = 1_000
 
 JAVA = 5.3
-"""Seconds that the original generator takes to generate from a document of as many states, from its
-start to its end; measured once, on two processors like these."""
+"""Run time of the original generator in seconds, for a document of as many states.
+
+Measured once, on two comparable processors.
+"""
 
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
 _HEAD = '<scxml xmlns="http://www.w3.org/2005/07/scxml" version="1.0" name="large" initial="s0">'
 
 
 def dialect() -> Iterator[str]:
-    """States that call actions, in the dialect of CPSwarm; each leads to the next or back."""
+    """Yield states that call actions, in the CPSwarm dialect; each leads to the next or back."""
     yield _HEAD
     for number in range(STATES - 1):
         action = f"<name>cmd/do_{number % 50}</name><action>work_msgs/Do{number % 50}</action>"
@@ -37,7 +39,7 @@ def dialect() -> Iterator[str]:
 
 
 def plain() -> Iterator[str]:
-    """States with events, conditions and assignments, as any tool may write them."""
+    """Yield states with events, conditions and assignments, in plain SCXML."""
     yield f'{_HEAD}\n<datamodel><data id="n" expr="0"/></datamodel>'
     for number in range(STATES - 1):
         yield (
@@ -50,7 +52,7 @@ def plain() -> Iterator[str]:
 
 
 def section(folder: Path) -> Section:
-    """Import a document of each kind as a process of its own."""
+    """Import a document of each kind in a separate process."""
     commands: dict[str, list[str]] = {}
     for name, made in (("CPSwarm", dialect()), ("W3C", plain())):
         path = folder / f"{name.rpartition(' ')[2].lower()}.xml"

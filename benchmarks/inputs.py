@@ -1,4 +1,4 @@
-"""Text of a number of lines in other languages, for what reads those."""
+"""Generate source text of a given length in other languages."""
 
 from __future__ import annotations
 
@@ -103,22 +103,22 @@ interface Robot{n} {{
 
 
 def proto(lines: int, name: str = "bench") -> str:
-    """Protocol buffers, in a package of that name."""
+    """Return Protocol Buffers definitions in a package."""
     return _filled(f'syntax = "proto3";\npackage {name};\n', _PROTO, lines, "//")
 
 
 def sql(lines: int) -> str:
-    """Statements of SQL."""
+    """Return SQL statements."""
     return _filled("", _SQL, lines, "--")
 
 
 def python(lines: int) -> str:
-    """Classes in Python."""
+    """Return Python classes."""
     return _filled("", _PYTHON, lines, "#")
 
 
 def typespec(lines: int) -> str:
-    """Models and interfaces of TypeSpec."""
+    """Return TypeSpec models and interfaces."""
     return _filled("", _TYPESPEC, lines, "//")
 
 
@@ -128,11 +128,11 @@ WRITERS: dict[str, Callable[[int], str]] = {
     "py": python,
     "tsp": typespec,
 }
-"""By the suffix of their files."""
+"""Generators by file suffix."""
 
 
 def _filled(head: str, block: str, lines: int, comment: str) -> str:
-    """As many blocks as there is room for, and comments up to the number of lines."""
+    """Repeat a block as often as it fits, and fill up with comments."""
     room = lines - head.count("\n")
     count, left = divmod(room, block.count("\n"))
     return head + "".join(block.format(n=n) for n in range(count)) + f"{comment} .\n" * left

@@ -1,4 +1,4 @@
-"""Measures a workspace of many files: a check from cold, and what an editor waits for."""
+"""Measure a workspace of many files: a full check, and edits."""
 
 from __future__ import annotations
 
@@ -84,5 +84,5 @@ def _figures(seconds: list[float]) -> str:
 
 
 def _high(seconds: list[float]) -> float:
-    """95th percentile."""
+    """Return the 95th percentile."""
     return quantiles(seconds, n=20)[-1]

@@ -1,4 +1,4 @@
-"""Measures programs and functions that take turns, and tells it as tables of Markdown."""
+"""Measure processes and functions in turns; format results as Markdown tables."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from statistics import median
 from time import perf_counter
 
-# Modules are compiled once, not by every process, as where programs are used.
+# Compile modules once, not in each process, as in normal use.
 ENVIRONMENT = {
     name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"
 }
@@ -17,9 +17,9 @@ ENVIRONMENT = {
 
 @dataclass(frozen=True)
 class Cost:
-    """What a process took: seconds of the processor and of the clock, bytes at its peak.
+    """CPU and wall-clock seconds, and peak memory in bytes, of a process.
 
-    The bytes are no fewer than those of the process that started it.
+    The memory is at least that of the parent process.
     """
 
     cpu: float
@@ -29,14 +29,11 @@ class Cost:
 
 
 class FailedError(Exception):
-    """A program that was to be measured ended with an error; it says what the program said."""
+    """A measured program failed; the message is its output."""
 
 
 def process(command: Sequence[str]) -> Cost:
-    """Run a program to its end, which must be a good one.
-
-    Raises FailedError.
-    """
+    """Run a program to its end. Raises FailedError unless it succeeds."""
     start = perf_counter()
     with subprocess.Popen(
         command,
@@ -58,9 +55,9 @@ def process(command: Sequence[str]) -> Cost:
 def interleaved(
     runs: Mapping[str, Callable[[], float]], rounds: int, warm_up: int = 0
 ) -> dict[str, list[float]]:
-    """What each gives in each round.
+    """Return the results of each action in each round.
 
-    They take turns, so that a machine that is slow for a while is slow for all of them.
+    The actions take turns, so that a slow phase of the machine affects all of them.
     """
     found: dict[str, list[float]] = {name: [] for name in runs}
     for number in range(-warm_up, rounds):
@@ -72,14 +69,14 @@ def interleaved(
 
 
 def spread(values: Sequence[float], form: str = "{:.0f}", scale: float = 1) -> str:
-    """The least, the middle and the greatest of them."""
+    """Format minimum, median and maximum."""
     three = (min(values), median(values), max(values))
     return " / ".join(form.format(value * scale) for value in three)
 
 
 @dataclass
 class Section:
-    """What a group of measurements found: a table, and sentences before and after it."""
+    """Results of a group: a table, and sentences before and after it."""
 
     intro: str
     header: Sequence[str]
@@ -89,14 +86,14 @@ class Section:
     def goal(
         self, what: str, value: float, limit: float, form: str, *, least: bool = False
     ) -> None:
-        """Note whether a goal is reached: at most `limit`, or at least that."""
+        """Note if a goal is reached: at most `limit`, or at least `limit`."""
         reached = value >= limit if least else value <= limit
         bound = f"at {'least' if least else 'most'} {form.format(limit)}"
         verdict = "reached" if reached else "**missed**"
         self.notes.append(f"{what}: {form.format(value)}; goal {bound}, {verdict}")
 
     def markdown(self) -> str:
-        """The section as Markdown."""
+        """Return the section as Markdown."""
         lines = [self.intro, ""]
         if self.rows:
             lines += [_row(self.header), _row(["---"] + ["--:"] * (len(self.header) - 1))]

@@ -1,8 +1,9 @@
-"""Times one parser: python benchmarks/parse_once.py PARSER WARM_UP FILE...
+"""Time one parser.
 
-Prints the processor's seconds for all files, after the file to warm up with was parsed a
-few times. Each parser has a process of its own, without collection of garbage, which
-helps all of them.
+Usage: `python benchmarks/parse_once.py PARSER WARM_UP FILE...`
+
+Prints the CPU seconds for all files, after parsing the warm-up file a few times. Each parser runs
+in a separate process, without garbage collection, which helps all of them.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ PEERS = Path(__file__).resolve().parent / "peers"
 GRAMMAR = PEERS.parents[1] / "grammar"
 WARM_UPS = 5
 
-# Parses files, given with their texts, or raises an exception.
+# Parses files, given with their text, or raises an exception.
 Parser = Callable[[Sequence[Path], Sequence[str]], object]
 
 
@@ -48,7 +49,7 @@ def _textx() -> Parser:
 
 
 def lark() -> Any:
-    """Lark's LALR parser of the language."""
+    """Return Lark's LALR parser of the language."""
     from lark import Lark
 
     lexical = (GRAMMAR / "lexical.tx").read_text(encoding="utf-8")
@@ -114,7 +115,7 @@ def main() -> None:
     parsed = parse(files, texts)
     print(process_time() - start, flush=True)
     del parsed
-    os._exit(0)  # without taking apart what was made
+    os._exit(0)  # skip the destruction of the results
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Measures the parser, against parsers of the same language and of languages of that size."""
+"""Measure the parser and comparable parsers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import workspace
 from measure import Section, interleaved, process, spread
 
 SIZES = {1_000: 7, 10_000: 5, 100_000: 3}
-"""Lines of a file, and how often it is parsed."""
+"""Number of rounds by number of lines of a file."""
 LARGEST = max(SIZES)
 
 ONCE = str(Path(__file__).with_name("parse_once.py"))
@@ -21,7 +21,7 @@ ONCE = str(Path(__file__).with_name("parse_once.py"))
 
 @dataclass(frozen=True)
 class Contender:
-    """A parser, as a program that prints seconds; `peer` is what must be installed for it."""
+    """Parser as a program that prints seconds; `peer` is the package that it needs."""
 
     name: str
     suffix: str

@@ -1,7 +1,9 @@
-"""Times what an editor waits for: python benchmarks/recheck.py FOLDER FILE.
+"""Time checks after edits.
 
-Prints the processor's seconds from a key to all that is wrong then, as JSON: `again` for keys in
-one of many files, `keys` for those in one large file.
+Usage: `python benchmarks/recheck.py FOLDER FILE`
+
+Prints the CPU seconds from a key to its diagnostics as JSON: `again` for keys in one of many files,
+`keys` for keys in one large file.
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ WORD = "Moved"
 
 
 def keystrokes(text: str) -> list[str]:
-    """The text after each key of a word that is typed, and taken away again, in many places."""
+    """Return the text after each key, as a word is typed and deleted in many places."""
     dice = Random(SEED)
     found = []
     while len(found) < KEYS:
@@ -33,7 +35,7 @@ def keystrokes(text: str) -> list[str]:
 
 
 def times(paths: Sequence[Path], file: Path) -> list[float]:
-    """How long it takes after each key in a file of a model."""
+    """Return the seconds of the check after each key in a file of a model."""
     workspace = Workspace(paths)
     if workspace.report.has_errors:
         sys.exit("\n".join(found.message for found in workspace.report))
@@ -45,7 +47,7 @@ def times(paths: Sequence[Path], file: Path) -> list[float]:
         workspace.update({file: text})
         list(workspace.report)
         found.append(process_time() - start)
-        gc.collect()  # between two keys there is time for it
+        gc.collect()  # runs between two keys
     gc.unfreeze()
     return found
 

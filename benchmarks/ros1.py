@@ -1,4 +1,4 @@
-"""Measures how soon a generated node of ROS 1 does what follows from a message."""
+"""Measure the reaction time of a generated ROS 1 node."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TESTS = ROOT / "tests" / "ros1"
 ROUNDS = 30
 MOST = 50.0
-"""Milliseconds; a node that polls for what has happened takes longer."""
+"""Goal in milliseconds; a polling node takes longer."""
 
 MODEL = """
 package lab
@@ -33,7 +33,7 @@ endless statemachine Work {
 
 
 def section(folder: Path) -> Section:
-    """Tell nodes to go and to stop, and look when they do."""
+    """Send nodes go and stop messages, and measure their reactions."""
     found = Section(
         "A node on rospy that answers a message with another one and calls an action, which the "
         f"next message cancels; milliseconds of {ROUNDS} rounds (minimum / median / maximum), "
@@ -81,7 +81,7 @@ def section(folder: Path) -> Section:
 
 
 def _times(work: Any, wait: Callable[[], None]) -> tuple[list[float], list[float]]:
-    """How long each of both takes, in milliseconds; `wait` returns when the node waits for both."""
+    """Return the milliseconds of both reactions; `wait` returns when the node waits for both."""
     for number in range(1, ROUNDS + 1):
         wait()
         work.publish("Go")

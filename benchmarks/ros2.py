@@ -1,4 +1,4 @@
-"""Measures generated nodes of ROS 2 beside one that is written by hand and does the same."""
+"""Measure generated ROS 2 nodes and an equivalent handwritten one."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ROUNDS = 5
 BATCHES = 5
 PINGS = 300
 IDLE = 4.0
-"""For how many seconds a node does nothing."""
+"""Seconds without messages to measure an idle node."""
 MANY = 20
 STATES = 1000
 _SWARMC = str(Path(sys.executable).with_name("swarmc"))
@@ -48,7 +48,7 @@ GENERATED = "generated"
 
 
 def section(folder: Path) -> Section:
-    """Start nodes, let them answer, leave them alone, and look at what they take."""
+    """Start nodes, let them answer, leave them idle, and measure their cost."""
     found = Section(
         "A node that answers a message with another one, on rclpy; "
         f"{ROUNDS} rounds (minimum / median / maximum). Messages are sent one after the other, "
@@ -115,7 +115,7 @@ def _nodes(folder: Path, found: Section) -> None:
             ]
             found.rows.append([name, *cells])
         for index, (what, _, _, limit) in enumerate(_COLUMNS):
-            # What else the machine does only adds to the least.
+            # Other load on the machine only adds to the minimum.
             least = {name: min(value[index] for value in rounds) for name, rounds in taken.items()}
             value = least[GENERATED] / least[TELLING]
             beside = f"relative to the node {TELLING}"
@@ -132,11 +132,11 @@ _COLUMNS = (
     ("CPU time of an idle node", "{:.1f}", 1e3, 1.5),
     ("memory", "{:.1f}", 1e-6, 1.2),
 )
-"""What is measured of a node, how it is written, and how much more a generated one may take."""
+"""Measured quantity, its format, and the goal: factor over the handwritten node."""
 
 
 def _one(ros: Any, command: list[str]) -> Any:
-    """What one node takes, in the order of _COLUMNS; seconds and bytes."""
+    """Return the cost of one node in the order of _COLUMNS, in seconds and bytes."""
     with _driver(ros) as ask:
         node = ros.start(*command, "-r", "__ns:=/one", **_QUIET)
         ask(connect=["/one"])
@@ -152,14 +152,14 @@ def _one(ros: Any, command: list[str]) -> Any:
 
 
 def _batch(process_id: int, ask: Any) -> tuple[float, float]:
-    """Seconds until a message is answered, and those of the processor for it."""
+    """Return wall-clock and CPU seconds for a message and its answer."""
     before = _processor(process_id)
     answers = ask(rounds=PINGS)
     return median(answers), (_processor(process_id) - before) / PINGS
 
 
 def _many(ros: Any, commands: dict[str, list[str]], found: Section) -> None:
-    """Twenty of each kind at once."""
+    """Measure twenty nodes of each kind at once."""
     spaces = [f"/many_{number}" for number in range(MANY)]
     for name in (TELLING, GENERATED):
         with _driver(ros) as ask:
@@ -185,7 +185,7 @@ _QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 @contextmanager
 def _driver(ros: Any) -> Iterator[Any]:
-    """The process that sends messages; what is returned lets it do something."""
+    """Start the driver process; yield a function that sends it commands."""
     driver = ros.start(
         peers.FOLDER / "ros2_driver.py", stdin=subprocess.PIPE, stdout=subprocess.PIPE
     )
@@ -197,7 +197,7 @@ def _driver(ros: Any) -> Iterator[Any]:
         assert isinstance(answer, list)
         return answer
 
-    # It takes part before a node is started.
+    # The driver joins the graph before a node is started.
     ask(connect=[])
     try:
         yield ask
@@ -211,19 +211,19 @@ def _end(node: subprocess.Popen[str]) -> None:
     try:
         node.wait(10)
     except subprocess.TimeoutExpired:
-        # rclpy.spin does not hear of every signal that comes while it goes to sleep.
+        # rclpy.spin misses signals that arrive while it goes to sleep.
         node.kill()
         node.wait()
 
 
 def _processor(process_id: int) -> float:
-    """Seconds of the processor that the threads of a process have taken (schedstat of Linux)."""
+    """Return the CPU seconds of all threads of a process (schedstat of Linux)."""
     threads = Path("/proc", str(process_id), "task").glob("*/schedstat")
     return sum(int(each.read_text(encoding="ascii").split()[0]) for each in threads) / 1e9
 
 
 def _memory(process_id: int) -> int:
-    """Bytes of a process, its part of those that it shares with others (proc(5), Pss)."""
+    """Return the proportional memory of a process in bytes (proc(5), Pss)."""
     for line in Path("/proc", str(process_id), "smaps_rollup").read_text().splitlines():
         if line.startswith("Pss:"):
             return int(line.split()[1]) * 1024

@@ -1,8 +1,8 @@
-"""Writes a large model: packages of about 300 lines that import each other, without mistakes.
+"""Generate a large valid model: packages of about 300 lines that import each other.
 
-    python benchmarks/workspace.py FOLDER [FILES]
+Usage: `python benchmarks/workspace.py FOLDER [FILES]`
 
-The same numbers give the same bytes. What is in a file is what people write: interfaces,
+The same arguments give the same bytes. Each file resembles handwritten models: interfaces,
 constants, components, members, machines of several shapes, and a swarm of all of them.
 """
 
@@ -16,9 +16,9 @@ from random import Random
 FILES = 334
 LINES = 300
 SEED = 7
-# Writes a machine with a name, for a package of a number, that uses what another one declares.
+# Returns a machine with a name, for package `number`, that uses declarations of package `used`.
 Shape = Callable[[str, int, int], str]
-# How many earlier packages one imports at most.
+# Maximum number of imported packages.
 _IMPORTS = 3
 
 _SHARED = """\
@@ -65,7 +65,7 @@ const PATIENCE   : duration = 30 s
 
 
 def write(folder: Path, files: int = FILES, lines: int = LINES) -> int:
-    """Write a model of that many files, all but one of that many lines; return its lines."""
+    """Write a model of `files` files, all but one of `lines` lines; return the number of lines."""
     random = Random(SEED)
     folder.mkdir(parents=True, exist_ok=True)
     texts = {"interfaces": _SHARED}
@@ -77,9 +77,9 @@ def write(folder: Path, files: int = FILES, lines: int = LINES) -> int:
 
 
 def write_file(file: Path, lines: int, *, plain: bool = False) -> int:
-    """Write a model of about that many lines in one file and what it imports; return its lines.
+    """Write a model of about `lines` lines in one file and its imports; return its lines.
 
-    A `plain` one has nothing that some target cannot express.
+    A `plain` model has only constructs that every target supports.
     """
     shapes = (_plain,) if plain else _SHAPES
     text = _package(0, lines, Random(SEED), shapes)
@@ -90,7 +90,7 @@ def write_file(file: Path, lines: int, *, plain: bool = False) -> int:
 
 
 def _package(number: int, lines: int, random: Random, shapes: Sequence[Shape]) -> str:
-    """A package with as many machines as there are lines for, and messages in the rest."""
+    """Return a package with as many machines as fit, filled up with messages."""
     earlier = sorted(random.sample(range(number), min(number, random.randrange(_IMPORTS + 1))))
     used = random.choice(earlier) if earlier else number
     parts = [_head(number, earlier)]
@@ -175,7 +175,7 @@ actuator Drive{number} {{
 
 
 def _plain(name: str, number: int, used: int) -> str:
-    """A machine without levels."""
+    """Return a flat machine."""
     return f"""\
 /// Search, and go back to what was found.
 statemachine {name} {{
@@ -207,7 +207,7 @@ statemachine {name} {{
 
 
 def _nested(name: str, number: int, used: int) -> str:
-    """A machine with states in states, choices and a history."""
+    """Return a machine with nested states, choices and a history."""
     return f"""\
 /// Work until the battery is low, and go on where it was left.
 statemachine {name} {{
@@ -272,7 +272,7 @@ statemachine {name} {{
 
 
 def _parallel(name: str, number: int, used: int) -> str:
-    """A machine with regions, in one of which another machine is used."""
+    """Return a machine with parallel regions, one of which runs another machine."""
     return f"""\
 statemachine Fetch{name} {{
   param goal  : geometry_msgs/PoseStamped
@@ -337,7 +337,7 @@ _SHAPES = (_plain, _nested, _parallel)
 
 
 def _member(name: str, number: int, used: int) -> str:
-    """A member that runs a machine."""
+    """Return a member that runs a machine."""
     return f"""\
 member Robot{name} {{
   behavior {name}
@@ -353,7 +353,7 @@ member Robot{name} {{
 
 
 def _swarm(number: int, machines: list[str]) -> str:
-    """A swarm of all members, with one more that directs them."""
+    """Return a swarm of all members, and one more that directs them."""
     roles = "".join(
         f"  robot_{count} : Robot{machine}[1..{count + 2}]\n"
         for count, machine in enumerate(machines)
@@ -411,7 +411,7 @@ optimize Site{number} {{
 
 
 def _record(name: str) -> str:
-    """A message of a few fields."""
+    """Return a message with a few fields."""
     return f"""
 message Record{name} {{
   at     : time

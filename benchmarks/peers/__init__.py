@@ -1,4 +1,4 @@
-"""What swarmdsl is measured against: whether it is there, and which version."""
+"""Availability and versions of the tools that swarmdsl is compared with."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ _NPM = {"langium", "@typespec/compiler", "@scion-scxml/scxml"}
 
 
 class Measured(Protocol):
-    """Something to be measured, with the package that it needs."""
+    """Measurable tool, with the package that it needs."""
 
     @property
     def name(self) -> str:
-        """What it is called in tables."""
+        """Name in tables."""
 
     @property
     def peer(self) -> str | None:
-        """The name of a package of Python or npm; None where nothing is needed."""
+        """Name of a Python or npm package; None if none is needed."""
 
 
 M = TypeVar("M", bound=Measured)
 
 
 def divide(contenders: Iterable[M]) -> tuple[list[M], list[str]]:
-    """Those that can be measured here, and a sentence for each of the others."""
+    """Return the installed contenders, and a sentence for each missing one."""
     present, absent = [], []
     for each in contenders:
         if each.peer is None or version(each.peer) is not None:
@@ -48,7 +48,7 @@ def divide(contenders: Iterable[M]) -> tuple[list[M], list[str]]:
 
 @cache
 def version(peer: str) -> str | None:
-    """The version of a package; None where it is not installed."""
+    """Return the version of a package, or None if it is not installed."""
     if peer in _NPM:
         package = MODULES / peer / "package.json"
         if shutil.which("node") is None or not package.is_file():
@@ -63,7 +63,7 @@ def version(peer: str) -> str | None:
 
 
 def title(name: str, peer: str | None) -> str:
-    """A name with its version, which is that of a package where this is called otherwise."""
+    """Return a name with its version, and with the package if that has another name."""
     if peer is not None:
         alike = name.casefold() == peer.casefold()
         return f"{name} {version(peer)}" if alike else f"{name} ({peer} {version(peer)})"
@@ -71,7 +71,7 @@ def title(name: str, peer: str | None) -> str:
 
 
 def surroundings() -> str:
-    """The machine and the interpreters, in a sentence."""
+    """Describe the machine and the interpreters in a sentence."""
     node = shutil.which("node")
     words = [f"Python {platform.python_version()}"]
     if node is not None:

@@ -1,10 +1,10 @@
-// Times Langium's parser: node langium.mjs GRAMMAR WARM_UP FILE...
-// Prints the processor's seconds for all files; the file to warm up with is parsed first.
+// Time Langium's parser: node langium.mjs GRAMMAR WARM_UP FILE... Prints the CPU seconds for all
+// files; the warm-up file is parsed first.
 import { readFileSync } from "node:fs";
 import { EmptyFileSystem } from "langium";
 import { createServicesForGrammar } from "langium/grammar";
 
-// Chevrotain asks it of Node 21 or later when a parser is made; parsing itself does not.
+// Chevrotain needs this function of Node 21 to create a parser, not to parse.
 Object.groupBy ??= (items, keyOf) => {
   const groups = {};
   for (const item of items) (groups[keyOf(item)] ??= []).push(item);

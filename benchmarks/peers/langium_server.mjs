@@ -1,12 +1,12 @@
-// A language server by Langium for the language: node langium_server.mjs GRAMMAR --stdio
-// It has what Langium brings for every language; names are not linked by the grammar.
+// Langium language server for the language: node langium_server.mjs GRAMMAR --stdio. It has the
+// generic features of Langium; the grammar links no names.
 import { readFileSync } from "node:fs";
 import { createServicesForGrammar } from "langium/grammar";
 import { startLanguageServer } from "langium/lsp";
 import { NodeFileSystem } from "langium/node";
 import { createConnection, ProposedFeatures } from "vscode-languageserver/node";
 
-// Chevrotain asks it of Node 21 or later when a parser is made; parsing itself does not.
+// Chevrotain needs this function of Node 21 to create a parser, not to parse.
 Object.groupBy ??= (items, keyOf) => {
   const groups = {};
   for (const item of items) (groups[keyOf(item)] ??= []).push(item);

@@ -1,6 +1,6 @@
-"""A node as people write it by hand, which does what the one of `benchmarks/ros1.py` does.
+"""Handwritten node with the behaviour of the model in `benchmarks/ros1.py`.
 
-It runs with the Python that has ROS 1.
+It runs with the Python of ROS 1.
 """
 
 import actionlib
@@ -10,7 +10,7 @@ from std_msgs.msg import Empty
 
 
 class Work:
-    """Says so and moves when it is told to go, and stops when it is told again."""
+    """Reports its state, moves on the first message and stops on the second one."""
 
     def __init__(self):
         self.moves = False
@@ -20,7 +20,7 @@ class Work:
         rospy.Subscriber("go", Empty, self.hear)
 
     def hear(self, message):
-        """Go on."""
+        """Handle a message."""
         self.moves = not self.moves
         if self.moves:
             self.said.publish(Empty())

@@ -1,8 +1,8 @@
-"""Sends pings to nodes and takes the time until they answer; lines of JSON say what to do.
+"""Send pings to nodes and measure the time of their answers.
 
-It runs in the environment with ROS 2: `{"connect": ["/a"]}` waits until the nodes in these
-namespaces have answered once, `{"rounds": 1000}` sends so many pings to all of them, each when the
-last one is answered. Each is answered with a line: the seconds it took, of each round.
+Runs in the environment of ROS 2. Reads JSON lines: `{"connect": ["/a"]}` waits until the nodes in
+these namespaces have answered once; `{"rounds": 1000}` sends this number of pings to all nodes,
+each after the last one is answered. Each line is answered with a line: the seconds of each round.
 """
 
 import json
@@ -14,11 +14,11 @@ from rclpy.node import Node
 from std_msgs.msg import Empty
 
 PATIENCE = 240
-"""How long an answer may take, in seconds."""
+"""Timeout of an answer in seconds."""
 
 
 class Driver(Node):
-    """Has a ping and a pong for each node."""
+    """Node with a ping publisher and a pong subscription for each measured node."""
 
     def __init__(self):
         super().__init__("driver")
@@ -26,7 +26,7 @@ class Driver(Node):
         self.answers = 0
 
     def connect(self, spaces):
-        """Send pings until all of them have answered one, and let no answer be on its way then."""
+        """Ping all nodes until each has answered, then wait until no answer is on its way."""
         missing = set(spaces)
 
         def hear(space):
@@ -49,7 +49,7 @@ class Driver(Node):
         return taken
 
     def round(self):
-        """Send a ping to all, and wait for all answers."""
+        """Ping all nodes and wait for all answers."""
         wanted = self.answers = 0
         start = time.perf_counter()
         for ping in self.pings:
@@ -62,14 +62,14 @@ class Driver(Node):
         return time.perf_counter() - start
 
     def spin(self, seconds):
-        """Take what comes for a while."""
+        """Process callbacks for some seconds."""
         end = time.perf_counter() + seconds
         while (left := end - time.perf_counter()) > 0:
             rclpy.spin_once(self, timeout_sec=left)
 
 
 def main():
-    """Do what the lines of standard input say."""
+    """Execute the commands on standard input."""
     rclpy.init()
     driver = Driver()
     for line in sys.stdin:

@@ -1,7 +1,7 @@
-"""A node as people write it by hand, which does what the one of `benchmarks/ros2.py` does.
+"""Handwritten node with the behaviour of the model in `benchmarks/ros2.py`.
 
-It runs in the environment with ROS 2. With the parameter `tells` it also says where it is, on the
-same topics and in the log, and that it is well, as the generated one always does.
+Runs in the environment of ROS 2. With the parameter `tells`, it also publishes its state, on the
+same topics and in the log, and its diagnostics, as the generated node always does.
 """
 
 import json
@@ -16,7 +16,7 @@ from std_msgs.msg import Empty, String
 
 
 class Echo(Node):
-    """Goes from A to B and back with each ping, and answers it."""
+    """Toggles between A and B with each ping, and answers it."""
 
     def __init__(self):
         super().__init__("echo")
@@ -34,7 +34,7 @@ class Echo(Node):
         self.create_subscription(Empty, "ping", self.hear, 10)
 
     def hear(self, message):
-        """Answer, and go on."""
+        """Answer and toggle."""
         before, self.place = self.place, "B" if self.place == "A" else "A"
         self.pong.publish(Empty())
         if self.tells:
@@ -51,7 +51,7 @@ class Echo(Node):
             self.get_logger().info(f"Ping -> {self.place}")
 
     def tell_health(self):
-        """Say that all is well, as diagnostic_updater does."""
+        """Publish the status OK, like diagnostic_updater."""
         status = DiagnosticStatus(name="echo", message=self.place, level=DiagnosticStatus.OK)
         status.values = [KeyValue(key="state", value=self.place)]
         array = DiagnosticArray(status=[status])
@@ -60,7 +60,7 @@ class Echo(Node):
 
 
 def main():
-    """Run the node until somebody stops it."""
+    """Run the node until it is interrupted."""
     rclpy.init()
     node = Echo()
     try:

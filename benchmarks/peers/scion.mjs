@@ -1,5 +1,5 @@
-// Times SCION: node scion.mjs FILE, a JSON list of [document, names of events, how many].
-// Prints a JSON list of events a second, each sent and the active states looked at.
+// Time SCION: node scion.mjs FILE, a JSON list of [document, event names, number of events]. Prints
+// a JSON list of events per second; active states are read after each event.
 import { readFileSync } from "node:fs";
 import scion from "@scion-scxml/scxml";
 

@@ -1,5 +1,5 @@
-// Times TypeSpec: node typespec.mjs WARM_UP FILE
-// Prints the processor's seconds to compile a file without output, its checks included.
+// Time TypeSpec: node typespec.mjs WARM_UP FILE. Prints the CPU seconds to compile and check a file
+// without output.
 import { compile, NodeHost } from "@typespec/compiler";
 
 async function run(file) {
