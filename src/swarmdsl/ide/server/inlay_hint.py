@@ -56,15 +56,15 @@ def _declaration_hints(owner: TopLevel) -> Iterator[InlayHint]:
         port = connector.source.port.target or connector.target.port.target
         if port is not None:
             text = port.type.span.text
-            yield InlayHint(connector.span.end, f" : {text}", "the type of the ports", "type")
+            yield InlayHint(connector.span.end, f" : {text}", "type of the ports", "type")
     for role in nodes_of(owner, Role):
         if role.multiplicity is None:
-            yield InlayHint(role.span.end, "[1]", "one member, where nothing is said")
+            yield InlayHint(role.span.end, "[1]", "default multiplicity: one member")
     if isinstance(owner, EnumType):
         known = numbers(owner)
         for value in owner.values:
             if not value.value and str(value.name) in known:
-                yield InlayHint(value.span.end, f" = {known[str(value.name)]}", "its number")
+                yield InlayHint(value.span.end, f" = {known[str(value.name)]}", "implicit value")
 
 
 def _policies(activity: Activity) -> Iterator[InlayHint]:

@@ -98,7 +98,7 @@ class SerialProtocol(LanguageServerProtocol):
         self._received.put(None)
 
     def _report_parse_error(self, error: Exception, _source: object) -> None:
-        self._received.put(InvalidMessage(JsonRpcParseError(f"this is not JSON: {error}")))
+        self._received.put(InvalidMessage(JsonRpcParseError(f"invalid JSON: {error}")))
 
     def structure_message(self, data: dict[str, Any]) -> Any:
         """Return the message, or an InvalidMessage if it has the wrong form."""
@@ -115,7 +115,7 @@ class SerialProtocol(LanguageServerProtocol):
         elif isinstance(message, InvalidMessage) or hasattr(message, "jsonrpc"):
             self._received.put(message)
         else:
-            self._received.put(InvalidMessage(JsonRpcInvalidRequest("this is no message")))
+            self._received.put(InvalidMessage(JsonRpcInvalidRequest("not a message of JSON-RPC")))
 
     def receive(self, timeout: float) -> Any:
         """Return the next message, None at the end of input.
@@ -149,10 +149,10 @@ class SerialProtocol(LanguageServerProtocol):
         if method == lsp.EXIT:
             return None
         if method == lsp.INITIALIZE:
-            again = JsonRpcInvalidRequest("the server is initialized already")
+            again = JsonRpcInvalidRequest("the server is already initialized")
             return again if self._initialized else None
         if not self._initialized or self._shutdown:
-            return JsonRpcServerNotInitialized("the server is not initialized, or shut down")
+            return JsonRpcServerNotInitialized("the server is not initialized or was shut down")
         cancelled = isinstance(identity, (int, str)) and identity in self._cancelled
         return JsonRpcRequestCancelled("cancelled") if cancelled else None
 

@@ -54,5 +54,5 @@ def snippets(
         lines = [f"on {each} -> ${{{index}:Target}}" for index, each in enumerate(left, 1)]
         if lines:
             yield Snippet(
-                "on the outcomes", "\n".join(lines), "transitions on all ends that are left"
+                "on the outcomes", "\n".join(lines), "transitions on all unhandled outcomes"
             )

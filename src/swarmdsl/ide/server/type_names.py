@@ -49,7 +49,7 @@ def type_names(expected: TypeRef, owner: TopLevel, scope: FileScope) -> Iterator
             yield name, "", node
     for each in [package] if slash else standard.packages():
         for name in standard.names(each, kind):
-            yield name if slash else f"{each}/{name}", f"{_KINDS[kind]} of ROS", None
+            yield name if slash else f"{each}/{name}", f"ROS {_KINDS[kind]}", None
 
 
 def _expected(expected: TypeRef, owner: TopLevel) -> tuple[Kind, tuple[type[Node], ...]]:

@@ -16,7 +16,7 @@ def _pictures(session: Session, params: Any) -> dict[str, Any] | None:
     """Return the diagrams of a model; draw diagram `id` with the nodes in `folded` folded."""
     uri = getattr(getattr(params, "textDocument", None), "uri", None)
     if not isinstance(uri, str):
-        raise JsonRpcInvalidParams("the document is missing")
+        raise JsonRpcInvalidParams("`textDocument` is missing")
     found = session.file(lsp.TextDocumentIdentifier(uri=uri))
     if found is None:
         return None
