@@ -1,4 +1,4 @@
-"""Guards by value: what certainly follows from them, and what does not."""
+"""Satisfiability of guards: certain and uncertain results."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_guards_that_may_hold(guard: str, codes: Callable[[list[str]], list[str]
         ['name == "a" or name == "b"', 'name == "b"'],
     ],
 )
-def test_guards_behind_others_that_cover_them(
+def test_guards_after_others_that_cover_them(
     guards: list[str], codes: Callable[[list[str]], list[str]]
 ) -> None:
     assert codes(guards) == ["SW0504"]
@@ -128,7 +128,7 @@ def test_guards_behind_others_that_cover_them(
         ["1 / n > 1", "not (1 / n > 1)", "n > 5"],
     ],
 )
-def test_guards_behind_others_that_leave_something(
+def test_guards_after_others_that_leave_values(
     guards: list[str], codes: Callable[[list[str]], list[str]]
 ) -> None:
     assert codes(guards) == []

@@ -1,4 +1,4 @@
-"""Types of expressions, and what fits where."""
+"""Types of expressions and their compatibility."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ POSE = Named("geometry_msgs", "Pose")
 
 @pytest.fixture
 def typed(linked: Callable[..., Project]) -> Typed:
-    """An expression in a machine with variables of all sorts, and what types it."""
+    """Return a function that types an expression in a machine with variables of all types."""
 
     def expression(text: str) -> tuple[ExpressionTree, Typing]:
         project = linked(f"""
@@ -67,7 +67,7 @@ def infer(typed: Typed, text: str) -> tuple[Type | None, list[str]]:
         *(("len(s)", INT), ("len(a)", INT), ("min(1 s, d)", DURATION)),
         *(("m.level", Primitive("float32")), ("m.pose", POSE), ("m.path", Array(FLOAT, 3))),
         *(("event.level", Primitive("float32")), ("event", Named("main", "Status"))),
-        # Nothing is known of messages that the model does not describe.
+        # Fields of messages that the model does not describe are unknown.
         *(("e.position", None), ("e.position.x + 1", None), ("e.x < 3", BOOL)),
     ],
 )
@@ -120,7 +120,7 @@ def test_mistakes_are_reported_once(typed: Typed, text: str, names: list[str]) -
 
 
 @pytest.mark.parametrize(
-    ("found", "wanted", "fine"),
+    ("found", "expected", "fine"),
     [
         (INT, FLOAT, True),
         (FLOAT, INT, False),
@@ -145,8 +145,8 @@ def test_mistakes_are_reported_once(typed: Typed, text: str, names: list[str]) -
         (POSE, Named("geometry_msgs", "Point"), False),
     ],
 )
-def test_what_fits(found: Type | None, wanted: Type | None, fine: bool) -> None:
-    assert fits(found, wanted) is fine
+def test_fits(found: Type | None, expected: Type | None, fine: bool) -> None:
+    assert fits(found, expected) is fine
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Reads of variables without a first value: which ways lead there, and which do not."""
+"""Reads of variables without an initial value: paths with and without a write."""
 
 from __future__ import annotations
 
@@ -218,10 +218,10 @@ UNWRITTEN = {
 
 
 @pytest.mark.parametrize("way", WRITTEN)
-def test_what_is_written_before(way: str, tmp_path: Path) -> None:
+def test_written_before(way: str, tmp_path: Path) -> None:
     assert codes(WRITTEN[way], tmp_path) == []
 
 
 @pytest.mark.parametrize("way", UNWRITTEN)
-def test_what_is_read_unwritten(way: str, tmp_path: Path) -> None:
+def test_read_unwritten(way: str, tmp_path: Path) -> None:
     assert codes(UNWRITTEN[way], tmp_path) == ["SW0525"]

@@ -83,7 +83,7 @@ def guard_of(result: pipeline.Result) -> str:
         ("air.x == air.x + K", "air.x == air.x + K"),
     ],
 )
-def test_what_names_mean(checked: Checked, guard: str, meant: str) -> None:
+def test_resolved_names(checked: Checked, guard: str, meant: str) -> None:
     own = "var air : air.Pose  param K : int32 = 1" if "air.x" in guard else ""
     values = f"var n : int32  var a : sar.modes.Mode  var b : Chain = Chain.NO  var l : Level {own}"
 
@@ -130,7 +130,7 @@ def test_mistakes(checked: Checked, guard: str, message: str, help_: str | None)
     assert [(found.message, found.help) for found in errors] == [(message, help_)]
 
 
-def test_nothing_is_said_of_names_of_an_import_that_is_missing(checked: Checked) -> None:
+def test_names_of_a_missing_import_are_not_reported(checked: Checked) -> None:
     result = checked(f'import "gone.swarm"\n{machine(guard="GONE == gone.MORE")}')
 
     assert [found.name for found in result.report] == ["file-not-found"]

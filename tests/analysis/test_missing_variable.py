@@ -28,7 +28,7 @@ def helps(path: Path) -> list[str | None]:
     return [each.help for each in pipeline.check([path]).report if each.name == "unresolved-name"]
 
 
-def said(folder: Path, line: str = "", value: str = "", package: str = "p") -> list[str | None]:
+def hints(folder: Path, line: str = "", value: str = "", package: str = "p") -> list[str | None]:
     path = folder / "model.swarm"
     path.write_text(MODEL.format(line=line, value=value, package=package, imports=""))
     return helps(path)
@@ -51,8 +51,8 @@ def line(name: str, type_: str) -> str:
         ("on Go [m == xx] -> F", "Mode"),
     ],
 )
-def test_the_type_is_said_where_it_is_certain(tmp_path, text, type_):
-    assert said(tmp_path, text) == [line("xx", type_)]
+def test_a_certain_type_is_in_the_hint(tmp_path, text, type_):
+    assert hints(tmp_path, text) == [line("xx", type_)]
 
 
 @pytest.mark.parametrize(
@@ -71,22 +71,22 @@ def test_the_type_is_said_where_it_is_certain(tmp_path, text, type_):
     ],
 )
 def test_no_type_is_guessed_in_arithmetic(tmp_path, text):
-    assert said(tmp_path, text) == ["declare it in `M` with its type: `var xx : ...`"]
+    assert hints(tmp_path, text) == ["declare it in `M` with its type: `var xx : ...`"]
 
 
 def test_the_order_of_names_does_not_matter(tmp_path):
-    found = said(tmp_path, "on Go [yy == m and m == xx] -> F")
+    found = hints(tmp_path, "on Go [yy == m and m == xx] -> F")
     assert found == [line("yy", "Mode"), line("xx", "Mode")]
 
 
 @pytest.mark.parametrize("package", ["a1", "my.model"])
 def test_a_type_is_written_as_the_file_sees_it(tmp_path, package):
-    assert said(tmp_path, "on Go [xx == m] -> F", package=package) == [line("xx", "Mode")]
+    assert hints(tmp_path, "on Go [xx == m] -> F", package=package) == [line("xx", "Mode")]
 
 
 @pytest.mark.parametrize("kind", ["var", "param"])
 def test_where_only_a_constant_can_stand(tmp_path, kind):
-    found = said(tmp_path, "on Go -> F", f"{kind} e : uint8 = start")
+    found = hints(tmp_path, "on Go -> F", f"{kind} e : uint8 = start")
     assert found == ["declare it above `M`: `const start : uint8 = ...`"]
 
 

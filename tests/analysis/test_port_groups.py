@@ -13,7 +13,7 @@ def _pin(text: str) -> PortKey:
 
 
 def _topics(ports: str, connectors: str) -> dict[str, str]:
-    """The topics of connected ports: `a.out` sends, all others hear; `=` gives a topic."""
+    """Return the topics of connected ports: `a.out` sends, others receive; `=` gives a topic."""
     known = {}
     for text in ports.split():
         name, _, topic = text.partition("=")
@@ -29,50 +29,50 @@ def _topics(ports: str, connectors: str) -> dict[str, str]:
     ("ports", "connectors", "topics"),
     [
         ("a.out b.in", "a.out->b.in", {"a.out": "out", "b.in": "out"}),
-        # What is connected to one sender is on one topic.
+        # Ports connected to one sender are on one topic.
         (
             "a.out b.in c.in",
             "a.out->b.in a.out->c.in",
             {"a.out": "out", "b.in": "out", "c.in": "out"},
         ),
-        # A topic that is given goes before a name, that of the sender first.
+        # A given topic wins over a name, preferably that of the sender.
         ("a.out b.in=x", "a.out->b.in", {"a.out": "x", "b.in": "x"}),
         ("b.in=x a.out=y", "a.out->b.in", {"a.out": "y", "b.in": "y"}),
-        # That of the member goes before both, wherever it is connected.
+        # The topic of the member wins over both, wherever it is connected.
         ("in a.in=x b.in", "in->a.in in->b.in", {"in": "in", "a.in": "in", "b.in": "in"}),
         (
             "out=z a.out=x b.in=y",
             "a.out->b.in a.out->out",
             dict.fromkeys(("out", "a.out", "b.in"), "z"),
         ),
-        # Senders of one name are told apart by their parts.
+        # Senders with the same name are distinguished by their parts.
         (
             "a.out b.out c.in c.other",
             "a.out->c.in b.out->c.other",
             {"a.out": "a/out", "c.in": "a/out", "b.out": "b/out", "c.other": "b/out"},
         ),
-        # Also from one that is not connected, and that keeps its topic.
+        # Also from an unconnected port, which keeps its topic.
         ("a.out b.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
         ("out a.out c.in", "a.out->c.in", {"a.out": "a/out", "c.in": "a/out"}),
-        # What this makes is no topic of others, neither.
+        # The new topic is not one of other ports either.
         (
             "a.out b.out=a/out c.in d.out",
             "a.out->c.in",
             {"a.out": "a/out_2", "c.in": "a/out_2"},
         ),
-        # Topics that are given are not changed.
+        # Given topics are not changed.
         (
             "a.out=x b.out=x c.in c.other",
             "a.out->c.in b.out->c.other",
             dict.fromkeys(("a.out", "c.in", "b.out", "c.other"), "x"),
         ),
-        # Two nets that become one.
+        # Two groups that become one.
         (
             "a.out b.in c.out d.in",
             "a.out->b.in c.out->d.in c.out->b.in",
             dict.fromkeys(("a.out", "b.in", "c.out", "d.in"), "out"),
         ),
-        # What the model does not have, which is reported.
+        # Unknown ports, which are reported.
         ("a.out b.in", "a.out->x.in b.in->b.in", {"b.in": "in"}),
     ],
 )

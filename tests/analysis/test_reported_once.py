@@ -1,4 +1,4 @@
-"""One mistake is reported once, though several rules could see it."""
+"""One mistake is reported once, even if several checks could report it."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_names_that_are_types_are_declared_once(tmp_path: Path) -> None:
 
 
 def codes(text: str, folder: Path) -> list[str]:
-    """The codes of what is reported about a model."""
+    """Return the codes of the diagnostics of a model."""
     path = folder / "model.swarm"
     path.write_text(text, encoding="utf-8")
     return [found.code for found in pipeline.check([path]).report]

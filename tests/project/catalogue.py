@@ -17,7 +17,7 @@ PACKAGES = {
 
 
 def systems() -> Mapping[str, ir.System]:
-    """Each of the two libraries, compiled."""
+    """Compile both libraries."""
     found = {}
     for name in PACKAGES:
         system = pipeline.check([resources.library() / name]).system
@@ -27,7 +27,7 @@ def systems() -> Mapping[str, ir.System]:
 
 
 def page() -> str:
-    """The page: what somebody wrote above the first section, and what the library has."""
+    """Return the page: the manual introduction and the generated catalogue."""
     lines = [PLACE.read_text(encoding="utf-8").partition("\n## ")[0].rstrip(), ""]
     for name, system in systems().items():
         lines += [f"## {name}", "", f"{PACKAGES[name][:1].upper()}{PACKAGES[name][1:]}.", ""]
@@ -37,7 +37,7 @@ def page() -> str:
 
 
 def packages(name: str) -> list[str]:
-    """The packages of a library, in the order in which one meets them."""
+    """Return the packages of a library in the order of its files."""
     order = ("functions", "behaviours", "events", "members", "nodes", "hardware", "costs")
     folder = resources.library() / name
     found = {path.stem for path in folder.iterdir()}

@@ -22,7 +22,7 @@ statemachine Blinking {
 member Blinker { behavior Blinking }
 """
 
-# Like MODEL, with a state that nothing leads to.
+# MODEL with an unreachable state.
 ISLAND = MODEL.replace("  final Off", "  state Island { after 1 s -> Off }\n  final Off")
 
 
@@ -47,7 +47,7 @@ def swarmc(capsys) -> Callable[..., Ran]:
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch) -> Callable[[dict[str, str]], Path]:
-    """A folder with these files, which becomes the current one."""
+    """Return a function that creates files in a new working directory."""
 
     def make(files: dict[str, str]) -> Path:
         root = tmp_path / "project"

@@ -33,7 +33,7 @@ KIT = 'package kit\nfunction go : abstraction {{ service "{name}" : std_srvs/Emp
 
 @pytest.fixture
 def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
-    """Install a module with an entry point for libraries, the way pip leaves it behind."""
+    """Install a module with an entry point for libraries as pip does."""
     site = tmp_path / "site"
     site.mkdir()
     monkeypatch.syspath_prepend(site)
@@ -52,7 +52,7 @@ def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
 
 
 def test_the_search_order(project, install, tmp_path, monkeypatch) -> None:
-    """Each place is the first that has the package when those before it are gone."""
+    """Each place wins when the places before it are removed."""
     shipped = tmp_path / "shipped"
     installed = install("kits", "kits", {"kit.swarm": KIT.format(name="place5")})
     root = project(
@@ -146,7 +146,7 @@ def test_installed_libraries_are_not_looked_at_without_need(swarmc, project, ins
     assert swarmc("check").out == ""
 
 
-# ---- what is used of one
+# ---- used declarations of a library
 
 
 def compiled(text: str, folder: Path) -> ir.System:
@@ -157,7 +157,7 @@ def compiled(text: str, folder: Path) -> ir.System:
     return result.system
 
 
-def test_only_what_is_used_of_a_library_is_in_the_system(tmp_path) -> None:
+def test_only_used_declarations_of_a_library_are_in_the_system(tmp_path) -> None:
     call = 'task_allocation_auction(auctioneer = "", task_id = "t", task_pose = pose)'
     text = USER.format(package="cpswarm.functions", call=call)
     text = text.replace("initial S", "var pose : geometry_msgs/PoseStamped\n  initial S")
@@ -206,7 +206,7 @@ statemachine Sweep {
         assert name not in written
 
 
-def test_what_is_wrong_in_a_library_is_told_and_no_more(tmp_path) -> None:
+def test_only_errors_of_a_library_are_reported(tmp_path) -> None:
     (tmp_path / "kit").mkdir()
     wrong = "package kit.wrong\nstatemachine Idle { state wait final Done }\n"
     (tmp_path / "kit" / "wrong.swarm").write_text(wrong, encoding="utf-8")
@@ -218,7 +218,7 @@ def test_what_is_wrong_in_a_library_is_told_and_no_more(tmp_path) -> None:
 
     found = pipeline.check([tmp_path / "model.swarm"])
 
-    # Not that `wait` is no style of a state: that is the library's own affair.
+    # The style of the state `wait` is not reported: users cannot change the library.
     assert [(each.name, each.primary.span.line) for each in found.report] == [
         ("missing-initial", 2)
     ]

@@ -75,7 +75,7 @@ def test_folders_may_vanish_while_they_are_looked_through(
     scandir = os.scandir
 
     def scan(place: str) -> Iterator[os.DirEntry[str]]:
-        """A build removes its folder when it has been listed, but not looked into."""
+        """Remove a folder of a build after it was listed and before it is searched."""
         if Path(place).name in ("build", "tmp"):
             Path(place).rmdir()
         return scandir(place)
@@ -134,7 +134,7 @@ def test_a_wrong_import_does_not_hide_the_others(folder: Path) -> None:
     assert [found.name for found in report] == ["file-not-found", "file-not-found"]
 
 
-def test_what_is_missing_from_a_lost_file_is_not_reported(folder: Path) -> None:
+def test_names_of_an_unreadable_file_are_not_reported(folder: Path) -> None:
     from swarmdsl.driver import pipeline
 
     path = folder / "wrong.swarm"

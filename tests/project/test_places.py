@@ -53,7 +53,7 @@ def parsed(text: str) -> Document:
 
 
 def leaves(value: Any, keys: Keys = ()) -> Iterator[tuple[Keys, Any]]:
-    """Every value that has nothing in it, with its way."""
+    """Yield all leaf values with their keys."""
     children = (
         value.items()
         if isinstance(value, dict)
@@ -68,7 +68,7 @@ def leaves(value: Any, keys: Keys = ()) -> Iterator[tuple[Keys, Any]]:
 
 
 def holds(document: Document) -> None:
-    """The text at the place of each value reads as this value again."""
+    """Assert that the text at the position of each value parses to this value."""
     for keys, value in leaves(document.values):
         text = document.places[keys].value.text
         assert repr(tomli.loads(f"v = {text}")["v"]) == repr(value)
@@ -76,7 +76,7 @@ def holds(document: Document) -> None:
             assert list(tomli.loads(f"{document.places[keys].key.text} = 0")) == [keys[-1]]
 
 
-def test_every_value_stands_where_it_is_said_to_stand() -> None:
+def test_positions_of_all_values() -> None:
     document = parsed(DOCUMENT)
 
     assert len(list(leaves(document.values))) > 20
@@ -135,7 +135,7 @@ def test_places_of_any_document(values: dict[str, Any]) -> None:
         ("a = 1\n[a.b]\n", 2, 2, "a.b"),
     ],
 )
-def test_what_is_given_twice_is_named(text: str, line: int, column: int, key: str) -> None:
+def test_repeated_keys_are_reported(text: str, line: int, column: int, key: str) -> None:
     report = Diagnostics()
 
     assert parse_toml(Source("x.toml", text), report) is None
@@ -160,7 +160,7 @@ def test_what_is_given_twice_is_named(text: str, line: int, column: int, key: st
         (f"x = {'9' * 5000}", None, None),
     ],
 )
-def test_what_is_not_toml_is_reported(text: str, line: int | None, column: int | None) -> None:
+def test_invalid_toml_is_reported(text: str, line: int | None, column: int | None) -> None:
     report = Diagnostics()
 
     assert parse_toml(Source("x.toml", text), report) is None

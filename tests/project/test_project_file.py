@@ -23,7 +23,7 @@ statemachine Hop {
   final Done
 }
 """
-# Without the dialect that has no delays, about which there would be a warning.
+# Without the dialect that lacks delays, which would give a warning.
 PORTABLE = "[targets.scxml]\nprofile = 'portable'\n"
 
 
@@ -146,7 +146,7 @@ def test_a_project_file_that_is_no_text(swarmc, project, data) -> None:
 
 
 @pytest.mark.parametrize("toml", ["", "[project]\n[targets]\n[lint]\n[build]\n"])
-def test_a_project_file_may_say_nothing(swarmc, project, toml) -> None:
+def test_an_empty_project_file(swarmc, project, toml) -> None:
     project({"swarm.toml": toml, "models/lamps.swarm": MODEL})
 
     assert swarmc("check").err == "no errors in 1 file\n"
@@ -172,7 +172,7 @@ def test_sources_are_those_of_the_project_wherever_one_is(swarmc, project, monke
 
     monkeypatch.chdir(root / "old")
     assert swarmc("check", "--format", "concise").out == f"../models/{expected}"
-    # A file that is named is the only one.
+    # A named file is checked alone.
     assert "SW0101" in swarmc("check", "lamps.swarm", "--format", "concise").out
 
 
@@ -292,7 +292,7 @@ def test_targets_options_and_output_of_the_project(swarmc, project, monkeypatch)
     assert made(root / "made" / "here") == {"scxml", "adf"}
     portable = {path.name for path in (root / "made/here/scxml").iterdir()}
 
-    # What the command line says wins, what it leaves open is as the project says.
+    # The command line wins over the project file.
     assert swarmc("build", "-t", "scxml", "-o", "own").code == 0
     assert made(root / "below" / "own") == {"scxml"}
     assert {path.name for path in (root / "below/own/scxml").iterdir()} == portable

@@ -1,4 +1,4 @@
-"""The shipped library: free of mistakes, buildable, and true to what the ROS packages have."""
+"""The shipped library: correct, buildable, and consistent with the ROS packages."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_there_are_no_mistakes(name: str, capsys) -> None:
 @pytest.mark.parametrize("target", ["smach", "ros2", "adf", "scxml", "swarmros"])
 @pytest.mark.parametrize("name", catalogue.PACKAGES)
 def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
-    """By a model that calls each function in a line, and extends and reuses the rest."""
+    """Build a model that calls all functions and extends or reuses all other declarations."""
     system = SYSTEMS[name]
     path = tmp_path / "everything.swarm"
     path.write_text("\n".join(_everything(name, system)), encoding="utf-8")
@@ -59,7 +59,7 @@ def test_all_of_it_can_be_built(name: str, target: str, tmp_path: Path) -> None:
 
 
 def test_skeletons_of_all_functions_and_nodes(tmp_path: Path) -> None:
-    """For whoever writes them anew; of those in a library none is made otherwise."""
+    """Compile the library itself: in other projects its functions get no skeletons."""
     place = resources.library() / "cpswarm"
     result = pipeline.build([place], [Request("skeleton")], tmp_path)
     made = {path.parent.name for path in tmp_path.rglob("package.xml")}
@@ -112,7 +112,7 @@ def _taken(system: ir.System, function: ir.Function) -> tuple[ir.Field, ...]:
     return ()
 
 
-def test_each_function_says_what_it_does() -> None:
+def test_each_function_is_documented() -> None:
     for system in SYSTEMS.values():
         items = (*system.functions, *system.events, *system.machines, *system.members)
         assert [each.name for each in items if not each.doc and "." not in each.name] == []
@@ -131,7 +131,7 @@ def test_the_page_of_the_library(bless: bool) -> None:
 # ---- an interface that the project describes too
 
 
-def test_what_the_files_of_ros_say_of_an_interface_counts(swarmc, project, tmp_path) -> None:
+def test_interface_files_of_ros_win(swarmc, project, tmp_path) -> None:
     folder = tmp_path / "cpswarm_msgs" / "action"
     folder.mkdir(parents=True)
     (folder / "Coverage.action").write_text("float64 depth\n---\nbool found\n---\n")
@@ -154,7 +154,7 @@ statemachine Dive {{
     assert (ran.code, ran.out) == (0, "")
 
 
-def test_what_a_model_says_of_an_interface_counts(swarmc, project) -> None:
+def test_interfaces_of_a_model_win(swarmc, project) -> None:
     model = """import cpswarm.functions.*
 action cpswarm_msgs/Coverage { goal { depth : float64 } }
 statemachine Dive {
@@ -201,7 +201,7 @@ def test_interfaces_are_those_of_the_ros_packages() -> None:
 
 
 def _outline(node: object) -> object:
-    """The parts of an interface with their fields, as plain data."""
+    """Return the parts of an interface with their fields as plain data."""
     if isinstance(node, list):
         return [_outline(one) for one in node]
     if isinstance(node, Field):
@@ -223,8 +223,8 @@ OWNERS: Mapping[str, list[str]] = {
     "uav_tracking": ["uav_simple_tracking", "uav_flocking_tracking", "uav_tracking"],
     "ugv_random_walk": ["ugv_coverage"],
 }
-# Of the navigation of ROS, not of the node in whose package they are.
-OF_OTHERS = {"common_costmap", "global_costmap", "local_costmap", "navigation"}
+# Params of the ROS navigation stack, not of the node of the package.
+OF_NAVIGATION = {"common_costmap", "global_costmap", "local_costmap", "navigation"}
 
 
 @needs_corpus
@@ -234,7 +234,7 @@ def test_params_are_those_of_the_ros_packages() -> None:
         names = OWNERS.get(folder.name, [folder.name])
         owners = [_owner(name) for name in names]
         for file in folder.glob("*.yaml"):
-            if file.stem in OF_OTHERS:
+            if file.stem in OF_NAVIGATION:
                 continue
             for name, value in _flat(yaml.safe_load(file.read_text(encoding="utf-8"))):
                 having = [each for each in owners if name in each]
@@ -243,7 +243,7 @@ def test_params_are_those_of_the_ros_packages() -> None:
                     assert _value(each[name]) == value, f"{file.name}: {name}"
                 explained.update((owner, name) for owner in names)
 
-    # What has a default in the library has it from such a file.
+    # Defaults in the library come from such files.
     ours = {
         (owner.name, param.name)
         for owner in (*_called(CURRENT), *CURRENT.components)
@@ -261,7 +261,7 @@ HARDWARE = {"Camera", "CmosOv5640", "RangeSensor", "Sonar", "Gp2d12", "Communica
 
 
 def _owner(package: str) -> dict[str, ir.Param]:
-    """The params of a function, or of the component that is the node of a package."""
+    """Return the params of the function or component that is the node of a package."""
     for each in (*CURRENT.functions, *CURRENT.components):
         if _spelt(each.name) == _spelt(package):
             return {param.name: param for param in each.params}
@@ -282,7 +282,7 @@ def _flat(values: Mapping[str, object], prefix: str = "") -> Iterator[tuple[str,
 
 
 def _value(param: ir.Param) -> object:
-    """The default of a param, durations in seconds as in ROS."""
+    """Return the default of a param, durations in seconds as in ROS."""
     value = evaluate(param.default, {}) if param.default is not None else None
     if str(param.type) == "duration" and isinstance(value, (int, float)):
         return float(value)

@@ -21,7 +21,7 @@ def report() -> Diagnostics:
 
 @pytest.fixture
 def read(report: Diagnostics) -> Read:
-    """Read the text of an interface file of the package `my_msgs`, called `Thing`."""
+    """Return a function that parses the text of `my_msgs/Thing`."""
 
     def read_text(text: str, kind: Kind = "msg") -> InterfaceFile:
         return parse_interface(Source(f"Thing.{kind}", text), "my_msgs", "Thing", kind, report)
@@ -31,7 +31,7 @@ def read(report: Diagnostics) -> Read:
 
 @pytest.fixture
 def read_well(read: Read, report: Diagnostics) -> Read:
-    """The same for a text without mistakes."""
+    """Return a function that parses a correct text of `my_msgs/Thing`."""
 
     def read_text(text: str, kind: Kind = "msg") -> InterfaceFile:
         found = read(text, kind)
@@ -44,7 +44,7 @@ def read_well(read: Read, report: Diagnostics) -> Read:
 
 @pytest.fixture
 def corpus() -> Path:
-    """Files that projects of the field published; they are not part of this one."""
+    """Folder of published interface files of other projects, not part of this one."""
     folder = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
     if not folder.is_dir():
         pytest.skip("no corpus here; SWARMDSL_CORPUS names its folder")

@@ -1,4 +1,4 @@
-"""The standard messages as `rosbags` knows them, written as the data file has them."""
+"""The standard messages of `rosbags` in the format of the data file."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ PACKAGES = {
 NOT_IN_ROS_1 = {"builtin_interfaces"}
 # and leaves this package out, which ROS 1 has with the same messages (ros/geometry2).
 ALSO_IN_ROS_1 = {"tf2_msgs"}
-# ROS 1 makes messages of actions.
+# ROS 1 generates messages from actions.
 OF_ACTIONS = (
     "Action",
     "ActionFeedback",
@@ -43,7 +43,7 @@ OF_ACTIONS = (
     "Goal",
     "Result",
 )
-# ROS 2 puts it into messages without fields, for languages that have no such things.
+# ROS 2 adds it to messages without fields, for languages without empty structs.
 PLACEHOLDER = "structure_needs_at_least_one_member"
 TIMES = {"builtin_interfaces/msg/Time": "time", "builtin_interfaces/msg/Duration": "duration"}
 
@@ -63,7 +63,7 @@ Messages = dict[tuple[str, str], list[Item]]
 
 
 def written(description: tuple, package: str) -> str:
-    """A type of a field as .msg files write it."""
+    """Return a type of a field in the syntax of .msg files."""
     kind, inner = description
     match kind:
         case Nodetype.BASE:
@@ -78,7 +78,7 @@ def written(description: tuple, package: str) -> str:
 
 
 def messages(store: Stores) -> Messages:
-    """The messages of a release, by package and name."""
+    """Return the messages of a release by package and name."""
     defined = get_typestore(store).fielddefs
     actions = {name.removesuffix("Action") for name in defined if name.endswith("Action")}
     all_of = [{action + suffix for suffix in OF_ACTIONS} for action in actions]
@@ -95,7 +95,7 @@ def messages(store: Stores) -> Messages:
 
 
 def both(first: list[Item], second: list[Item]) -> list[Item]:
-    """The items of both; where one stands in the second says where it comes in the first."""
+    """Merge two lists of items; an added item keeps its position in the second."""
     items = list(first)
     after = -1
     for item in second:

@@ -323,7 +323,7 @@ def test_mistakes_in_the_parts(
 
 
 @pytest.mark.parametrize(
-    ("text", "advice"),
+    ("text", "hint"),
     [
         ("int32 x[5]", "write `int32[5] x`"),
         ("geometry_msgs/msg/Pose[] p", "write `geometry_msgs/Pose[]`"),
@@ -331,10 +331,10 @@ def test_mistakes_in_the_parts(
         ("uint8 X=256", "write a whole number from 0 to 255"),
     ],
 )
-def test_advice(text: str, advice: str, read: Read, report: Diagnostics) -> None:
+def test_hint(text: str, hint: str, read: Read, report: Diagnostics) -> None:
     read(text)
 
-    assert [found.help for found in report] == [advice]
+    assert [found.help for found in report] == [hint]
 
 
 def test_every_mistake_is_reported_and_the_rest_is_read(read: Read, report: Diagnostics) -> None:

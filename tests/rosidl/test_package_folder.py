@@ -110,7 +110,7 @@ def found(folder: Path, report: Diagnostics) -> list[str]:
         ),
     ],
 )
-def test_what_is_found(
+def test_found_interfaces(
     paths: list[str], start: str, expected: list[str], tmp_path: Path, report: Diagnostics
 ) -> None:
     make(tmp_path, *paths)
@@ -135,7 +135,7 @@ def test_linked_folders(tmp_path: Path, report: Diagnostics) -> None:
     make(tmp_path, "elsewhere/my_msgs/msg/A.msg")
     (tmp_path / "src").mkdir()
     (tmp_path / "src" / "my_msgs").symlink_to(tmp_path / "elsewhere" / "my_msgs")
-    (tmp_path / "src" / "again").symlink_to(tmp_path / "src")  # a circle
+    (tmp_path / "src" / "again").symlink_to(tmp_path / "src")  # a cycle
 
     assert found(tmp_path, report) == ["my_msgs/msg/A"]
 

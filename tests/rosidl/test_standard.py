@@ -95,7 +95,7 @@ def test_one_name_of_a_service_and_an_action() -> None:
     assert standard.lookup(type_, "msg") is None
 
 
-def test_what_only_one_ros_has() -> None:
+def test_parts_of_only_one_ros() -> None:
     def fields_only_in(package: str, name: str) -> dict[str, int | None]:
         found = standard.lookup(Named(package, name))
         assert isinstance(found, MessageType)
@@ -160,7 +160,7 @@ def test_places_are_in_the_interface() -> None:
     assert (stamp.name.span.line, stamp.name.span.text) == (2, "stamp")
 
 
-def test_nothing_is_read_before_it_is_asked_for_and_then_without_parsers() -> None:
+def test_interfaces_are_read_lazily_and_without_parsers() -> None:
     program = """
 import sys
 from pathlib import Path
