@@ -11,14 +11,14 @@ def topic_of(event: Event) -> str:
     return str(event.topic) if event.topic is not None else snake_case(event.name)
 
 
-def heard_on(source: Event | MonitorTrigger) -> str:
+def received_topic(source: Event | MonitorTrigger) -> str:
     """Return the topic on which a machine receives an event."""
     if isinstance(source, MonitorTrigger):
         return str(source.topic)
     return incoming_topic(topic_of(source), source.swarm)
 
 
-def awaited(trigger: Trigger) -> Event | MonitorTrigger | None:
+def event_of(trigger: Trigger) -> Event | MonitorTrigger | None:
     """Return the event of a trigger; None for other triggers and unresolved events."""
     match trigger:
         case MonitorTrigger():

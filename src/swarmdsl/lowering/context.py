@@ -7,7 +7,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping
 from typing import Any, cast
 
 from swarmdsl import ir
-from swarmdsl.analysis.event_topics import heard_on
+from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.analysis.resolve.inheritance import all_items
 from swarmdsl.analysis.resolve.interfaces import Interfaces
 from swarmdsl.analysis.resolve.type_names import interface_name
@@ -153,7 +153,7 @@ def make_context(project: Project, pairs: list[tuple[File, Declaration]]) -> Con
     heard: dict[str, str] = {}
     for _, declaration in pairs:
         if isinstance(declaration, Event):
-            heard.setdefault(heard_on(declaration), names[declaration])
+            heard.setdefault(received_topic(declaration), names[declaration])
     monitored = tuple(_monitored(pairs, heard, taken))
     heard.update({event.topic: event.name for event in monitored})
     return replace(context, heard=heard, monitored=monitored)
@@ -184,7 +184,7 @@ def _monitored(
         for node in nodes_of(declaration, MonitorTrigger):
             if node.type.type is None:
                 continue
-            topic = heard_on(node)
+            topic = received_topic(node)
             if topic in declared or topic in seen:
                 continue
             seen.add(topic)

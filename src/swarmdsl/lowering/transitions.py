@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from swarmdsl import ir
-from swarmdsl.analysis.event_topics import heard_on
+from swarmdsl.analysis.event_topics import received_topic
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.lowering.context import Context
 from swarmdsl.lowering.expressions import lower_expression, lower_optional, lower_path
@@ -133,7 +133,7 @@ def _trigger(trigger: Trigger, owner: State | Parallel, frame: Frame) -> ir.Trig
         case OutcomeTrigger(outcome=outcome):
             return ir.OutcomeTrigger(frame.ids[owner], outcome, trigger.span)
         case MonitorTrigger():
-            return ir.EventTrigger(frame.context.heard[heard_on(trigger)], trigger.span)
+            return ir.EventTrigger(frame.context.heard[received_topic(trigger)], trigger.span)
         case TimeTrigger(delay=delay):
             return ir.TimeTrigger(lower_expression(delay, frame.context), trigger.span)
         case DoneTrigger(region=region, final=final):

@@ -7,7 +7,7 @@ from collections.abc import Hashable, Iterator, Mapping, Sequence
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.guard_satisfiability import condition_of, satisfiable
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
-from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.states import regions
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.base.source import Span
@@ -66,7 +66,7 @@ def _check_assignments(
             for store in _stores(transition)
         ]
         for event, transition, effect in found:
-            for before, first in earlier.get((_heard(event), _path(effect)[0]), ()):
+            for before, first in earlier.get((_event_key(event), _path(effect)[0]), ()):
                 if _differ(first, effect) and satisfiable(
                     [condition_of(before, context), condition_of(transition, context)]
                 ):
@@ -80,7 +80,7 @@ def _check_assignments(
                     )
                     break
         for event, transition, effect in found:
-            others = earlier.setdefault((_heard(event), _path(effect)[0]), [])
+            others = earlier.setdefault((_event_key(event), _path(effect)[0]), [])
             if len(others) < _MAX_COMPARED:
                 others.append((transition, effect))
 
@@ -94,15 +94,15 @@ def _stays(transition: Transition, region: Region, hierarchy: StateHierarchy) ->
 
 def _stores(transition: Transition) -> Iterator[tuple[_Source, Transition, Assignment]]:
     """Yield the assignments of a transition for each of its events."""
-    events = {_heard(event): event for event in map(awaited, transition.triggers) if event}
+    events = {_event_key(event): event for event in map(event_of, transition.triggers) if event}
     for event in events.values():
         for effect in transition.effects:
             if isinstance(effect, Assignment) and _path(effect):
                 yield event, transition, effect
 
 
-def _heard(event: _Source) -> Hashable:
-    return heard_on(event), event.type.type
+def _event_key(event: _Source) -> Hashable:
+    return received_topic(event), event.type.type
 
 
 def _differ(first: Assignment, second: Assignment) -> bool:
@@ -145,10 +145,10 @@ def _check_exits(
             target = transition.target.target if transition.target is not None else None
             if target is None or region in hierarchy.ancestors(target):
                 continue
-            for event in map(awaited, transition.triggers):
+            for event in map(event_of, transition.triggers):
                 if event is None:
                     continue
-                where, first = leaving.setdefault(_heard(event), (region, transition))
+                where, first = leaving.setdefault(_event_key(event), (region, transition))
                 if where is region or (first.target and first.target.target is target):
                     continue
                 context.report.report(

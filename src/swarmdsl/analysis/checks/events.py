@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 
 from swarmdsl.analysis.checks.context import Context
 from swarmdsl.analysis.checks.facts import Exchange
-from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.analysis.resolve.inheritance import all_items, lineage
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.project.loader import Project
@@ -143,11 +143,11 @@ def _of_machine(machine: StateMachine, context: Context) -> Exchange:
             case Send(event=Ref(target=None)) | EventTrigger(event=Ref(target=None)):
                 found.complete = False
             case Send(event=Ref(target=Event() as event)):
-                found.sent.setdefault(heard_on(event), node)
+                found.sent.setdefault(received_topic(event), node)
             case EventTrigger() | MonitorTrigger():
-                source = awaited(node)
+                source = event_of(node)
                 assert source is not None
-                found.awaited.setdefault(heard_on(source), node)
+                found.awaited.setdefault(received_topic(source), node)
     return found
 
 

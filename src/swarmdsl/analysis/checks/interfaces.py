@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from swarmdsl.analysis.checks.context import Context
-from swarmdsl.analysis.event_topics import heard_on, topic_of
+from swarmdsl.analysis.event_topics import received_topic, topic_of
 from swarmdsl.analysis.node_kinds import kind_of
 from swarmdsl.base.diagnostics.collector import Label, listed
 from swarmdsl.base.graphs import cycles
@@ -173,7 +173,7 @@ def check_topics(project: Project, context: Context) -> None:
             sources += nodes_of(machine, MonitorTrigger)
     first: dict[str, Event | MonitorTrigger] = {}
     for source in sources:
-        known = first.setdefault(heard_on(source), source)
+        known = first.setdefault(received_topic(source), source)
         if None in (known.type.type, source.type.type) or known.type.type == source.type.type:
             continue
         context.report.report(

@@ -18,7 +18,7 @@ from swarmdsl.analysis.checks.guard_satisfiability import (
 )
 from swarmdsl.analysis.checks.livelock import EventlessSteps, completes_at_once
 from swarmdsl.analysis.checks.state_hierarchy import StateHierarchy
-from swarmdsl.analysis.event_topics import awaited, heard_on
+from swarmdsl.analysis.event_topics import event_of, received_topic
 from swarmdsl.base.diagnostics.collector import Label
 from swarmdsl.syntax.ast import (
     Branch,
@@ -248,8 +248,8 @@ def _keys(trigger: Trigger, state: State | Parallel) -> list[tuple[Hashable, ...
         return [_AT_ONCE]
     match trigger:
         case EventTrigger() | MonitorTrigger():
-            event = awaited(trigger)
-            return [("event", heard_on(event), event.type.type)] if event is not None else []
+            event = event_of(trigger)
+            return [("event", received_topic(event), event.type.type)] if event is not None else []
         case OutcomeTrigger(outcome=outcome):
             return [("outcome", outcome)]
         case DoneTrigger(region=Ref(target=None)) | DoneTrigger(final=Ref(target=None)):
