@@ -43,7 +43,7 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
     """Return the files of the requested targets; incomplete if errors were reported."""
     output: Output = {}
     left_out: dict[str, Diagnostics] = {}
-    merged = _merged(requests, report)
+    merged = _merge_requests(requests, report)
     for request in merged:
         found = Diagnostics()
         files = _emit_target(system, request, merged, found)
@@ -63,7 +63,7 @@ def emit(system: System, requests: Sequence[Request], report: Diagnostics) -> Ou
     return output
 
 
-def _merged(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
+def _merge_requests(requests: Sequence[Request], report: Diagnostics) -> list[Request]:
     """Return one request a target; duplicates may add options but not contradict."""
     merged: dict[str, Request] = {}
     for request in requests:
@@ -94,18 +94,18 @@ def _emit_target(
     if isinstance(generator, registry.Broken):
         _report_broken(request.target, generator.reason, report)
         return None
-    uses = _run(
+    uses = _run_guarded(
         generator, lambda: unsupported(generator.machines(system), generator.supports), report
     )
     for feature, place in uses or ():
         report.report(
             "unsupported-construct", place, target=request.target, construct=feature.value
         )
-    given = {**_implied(generator, request, built), **request.options}
+    given = {**_implied_options(generator, request, built), **request.options}
     options = parse_options(generator, given, report, request.places)
     if report.has_errors:
         return None
-    files = _run(generator, lambda: generator.emit(system, options, report), report)
+    files = _run_guarded(generator, lambda: generator.emit(system, options, report), report)
     if files is None or not _are_files(files, request.target, report):
         return None
     for file in files:
@@ -116,26 +116,30 @@ def _emit_target(
     return files
 
 
-def _implied(generator: Generator, request: Request, built: Iterable[Request]) -> dict[str, str]:
+def _implied_options(
+    generator: Generator, request: Request, built: Iterable[Request]
+) -> dict[str, str]:
     """Return the options that are true because of another target in the build."""
     options = options_of(generator)
     beside = {name: each.beside for name, each in options.items() if each.beside}
     if not beside:
         return {}
-    own = {"", *(f"{name}={value}" for name, value in _all(request))}
+    own = {"", *(f"{name}={value}" for name, value in _all_options(request))}
     beside = {name: other for name, other in beside.items() if options[name].only in own}
-    chosen = {f"{each.target}.{name}={value}" for each in built for name, value in _all(each)}
+    chosen = {
+        f"{each.target}.{name}={value}" for each in built for name, value in _all_options(each)
+    }
     return {name: "true" for name, other in beside.items() if other in chosen}
 
 
-def _all(request: Request) -> Iterable[tuple[str, str]]:
+def _all_options(request: Request) -> Iterable[tuple[str, str]]:
     """Return the options of a target: defaults, overridden by the given ones."""
     generator = registry.load(request.target)
     known = options_of(generator) if isinstance(generator, Generator) else {}
     return {**{name: str(each.default) for name, each in known.items()}, **request.options}.items()
 
 
-def _run(
+def _run_guarded(
     generator: Generator, make: Callable[[], Iterable[_Made]], report: Diagnostics
 ) -> list[_Made] | None:
     """Return the results of a generator's function, or None if it fails."""

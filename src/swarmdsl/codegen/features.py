@@ -41,14 +41,14 @@ _KINDS = {
 def used_features(system: System) -> Iterator[Use]:
     """Yield every use of a feature, in document order."""
     for machine in system.machines:
-        yield from _in_machine(machine)
+        yield from _uses_in_machine(machine)
 
 
 def unsupported(machines: Iterable[StateMachine], supports: frozenset[Feature]) -> Iterator[Use]:
     """Yield the uses that a target does not support, one for each cause."""
     for machine in machines:
         causes = _causes_of_entering(machine)
-        for feature, place in _in_machine(machine):
+        for feature, place in _uses_in_machine(machine):
             if feature in supports:
                 continue
             if feature is Feature.INTO_STATE and place in causes and not causes[place] <= supports:
@@ -72,7 +72,7 @@ def _causes_of_entering(machine: StateMachine) -> dict[Span | None, set[Feature]
     return found
 
 
-def _in_machine(machine: StateMachine) -> Iterator[Use]:
+def _uses_in_machine(machine: StateMachine) -> Iterator[Use]:
     for param in machine.params:
         yield Feature.PARAM, param.origin
     for variable in machine.variables:
@@ -84,33 +84,33 @@ def _in_machine(machine: StateMachine) -> Iterator[Use]:
     if parents[machine.initial] is not None:
         yield Feature.INTO_STATE, machine.origin
     for state in machine.walk():
-        yield from _in_state(state, parents)
+        yield from _uses_in_state(state, parents)
 
 
-def _in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
+def _uses_in_state(state: State, parents: dict[str, str | None]) -> Iterator[Use]:
     if state.kind in _KINDS:
         yield _KINDS[state.kind], state.origin
     if state.initial is not None and parents[state.initial] != state.id:
         yield Feature.INTO_STATE, state.origin
     if state.activity is not None:
-        yield from _in_activity(state.activity)
+        yield from _uses_in_activity(state.activity)
     for feature, effects in ((Feature.ENTRY, state.entry), (Feature.EXIT, state.exit)):
         for effect in effects:
             yield feature, effect.origin
-            yield from _in_effect(effect)
+            yield from _uses_in_effect(effect)
     for transition in state.transitions:
-        yield from _in_transition(transition)
+        yield from _uses_in_transition(transition)
         if not transition.triggers and state.kind not in (StateKind.CHOICE, StateKind.HISTORY):
             yield Feature.EVENTLESS, transition.origin
         if transition.target is not None:
-            here, there = _around(state.id, parents), _around(transition.target, parents)
+            here, there = _ancestors(state.id, parents), _ancestors(transition.target, parents)
             if here[0] not in there:
                 yield Feature.CROSS_LEVEL, transition.origin
             if there[0] not in here:
                 yield Feature.INTO_STATE, transition.origin
 
 
-def _around(state: str, parents: dict[str, str | None]) -> list[str | None]:
+def _ancestors(state: str, parents: dict[str, str | None]) -> list[str | None]:
     """Return the ids of the enclosing states, innermost first, then None."""
     found: list[str | None] = [parents[state]]
     while found[-1] is not None:
@@ -118,16 +118,16 @@ def _around(state: str, parents: dict[str, str | None]) -> list[str | None]:
     return found
 
 
-def _in_activity(activity: Activity) -> Iterator[Use]:
+def _uses_in_activity(activity: Activity) -> Iterator[Use]:
     if activity.goal_callback is not None or activity.result_callback is not None:
         yield Feature.CALLBACK, activity.origin
     for _, value in activity.arguments:
-        yield from _in_expression(value)
+        yield from _uses_in_expression(value)
     for result in activity.results:
         yield Feature.RESULT, result.origin
 
 
-def _in_transition(transition: Transition) -> Iterator[Use]:
+def _uses_in_transition(transition: Transition) -> Iterator[Use]:
     if transition.internal:
         yield Feature.INTERNAL, transition.origin
     if transition.target is None:
@@ -135,36 +135,36 @@ def _in_transition(transition: Transition) -> Iterator[Use]:
     for trigger in transition.triggers:
         if isinstance(trigger, TimeTrigger):
             yield Feature.TIMEOUT, trigger.origin
-            yield from _in_expression(trigger.delay)
+            yield from _uses_in_expression(trigger.delay)
     if transition.guard is not None:
         yield Feature.GUARD, transition.guard.origin
-        yield from _in_expression(transition.guard)
+        yield from _uses_in_expression(transition.guard)
     for effect in transition.effects:
-        yield from _in_effect(effect)
+        yield from _uses_in_effect(effect)
 
 
-def _in_effect(effect: Effect) -> Iterator[Use]:
+def _uses_in_effect(effect: Effect) -> Iterator[Use]:
     match effect:
         case Assignment(value=value):
             yield Feature.ASSIGNMENT, effect.origin
-            yield from _in_expression(value)
+            yield from _uses_in_expression(value)
         case Send(arguments=arguments):
             yield Feature.SEND, effect.origin
             for _, value in arguments:
-                yield from _in_expression(value)
+                yield from _uses_in_expression(value)
 
 
-def _in_expression(expression: Expression) -> Iterator[Use]:
+def _uses_in_expression(expression: Expression) -> Iterator[Use]:
     match expression:
         case EventData():
             yield Feature.EVENT_DATA, expression.origin
         case FieldAccess(base=base):
-            yield from _in_expression(base)
+            yield from _uses_in_expression(base)
         case Unary(operand=operand):
-            yield from _in_expression(operand)
+            yield from _uses_in_expression(operand)
         case Binary(left=left, right=right):
-            yield from _in_expression(left)
-            yield from _in_expression(right)
+            yield from _uses_in_expression(left)
+            yield from _uses_in_expression(right)
         case Call(arguments=arguments):
             for argument in arguments:
-                yield from _in_expression(argument)
+                yield from _uses_in_expression(argument)

@@ -73,7 +73,7 @@ def default_names() -> list[str]:
     return [name for name in target_names() if name not in ON_REQUEST]
 
 
-def hidden_names() -> list[str]:
+def shadowed_names() -> list[str]:
     """Return the built-in names that a third-party package offers, too."""
     return sorted(_third_party().keys() & BUILT_IN.keys())
 
@@ -82,7 +82,7 @@ def load(name: str) -> Generator | Broken | None:
     """Return the generator of a target, or None if there is no such target."""
     if name in BUILT_IN:
         module, _, attribute = BUILT_IN[name].partition(":")
-        return _loaded(name, lambda: getattr(import_module(module), attribute))
+        return _load_checked(name, lambda: getattr(import_module(module), attribute))
     found = _third_party().get(name, [])
     if not found:
         return None
@@ -90,7 +90,7 @@ def load(name: str) -> Generator | Broken | None:
         return Broken("its name has other characters than lower-case letters, digits, `-` and `_`")
     if len(found) > 1:
         return Broken(f"it is offered more than once: {' and '.join(p.value for p in found)}")
-    return _loaded(name, found[0].load)
+    return _load_checked(name, found[0].load)
 
 
 def _third_party() -> dict[str, list[EntryPoint]]:
@@ -106,7 +106,7 @@ def _third_party() -> dict[str, list[EntryPoint]]:
     return by_name
 
 
-def _loaded(name: str, load: Callable[[], object]) -> Generator | Broken:
+def _load_checked(name: str, load: Callable[[], object]) -> Generator | Broken:
     try:
         found = load()
         fault = _fault(name, found)

@@ -14,7 +14,7 @@ from swarmdsl.codegen.options import options_of
 
 def all_targets(report: Diagnostics) -> list[Generator]:
     """Return every target that works; report the others."""
-    for name in registry.hidden_names():
+    for name in registry.shadowed_names():
         reason = "its name is that of a built-in target, which is used instead"
         report.report("broken-generator", name=name, reason=reason)
     found = []

@@ -29,16 +29,16 @@ def mark_in(content: bytes) -> str | None:
     return found[1].decode() if found is not None else None
 
 
-def outdated(of_user: bytes, generated: bytes, base: bytes | None) -> tuple[str, str] | None:
+def outdated(user_file: bytes, generated: bytes, base: bytes | None) -> tuple[str, str] | None:
     """Return the mark in the user's file and the required one; None if they agree.
 
     If the user removed the mark, that of `base` counts, the text that the file was made from; if
     that is unknown, the mark is "".
     """
-    written, wanted = mark_in(of_user) or mark_in(base or b"") or "", mark_in(generated)
-    if wanted is None or written == wanted:
+    written, required = mark_in(user_file) or mark_in(base or b"") or "", mark_in(generated)
+    if required is None or written == required:
         return None
-    return written, wanted
+    return written, required
 
 
 def marked(content: bytes, mark: str) -> bytes:

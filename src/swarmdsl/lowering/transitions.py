@@ -71,7 +71,7 @@ def _transition(
     types = [_message_type(trigger, context) for trigger in transition.triggers]
     if types and types[0] is not None:
         context = context.with_event(types[0])
-    waiting = [t for t in transition.triggers if not _at_once(t, owner)]
+    waiting = [t for t in transition.triggers if not _is_immediate(t, owner)]
     triggers = tuple(_trigger(trigger, owner, frame) for trigger in waiting)
     made = ir.Transition(
         triggers=triggers,
@@ -99,7 +99,7 @@ def _message_type(trigger: Trigger, context: Context) -> ir.Type | None:
     return None
 
 
-def _at_once(trigger: Trigger, owner: State | Parallel) -> bool:
+def _is_immediate(trigger: Trigger, owner: State | Parallel) -> bool:
     if not (isinstance(trigger, DoneTrigger) and trigger.region is None):
         return False
     return (

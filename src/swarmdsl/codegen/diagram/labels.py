@@ -96,13 +96,13 @@ def _trigger(trigger: Trigger, owner: State) -> str:
         case TimeTrigger(delay=time):
             return f"after {delay(time)}"
         case OutcomeTrigger(state=state, outcome=outcome):
-            return _of(state, owner, outcome)
+            return _state_event(state, owner, outcome)
         case DoneTrigger(state=state, final=final):
             done = "done" if final is None else f"done.{final.removeprefix(f'{state}.')}"
-            return _of(state, owner, done)
+            return _state_event(state, owner, done)
 
 
-def _of(state: str, owner: State, what: str) -> str:
+def _state_event(state: str, owner: State, what: str) -> str:
     """Return an event of a state, with the state's name unless it is the owner."""
     if state == owner.id:
         return what

@@ -15,7 +15,7 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.base.xml_writer import legal
 from swarmdsl.codegen.api import Generator, OutputFile, option
-from swarmdsl.codegen.exchange.search_space import behaviours
+from swarmdsl.codegen.exchange.search_space import behaviour_package
 from swarmdsl.codegen.shared.constants import Value
 from swarmdsl.codegen.shared.nodes import ParamValue, behavior_nodes
 from swarmdsl.codegen.xml_tree import add_comment, document
@@ -32,7 +32,7 @@ class Options:
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """Yield a folder for each swarm: its composition and its launch files."""
-    package = behaviours(system, options.package)
+    package = behaviour_package(system, options.package)
     members = {member.name: member for member in system.members}
     for swarm in system.swarms:
         folder = snake_case(swarm.name)

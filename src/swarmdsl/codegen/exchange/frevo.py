@@ -18,7 +18,13 @@ from swarmdsl.base.source import Span
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.description import document
 from swarmdsl.codegen.exchange.frevo_problem import problem
-from swarmdsl.codegen.exchange.search_space import LARGEST, Varied, behaviours, number, varied
+from swarmdsl.codegen.exchange.search_space import (
+    LARGEST,
+    SearchParameter,
+    behaviour_package,
+    number,
+    search_parameters,
+)
 from swarmdsl.ir import Optimization, System
 
 _OPERATOR = {
@@ -72,7 +78,7 @@ class Options:
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
     """Yield a folder for each optimization, with both files."""
     for optimization in system.optimizations:
-        parameters = list(varied(optimization, system, options.package, "frevo", report))
+        parameters = list(search_parameters(optimization, system, options.package, "frevo", report))
         if not parameters:
             continue
         swarm = next(each for each in system.swarms if each.name == optimization.swarm)
@@ -82,14 +88,17 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
         places = {
             "rosPath": options.ros,
             "rosWs": options.workspace,
-            "rosPackage": behaviours(system, options.package),
+            "rosPackage": behaviour_package(system, options.package),
         }
         text = problem(optimization, swarm, system, len(parameters), places, report)
         yield OutputFile(f"{folder}/{swarm.name}.xml", text, origin=swarm.origin)
 
 
 def _configuration(
-    optimization: Optimization, parameters: list[Varied], options: Options, report: Diagnostics
+    optimization: Optimization,
+    parameters: list[SearchParameter],
+    options: Options,
+    report: Diagnostics,
 ) -> dict[str, Any]:
     settings = dict(optimization.settings)
     candidates, generations = options.candidates, options.generations

@@ -13,7 +13,7 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.api import Generator, OutputFile, option
 from swarmdsl.codegen.exchange.description import document
-from swarmdsl.codegen.exchange.search_space import varied
+from swarmdsl.codegen.exchange.search_space import search_parameters
 from swarmdsl.ir import System
 
 
@@ -45,7 +45,9 @@ def emit(system: System, options: Options, report: Diagnostics) -> Iterator[Outp
                 "max": each.maximum,
                 "scale": str(each.scale).removesuffix(".0"),
             }
-            for each in varied(optimization, system, options.package, "parameters", report)
+            for each in search_parameters(
+                optimization, system, options.package, "parameters", report
+            )
         ]
         if parameters:
             path = f"{snake_case(optimization.swarm)}/parameters.json"

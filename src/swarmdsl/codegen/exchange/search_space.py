@@ -18,7 +18,7 @@ LARGEST = 2**31 - 1
 
 
 @dataclass(frozen=True)
-class Varied:
+class SearchParameter:
     """Parameter from `minimum` to `maximum`, times `scale`.
 
     `meta` is the destination of its value: the command line, or the parameter file of a package.
@@ -31,11 +31,11 @@ class Varied:
     scale: float
 
 
-def varied(
+def search_parameters(
     optimization: Optimization, system: System, package: str, target: str, report: Diagnostics
-) -> Iterator[Varied]:
+) -> Iterator[SearchParameter]:
     """Return the parameters that can be expressed; report the others."""
-    package = behaviours(system, package)
+    package = behaviour_package(system, package)
     owners: dict[str, str] = {}
     for range_ in optimization.params:
         owner = owners.setdefault(range_.param, range_.role)
@@ -56,17 +56,17 @@ def varied(
             _report(range_.param, range_.origin, target, report, note, hint)
             continue
         meta = f"file:{package}"
-        yield Varied(range_.param, meta, int(lowest), int(highest // 1), float(scale))
+        yield SearchParameter(range_.param, meta, int(lowest), int(highest // 1), float(scale))
     for count in optimization.counts:
         if count.role in owners:
             note = "another varied param has that name"
             _report(count.role, count.origin, target, report, note)
             continue
         fewest, most = int(number(count.lower)), int(number(count.upper))
-        yield Varied(count.role, "command_line", fewest, most, 1.0)
+        yield SearchParameter(count.role, "command_line", fewest, most, 1.0)
 
 
-def behaviours(system: System, package: str) -> str:
+def behaviour_package(system: System, package: str) -> str:
     """Return the ROS package of the behaviours: the given one, or target smach's."""
     return package or f"{snake_case(system.name)}_behavior"
 

@@ -42,26 +42,26 @@ def group_by_package(
     )
 
 
-def interfaces_to_write(system: System, others: str) -> list[Interface]:
+def interfaces_to_write(system: System, extra: str) -> list[Interface]:
     """Return the interfaces to write: the model's own and those of packages `others`.
 
     `others` are comma-separated packages that no workspace has, but that the model or its
     libraries describe.
     """
-    packages = others.split(",")
+    packages = extra.split(",")
     return [
         each for each in system.interfaces if not each.external or each.type.package in packages
     ]
 
 
-def check_described(system: System, others: str, target: str, report: Diagnostics) -> None:
+def check_described(system: System, extra: str, target: str, report: Diagnostics) -> None:
     """Report used interfaces of packages to write that nothing describes."""
-    packages = others.split(",")
+    packages = extra.split(",")
     used = [(event.type, event.origin) for event in system.events]
     used += ((each.communication.type, each.origin) for each in system.functions)
     fields = (
         f
-        for each in interfaces_to_write(system, others)
+        for each in interfaces_to_write(system, extra)
         for part in interface_parts(each)
         for f in part
     )

@@ -58,7 +58,7 @@ def call_of(activity: Activity, machine: StateMachine, system: System) -> Call:
     goal, items, from_goal = _goal(activity, function, params, system)
     results = tuple((each.field, each.variable) for each in activity.results)
     completion: tuple[tuple[str, str], ...] = ()
-    if items is None or _differ(from_goal, results):
+    if items is None or _has_conflict(from_goal, results):
         goal, items, from_goal = Policy.CALLBACK, (), ()
         completion = tuple((field, _python(value, params)) for field, value in activity.arguments)
     mappings = dict.fromkeys(pair for pair in (*from_goal, *results) if pair[0] != pair[1])
@@ -123,7 +123,7 @@ def _default(field: Field) -> str | None:
     return {"string": "''", "bool": "False"}.get(field.type.name, "0")
 
 
-def _differ(goal: tuple[tuple[str, str], ...], results: tuple[tuple[str, str], ...]) -> bool:
+def _has_conflict(goal: tuple[tuple[str, str], ...], results: tuple[tuple[str, str], ...]) -> bool:
     """Return True if a field would have to be stored in two places."""
     kept = dict(goal)
     return any(kept.get(field, key) != key for field, key in results)

@@ -16,7 +16,7 @@ from swarmdsl.base.records import replace
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.api import Feature
 from swarmdsl.codegen.exchange.scxml.calls import Call, call_of
-from swarmdsl.codegen.exchange.scxml.cpswarm_messages import in_profile, without_first_values
+from swarmdsl.codegen.exchange.scxml.cpswarm_messages import in_profile, without_initializers
 from swarmdsl.codegen.exchange.scxml.cpswarm_structure import (
     OUTCOMES,
     TARGET,
@@ -56,7 +56,7 @@ def cpswarm(
     The origins of its elements are added to `places`.
     """
     found = Diagnostics()
-    written = without_first_values(machine)
+    written = without_initializers(machine)
     for feature, origin in used_features(replace(system, machines=(written,))):
         if feature in _UNSUPPORTED:
             _refuse(found, feature.value, origin)

@@ -31,7 +31,7 @@ def in_profile(machine: StateMachine, found: Iterable[Diagnostic]) -> Iterator[D
         yield each
 
 
-def without_first_values(machine: StateMachine) -> StateMachine:
+def without_initializers(machine: StateMachine) -> StateMachine:
     """Return the machine without effects that initialize reused machines' variables.
 
     The model has no such effects: reports are about the variable instead.

@@ -94,16 +94,16 @@ class _Shaper:
             self.parents.update((child.id, state.id) for child in state.states)
 
     def top(self) -> tuple[Vertex, ...]:
-        children, _ = self._inside(self.machine.states, self.machine.initial, self.machine.origin)
+        children, _ = self._content(self.machine.states, self.machine.initial, self.machine.origin)
         return children
 
-    def _inside(
+    def _content(
         self, states: Iterable[State], initial: str | None, origin: Span | None
     ) -> tuple[tuple[Vertex, ...], list[_Signal]]:
         """Return the content of a container, and the signals that end it."""
         inside = [state for state in states if state.kind is not StateKind.FINAL]
         if initial not in [state.id for state in inside]:
-            self._refuse(Feature.INTO_STATE.value, origin)
+            self._reject(Feature.INTO_STATE.value, origin)
         # SMACH starts with the first state added.
         inside.sort(key=lambda state: state.id != initial)
         shaped = [self._vertex(state) for state in inside]
@@ -113,13 +113,13 @@ class _Shaper:
         if state.kind is StateKind.PARALLEL:
             return self._parallel(state)
         if state.kind is StateKind.COMPOSITE:
-            children, ends = self._inside(state.states, state.initial, state.origin)
-            ends = self._followed(ends, state.id, state.transitions)
+            children, ends = self._content(state.states, state.initial, state.origin)
+            ends = self._follow_final_states(ends, state.id, state.transitions)
         else:
             children, ends = (), []
             if state.activity is None and not _monitors(state):
-                self._refuse("a state that waits for nothing", state.origin)
-        ends = self._distinct([*ends, *self._own_signals(state)])
+                self._reject("a state that waits for nothing", state.origin)
+        ends = self._deduplicate([*ends, *self._own_signals(state)])
         monitors = _monitors(state)
         staying = [end for end in ends if self._is_sibling(end, state)]
         if monitors or (children and staying):
@@ -128,7 +128,9 @@ class _Shaper:
                 behavior = (Vertex(state, "Behavior", children=children),)
             elif state.activity is not None:
                 behavior = (Vertex(state),)
-            return self._threads(Vertex(state, "Threads", True, (*behavior, *monitors)), ends)
+            return self._parallel_vertex(
+                Vertex(state, "Threads", True, (*behavior, *monitors)), ends
+            )
         transitions = tuple((end.name, end.target) for end in staying)
         leaving = [end for end in ends if end not in staying]
         return Vertex(state, children=children, transitions=transitions), leaving
@@ -137,23 +139,23 @@ class _Shaper:
         children: list[Vertex | Monitor] = []
         ends: list[_Signal] = []
         for region in state.states:
-            waiting = _waits_only(region)
+            waiting = _only_awaits(region)
             if waiting is not None:
                 children += _monitors(waiting)
                 inner = self._own_signals(waiting)
             else:
-                contents, inner = self._inside(region.states, region.initial, region.origin)
+                contents, inner = self._content(region.states, region.initial, region.origin)
                 children.append(Vertex(region, children=contents))
-            ends += self._followed(inner, region.id, state.transitions)
+            ends += self._follow_final_states(inner, region.id, state.transitions)
         for transition in state.transitions:
             for trigger in transition.triggers:
                 if isinstance(trigger, DoneTrigger) and trigger.state == state.id:
-                    self._refuse("the end of all regions", trigger.origin or transition.origin)
+                    self._reject("the end of all regions", trigger.origin or transition.origin)
         children += _monitors(state)
-        ends = self._distinct([*ends, *self._own_signals(state)])
-        return self._threads(Vertex(state, "", True, tuple(children)), ends)
+        ends = self._deduplicate([*ends, *self._own_signals(state)])
+        return self._parallel_vertex(Vertex(state, "", True, tuple(children)), ends)
 
-    def _threads(self, vertex: Vertex, ends: list[_Signal]) -> tuple[Vertex, list[_Signal]]:
+    def _parallel_vertex(self, vertex: Vertex, ends: list[_Signal]) -> tuple[Vertex, list[_Signal]]:
         """Return a parallel vertex with its transitions, and the signals that leave it."""
         staying = [end for end in ends if self._is_sibling(end, vertex.state)]
         leaving = [
@@ -162,29 +164,29 @@ class _Shaper:
             for end in ends
             if end not in staying
         ]
-        leaving = self._distinct(leaving)
+        leaving = self._deduplicate(leaving)
         if any(end.name == "aborted" for end in staying):
             for end in leaving:
-                self._refuse("a second exit from a state that waits for an event", end.origin)
+                self._reject("a second exit from a state that waits for an event", end.origin)
         transitions = tuple((end.name, end.target) for end in staying)
         return replace(vertex, transitions=transitions), leaving
 
     def _own_signals(self, state: State) -> list[_Signal]:
         """Return the signals of the state's own transitions; the first of a name counts."""
-        around = self._around(state.id)
+        around = self._containers(state.id)
         signals: dict[str, _Signal] = {}
         for transition in state.transitions:
             if transition.target is None:
                 continue  # refused before: the dialect has no transition without a target
             if self.parents[transition.target] not in around:
-                self._refuse(Feature.INTO_STATE.value, transition.origin)
+                self._reject(Feature.INTO_STATE.value, transition.origin)
             for trigger in transition.triggers:
                 origin = trigger.origin or transition.origin
                 match trigger:
                     case EventTrigger(event=event):
                         name = event_name(event)
-                        if any(self._waits(outer, event) for outer in around):
-                            self._refuse("an event awaited on two levels", origin)
+                        if any(self._awaits(outer, event) for outer in around):
+                            self._reject("an event awaited on two levels", origin)
                     case OutcomeTrigger(outcome=outcome):
                         name = outcome
                     case _:
@@ -192,13 +194,13 @@ class _Shaper:
                 signals.setdefault(name, _Signal(name, transition.target, origin))
         return list(signals.values())
 
-    def _waits(self, state: str | None, event: str) -> bool:
+    def _awaits(self, state: str | None, event: str) -> bool:
         """Return True if an enclosing state waits for the event."""
         return state is not None and event in [
             monitor.event for monitor in _monitors(self.states[state])
         ]
 
-    def _followed(
+    def _follow_final_states(
         self, ends: list[_Signal], container: str, transitions: tuple[Transition, ...]
     ) -> list[_Signal]:
         """Return the signals, with those to own final states led on to what follows."""
@@ -207,20 +209,20 @@ class _Shaper:
             target: str | None = end.target
             final = self.states[end.target].kind is StateKind.FINAL
             if final and self.parents[end.target] == container:
-                target = _after(end.target, container, transitions)
+                target = _completion_target(end.target, container, transitions)
             if target is None:
-                self._refuse("a final state that nothing follows", end.origin)
+                self._reject("a final state that nothing follows", end.origin)
             else:
                 followed.append(replace(end, target=target))
-        return self._distinct(followed)
+        return self._deduplicate(followed)
 
-    def _distinct(self, signals: list[_Signal]) -> list[_Signal]:
+    def _deduplicate(self, signals: list[_Signal]) -> list[_Signal]:
         """Return the signals once each; report one with two targets."""
         known: dict[str, _Signal] = {}
         for signal in signals:
             first = known.setdefault(signal.name, signal)
             if first.target != signal.target:
-                self._refuse(f"`{signal.name}` leading to two places", signal.origin)
+                self._reject(f"`{signal.name}` leading to two places", signal.origin)
         return list(known.values())
 
     def _is_sibling(self, signal: _Signal, state: State) -> bool:
@@ -228,7 +230,7 @@ class _Shaper:
         same = self.parents[target.id] == self.parents[state.id]
         return same and target.kind is not StateKind.FINAL
 
-    def _around(self, state: str) -> list[str | None]:
+    def _containers(self, state: str) -> list[str | None]:
         """Return the containers around a state, None being the machine."""
         around: list[str | None] = []
         inner: str | None = state
@@ -237,11 +239,13 @@ class _Shaper:
             around.append(inner)
         return around
 
-    def _refuse(self, construct: str, origin: Span | None) -> None:
+    def _reject(self, construct: str, origin: Span | None) -> None:
         self.report.report("unsupported-construct", origin, target=TARGET, construct=construct)
 
 
-def _after(final: str, container: str, transitions: tuple[Transition, ...]) -> str | None:
+def _completion_target(
+    final: str, container: str, transitions: tuple[Transition, ...]
+) -> str | None:
     """Return the target of the transition on a final state of a container, if any."""
     completions = {DoneTrigger(container, None), DoneTrigger(container, final)}
     for transition in transitions:
@@ -260,7 +264,7 @@ def _monitors(state: State) -> tuple[Monitor, ...]:
     return tuple(Monitor(state, event) for event in dict.fromkeys(events))
 
 
-def _waits_only(region: State) -> State | None:
+def _only_awaits(region: State) -> State | None:
     """Return the state of a region that only awaits events, for monitors to do."""
     inside = [state for state in region.states if state.kind is not StateKind.FINAL]
     if len(inside) != 1 or inside[0].kind is not StateKind.SIMPLE or inside[0].activity is not None:

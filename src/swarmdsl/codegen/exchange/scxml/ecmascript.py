@@ -102,7 +102,7 @@ def _is_computed(trigger: Trigger) -> bool:
     return isinstance(trigger, TimeTrigger) and not isinstance(trigger.delay, Literal)
 
 
-def first_value(type_: Type, system: System) -> str:
+def initial_value(type_: Type, system: System) -> str:
     """Return ROS's default for the type of a variable without initial value."""
     value = json.dumps(default_value(type_, system))
     # An engine that evaluates the string as a program would read the brace as a block.

@@ -13,7 +13,7 @@ from collections.abc import Iterable, Mapping
 from lxml import etree
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.codegen.exchange.scxml.ecmascript import dialect, first_value, needs_data, stored
+from swarmdsl.codegen.exchange.scxml.ecmascript import dialect, initial_value, needs_data, stored
 from swarmdsl.codegen.exchange.scxml.ids import data_ids, state_ids
 from swarmdsl.codegen.exchange.scxml.payload import describe_machine, describe_state
 from swarmdsl.codegen.exchange.scxml.xml import PAYLOAD, SCXML, add, root
@@ -83,7 +83,7 @@ def _add_data(
         if variable.initial is not None:
             first = translate(variable.initial, values)
         else:
-            first = first_value(variable.type, system)
+            first = initial_value(variable.type, system)
         places[add(model, "data", id=data[variable.name], expr=first)] = variable.origin
 
 
