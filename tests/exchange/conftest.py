@@ -1,4 +1,4 @@
-"""Models compiled from text, the corpus, and an SCXML engine of others to walk through files."""
+"""Models compiled from strings, the corpus, and a third-party SCXML engine."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ event Low : sensor_msgs/BatteryState on "battery"
 
 @pytest.fixture(scope="session")
 def corpus() -> Path:
-    """The folder with files of the CPSwarm project and the SCXML schema."""
+    """Folder with files of the CPSwarm project and the SCXML schema."""
     folder = Path(os.environ.get("SWARMDSL_CORPUS", ROOT.parent / "shared" / "corpus"))
     if not folder.is_dir():
         pytest.skip(f"no corpus of real files at {folder} (set SWARMDSL_CORPUS)")
@@ -52,7 +52,7 @@ def corpus() -> Path:
 
 @pytest.fixture
 def compiled(tmp_path: Path) -> Compile:
-    """Compiles the text of declarations, after some functions and events to use in them."""
+    """Compile declarations after some functions and events that they can use."""
 
     def compiled(text: str) -> System:
         path = tmp_path / "model.swarm"
@@ -74,7 +74,7 @@ def search_and_rescue() -> System:
 
 @pytest.fixture
 def emit() -> Emit:
-    """Gives the files of target `scxml`, by name; `expected` names the diagnostics."""
+    """Return the files of target `scxml` by name; `expected` names the diagnostics."""
 
     def emit(
         system: System, profile: str = "portable", expected: Sequence[str] = ()
@@ -89,7 +89,7 @@ def emit() -> Emit:
 
 @pytest.fixture
 def findings() -> Callable[[System, str], list[Diagnostic]]:
-    """Gives what target `scxml` says of a system."""
+    """Return the diagnostics of target `scxml` for a system."""
 
     def findings(system: System, profile: str) -> list[Diagnostic]:
         report = Diagnostics()
@@ -101,9 +101,9 @@ def findings() -> Callable[[System, str], list[Diagnostic]]:
 
 @pytest.fixture
 def walk() -> Walk:
-    """Runs a document in python-statemachine: the active states at first and after each event.
+    """Run a document in python-statemachine; return the active states of each step.
 
-    That engine evaluates expressions as Python and knows no time but the real one: documents
+    That engine evaluates expressions as Python and runs in real time only: documents
     with more than plain comparisons, or with delays, cannot be walked.
     """
 

@@ -32,7 +32,7 @@ Compile = Callable[[str], System]
 
 
 def emitted(system: System, *expected: str) -> tuple[str, Any]:
-    """The name of the file and its content."""
+    """Return the name of the file and its content."""
     report = Diagnostics()
     (file,) = adf.emit(system, adf.Options(), report)
     assert [found.name for found in report] == list(expected)
@@ -40,11 +40,11 @@ def emitted(system: System, *expected: str) -> tuple[str, Any]:
 
 
 def as_we_write_it(node: Any, interface: str = "") -> Any:
-    """The appendix with the differences we intend.
+    """Return the appendix with the intended differences.
 
     - the package of `Header` is `std_msgs`, not `stds_msgs`;
     - an interface is named with its package;
-    - ids of tasks are text, as in the messages of today (and the id of an event of that kind
+    - ids of tasks are strings, as in the messages of today (and the id of an event of that kind
       is called `id`).
     """
     classes = {
@@ -171,7 +171,7 @@ def number(value: float) -> Literal:
     ],
 )
 def test_a_value_that_is_no_number(operation: Binary | Call, message: str) -> None:
-    """Inference finds zeros that are written out; what is computed shows here."""
+    """Checks find literal divisions by zero; computed ones are found here."""
     source = Source("model.swarm", "-(the operation)")
     operation = replace(operation, origin=Span(source, 2, 15))
     param = Param("x", FLOAT, Unary("-", operation, FLOAT))
@@ -189,7 +189,7 @@ def test_a_value_that_is_no_number(operation: Binary | Call, message: str) -> No
 
 
 def test_constants_of_messages(compiled: Compile) -> None:
-    """As the class `Constant` of the CPSwarm code generator reads them; ROS 1 has no bounds."""
+    """As class `Constant` of the CPSwarm generator reads them; ROS 1 has no bounds."""
     system = compiled(
         """
         message Mode {

@@ -1,4 +1,4 @@
-"""The members of a swarm by the schema of the modelling tool, and launch files that fit."""
+"""Compositions of swarms by the modelling tool's schema, and their launch files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The CPSwarm profile: every rule of the generator that reads it, and what cannot be said in it."""
+"""The CPSwarm profile: rules of its code generator, and unsupported constructs."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ BODIES = {
 
 
 def faults(document: str) -> list[str]:
-    """What the CPSwarm code generator would stumble over, or turn into code that does not run."""
+    """Return what the CPSwarm code generator rejects or turns into broken code."""
     root = etree.fromstring(document.encode())
     found = [f"unknown element {e.tag}" for e in root.iter("*") if e.tag[len(S) :] not in TAGS]
     vertices = list(root.iter(f"{S}state", f"{S}parallel"))
@@ -176,7 +176,7 @@ def call_faults(goal: Any, result: Any) -> list[str]:
 
 @pytest.fixture
 def dialect(compiled: Compile, emit: Emit) -> Callable[..., Any]:
-    """Gives the document of a machine `M` in the dialect, as a tree."""
+    """Return the document of a machine `M` in the dialect, as a tree."""
 
     def dialect(body: str, *expected: str) -> Any:
         files = emit(compiled(f"statemachine M {{\n{body}\n}}"), "cpswarm", expected)
@@ -204,7 +204,7 @@ def policy(tree: Any, name: str) -> list[list[str]]:
 
 
 def test_the_rules_see_what_they_are_for(corpus: Path) -> None:
-    """Real files break some of the rules: that is what the hand work on their output was for."""
+    """Real files break some rules: their output was completed by hand."""
     text = (corpus / "scxml" / "head_UAV_sar_FSM2.xml").read_text(encoding="utf-8")
 
     assert faults(text) == [
@@ -267,7 +267,7 @@ def test_all_that_the_dialect_can_say(compiled: Compile, emit: Emit) -> None:
 
 
 def test_a_way_out_to_a_final_state_further_out(dialect: Any) -> None:
-    """It ends each container on the way; only a container's own final state is followed."""
+    """It ends each container on the way; only its own final state continues."""
     tree = dialect(
         """
         initial Out
@@ -287,7 +287,7 @@ def test_a_way_out_to_a_final_state_further_out(dialect: Any) -> None:
 
 
 def test_a_state_of_a_real_file(dialect: Any) -> None:
-    """The state of `head_action_mapping1.xml` that is called while an event is waited for."""
+    """A state of `head_action_mapping1.xml` that runs while an event is awaited."""
     tree = dialect(
         """
         var what : string  var how_many : int32
@@ -457,7 +457,7 @@ def test_by_way_of_which_state_a_construct_comes_in(compiled: Compile, findings:
 
 
 def test_variables_of_a_reused_machine(compiled: Compile, findings: Findings) -> None:
-    """They start anew each time it is entered, which is no effect that the model has."""
+    """Each entry initializes them, which is no effect of the model."""
     system = compiled(
         """
         statemachine Inner {

@@ -1,4 +1,4 @@
-"""An expression has one value: that of the language is that of the Python and of the ECMAScript."""
+"""Expressions have the same value in the language, Python, C++ and ECMAScript."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ LEAVES = st.sampled_from(
 
 
 def modulo(left: float, right: float) -> float:
-    """The remainder that has the sign of the divisor."""
+    """Return the remainder with the sign of the divisor."""
     rest = math.fmod(left, right)
     return rest + right if rest and (rest < 0) != (right < 0) else rest
 
@@ -121,7 +121,7 @@ OPERATIONS: dict[str, Any] = {
 
 
 def value(expression: Expression) -> Any:
-    """What the language says that an expression means."""
+    """Return the value that the language gives an expression."""
     match expression:
         case Literal(value=written):
             return written
@@ -141,7 +141,7 @@ def value(expression: Expression) -> Any:
 
 
 def defined_value(expression: Expression) -> Any:
-    """The value; expressions that divide by zero or take the root of less have none."""
+    """Return the value; discard divisions by zero and roots of negative numbers."""
     try:
         return value(expression)
     except (ZeroDivisionError, ValueError):
@@ -149,7 +149,7 @@ def defined_value(expression: Expression) -> Any:
 
 
 def in_node(texts: list[str]) -> list[Any]:
-    """The values of texts in one JavaScript engine, which is started once for all."""
+    """Evaluate strings in one JavaScript engine, which is started once."""
     node = shutil.which("node")
     if node is None:
         pytest.skip("no Node: apt-get install nodejs")
@@ -219,7 +219,7 @@ def test_ecmascript_has_the_value_of_the_language() -> None:
 
 
 def in_cpp(texts: list[str], folder: Path) -> list[Any]:
-    """The values of texts in one C++ program; truth values are told from numbers."""
+    """Evaluate strings in one C++ program; bool and number differ."""
     compiler = shutil.which("g++")
     if compiler is None:
         pytest.skip("no g++: apt-get install g++")

@@ -1,4 +1,4 @@
-"""The scripts compute what the model says, from a bag, and say it as the simulation expects."""
+"""Fitness scripts compute the model's value from a bag and print it."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Bag:
 
 @pytest.fixture
 def run(compiled: Compile, tmp_path: Path) -> Run:
-    """Compiles a fitness and computes it of messages, given as pairs of topic and data."""
+    """Compile a fitness and compute it from messages, pairs of topic and data."""
 
     def run(model: str, *messages: str) -> subprocess.CompletedProcess[str]:
         report = Diagnostics()

@@ -1,4 +1,4 @@
-"""Which format carries what, found out by changing it: the table of docs/formats.md.
+"""Content of each format, found by changing models: the table of docs/formats.md.
 
 A format carries something if its files change with it. Each row changes one thing in a model.
 """
@@ -171,7 +171,7 @@ FORMATS: dict[str, tuple[str, dict[str, str]]] = {
 
 
 def written(system: System) -> dict[str, dict[str, str]]:
-    """The files of a system in each format."""
+    """Return the files of a system in each format."""
     found = {}
     for name, (target, given) in FORMATS.items():
         generator = registry.load(target)
@@ -192,7 +192,7 @@ def compiled(text: str, folder: Path) -> System:
 
 
 def table(folder: Path) -> str:
-    """What changes with what."""
+    """Return the formats that change with each row."""
     plain = written(compiled(MODEL, folder))
     lines = [f"| | {' | '.join(FORMATS)} |", "|---|" + ":-:|" * len(FORMATS)]
     for name, (old, new) in ROWS.items():

@@ -1,4 +1,4 @@
-"""The search that FREVO gets: as many evaluations as the model says, of what it varies."""
+"""The search of FREVO: number of evaluations, and parameters varied."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ DTD = """
 def emitted(
     system: System, *expected: str, **options: Any
 ) -> tuple[dict[str, Any], etree._Element]:
-    """The configuration and the problem; `expected` is what is said to have no place."""
+    """Return configuration and problem; `expected` are the constructs reported."""
     report = Diagnostics()
     configuration, problem = frevo.emit(system, frevo.Options(**options), report)
     assert (configuration.path, problem.path) == (
@@ -176,7 +176,7 @@ def test_keys_of_a_real_file(compiled: Compile, corpus: Path) -> None:
 
 
 def shape(value: Any) -> Any:
-    """Keys and kinds of values, those of a list as those of its first element; names of classes."""
+    """Return keys and types of values; for lists the first element, else class names."""
     if isinstance(value, dict):
         return [(name, shape(item)) for name, item in value.items()]
     if isinstance(value, list):

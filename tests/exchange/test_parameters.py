@@ -1,4 +1,4 @@
-"""What an optimiser may vary: whole numbers and their scale, by the schema of the tool."""
+"""Search spaces as integers with their scale, by the schema of the tool."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ swarm Search { uav : Uav[1..8] other : Uav fitness Good }
 def emitted(
     system: System, *expected: tuple[str, str], package: str = ""
 ) -> dict[str, dict[str, Any]]:
-    """The parameters by name; `expected` are the places of what is reported, and the notes."""
+    """Return parameters by name; `expected` are the reported places and notes."""
     report = Diagnostics()
     (file,) = parameters.emit(system, parameters.Options(package), report)
     assert file.path == "search/parameters.json"

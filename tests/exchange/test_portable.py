@@ -1,4 +1,4 @@
-"""The portable profile: what each construct becomes, and how an engine of others runs it."""
+"""The portable profile: output of constructs, and runs in a third-party engine."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SW = "{urn:swarmdsl:scxml}"
 
 @pytest.fixture
 def written(compiled: Compile, emit: Emit) -> Callable[..., str]:
-    """Gives the text of the portable document of a machine `M`, the rest of which is as told."""
+    """Return the portable document of a machine `M` with the given body."""
 
     def written(body: str, others: str = "", kind: str = "statemachine") -> str:
         return emit(compiled(f"{others}\n{kind} M {{\n{body}\n}}"))["M.scxml"]
@@ -30,7 +30,7 @@ def written(compiled: Compile, emit: Emit) -> Callable[..., str]:
 
 @pytest.fixture
 def parsed(written: Callable[..., str]) -> Callable[..., Any]:
-    """Gives the same as a tree."""
+    """Return the same as a tree."""
 
     def parsed(*arguments: str) -> Any:
         return etree.fromstring(written(*arguments).encode())
@@ -283,7 +283,7 @@ def test_which_final_state_was_reached(parsed: Any) -> None:
 
 
 def test_a_completion_counts_once(written: Any, walk: Walk) -> None:
-    """A `done` that led back in must not be answered again by what follows it in the queue."""
+    """A `done` that led back in must not trigger again from the queue."""
     document = written(FINALS)
 
     assert walk(document, ["do.Work.aborted", "do.Work.aborted", "do.Work.succeeded"]) == [
@@ -780,7 +780,7 @@ INTO_REGION = """
 
 
 def test_an_internal_transition_into_a_region(parsed: Any, written: Any, walk: Walk) -> None:
-    """SCXML has none: the parallel state would be left. So it belongs to the region."""
+    """SCXML lacks it and would leave the parallel state, so the region has it."""
     tree = parsed(INTO_REGION)
 
     assert transitions(by_id(tree, "R")) == [

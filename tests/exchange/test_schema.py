@@ -43,7 +43,7 @@ def test_every_construct_is_valid(
     schema: etree.XMLSchema,
     emit: Callable[..., dict[str, str]],
 ) -> None:
-    """Also where constructs meet that no model of the others brings together."""
+    """Combinations of constructs that no other model has."""
     system = compiled(
         """
         statemachine Inner {

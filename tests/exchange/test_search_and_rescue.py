@@ -1,4 +1,4 @@
-"""The example walks the same states as the machine of the CPSwarm project that it re-models."""
+"""The example visits the same states as the CPSwarm machine that it re-models."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ EXPECTED = ["Idle", *(state for *_, state in MISSION)]
 
 
 def named(active: list[set[str]]) -> list[str]:
-    """The state of the mission that is active at each step."""
+    """Return the active state of the mission at each step."""
     walked = [sorted(states & set(EXPECTED)) for states in active]
     assert all(len(states) == 1 for states in walked), walked
     return [states[0] for states in walked]

@@ -1,4 +1,4 @@
-"""The configuration of the bridge has its keys, and what one member sends another one hears."""
+"""The bridge configuration: its keys, and matching senders and receivers."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOKEN = re.compile(
 
 
 def parsed(text: str) -> dict[str, Any]:
-    """A libconfig file: groups as dicts, lists as lists (the grammar of its manual, in part)."""
+    """Parse a libconfig file: groups as dicts, lists as lists (part of its grammar)."""
     tokens, at = [], 0
     while at < len(text):
         found = TOKEN.match(text, at)

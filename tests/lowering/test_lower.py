@@ -1,4 +1,4 @@
-"""What a valid model becomes: ids, reused machines in place, units, names across packages."""
+"""Lowering of valid models: ids, expanded submachines, units, names of packages."""
 
 from __future__ import annotations
 

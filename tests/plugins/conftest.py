@@ -27,7 +27,7 @@ def built_in(monkeypatch) -> Callable[[Generator], None]:
 
 @pytest.fixture
 def install(tmp_path: Path, monkeypatch) -> Callable[..., None]:
-    """Install a module with an entry point, the way pip leaves it behind."""
+    """Install a module with an entry point, as pip does."""
     site = tmp_path / "site"
     site.mkdir()
     monkeypatch.syspath_prepend(site)

@@ -1,4 +1,4 @@
-"""What the core checks before and after a generator runs."""
+"""Checks of the core before and after a generator runs."""
 
 import logging
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Every use of a feature is found, where it stands."""
+"""Every use of a feature is found, with its place."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Finding generators: a broken one is named and harms no other."""
+"""Discovery of generators: a broken one is named and does not affect others."""
 
 import subprocess
 import sys

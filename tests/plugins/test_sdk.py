@@ -1,4 +1,4 @@
-"""The SDK for authors of generators: what it exports, what imports it, and its old names."""
+"""The SDK for authors of generators: exports, importers, old names."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ RENAMED = {
 
 
 def imported(path: Path) -> Iterator[str]:
-    """The modules of swarmdsl that a file imports."""
+    """Yield the modules of swarmdsl that a file imports."""
     for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)

@@ -1,4 +1,4 @@
-"""Templates of generators are compiled once, wherever that can be kept."""
+"""Templates of generators are compiled once, if a cache is available."""
 
 import sys
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Strategies for expressions with the types that inference gives them."""
+"""Strategies for expressions with inferred types."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ lengths = st.integers(0, 2**56) | st.sampled_from([1, 999, 1_000, 60_000_000_000
 
 
 def literals(type_: Type) -> st.SearchStrategy[Expression]:
-    """Literals that can be used where a type is wanted."""
+    """Return literals that are valid for a type."""
     if type_ == BOOL:
         return st.booleans().map(lambda value: Literal(value, BOOL))
     if type_ == STRING:
@@ -58,13 +58,13 @@ def literals(type_: Type) -> st.SearchStrategy[Expression]:
 
 
 def expressions(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int = 2) -> Expression | None:
-    """An expression that can be used where a type is wanted; None where there is none."""
+    """Return expressions that are valid for a type; None if there is none."""
     made = _expression(draw, type_, leaves, depth)
     return made if made is None or _fits_in(made, type_) else draw(literals(type_))
 
 
 def _fits_in(expression: Expression, type_: Type) -> bool:
-    """Whether the value of an expression, where it is known, is one of a type."""
+    """Return True if the value of an expression, if known, is in range of a type."""
     try:
         value = evaluate(expression, {})
     except UnknownValueError:
@@ -97,7 +97,7 @@ def _expression(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Exp
 
 
 def delay(draw: st.DrawFn, leaves: Leaves) -> Expression:
-    """A length of time that is not negative."""
+    """Return durations that are not negative."""
     known = [leaf for leaf in leaves if leaf.type == DURATION]
     time = draw(st.sampled_from(known)) if known and draw(st.booleans()) else None
     short = Literal(draw(st.integers(0, 10**15)), DURATION)
@@ -166,7 +166,7 @@ def _duration(draw: st.DrawFn, leaves: Leaves, depth: int) -> Expression:
 
 
 def _number(draw: st.DrawFn, type_: Type, leaves: Leaves, depth: int) -> Expression:
-    """A number; a whole one unless the type takes others."""
+    """Return numbers; integers unless the type is real."""
     operators = ["+", "-", "*", "%", "negative", "abs", "max", "len"]
     if type_ in FLOAT_TYPES:
         operators += ["/", "sqrt", "per"]
@@ -215,6 +215,6 @@ def _fits(found: Type | None, wanted: Type) -> bool:
 
 
 def event_leaves(message: Named, fields: Sequence[tuple[str, Type]]) -> list[Expression]:
-    """The fields of the message that came with an event."""
+    """Return the fields of the triggering event's message."""
     data = EventData(message)
     return [data, *(FieldAccess(data, name, type_) for name, type_ in fields)]

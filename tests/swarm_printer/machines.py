@@ -1,4 +1,4 @@
-"""Strategies for state machines: states in states, and every kind of transition."""
+"""Strategies for state machines: nested states, and every kind of transition."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ COMPOSITE, PARALLEL, REGION = StateKind.COMPOSITE, StateKind.PARALLEL, StateKind
 
 @dataclass
 class World:
-    """What a machine can use."""
+    """Declarations that a machine can use."""
 
     interfaces: dict[Named, Interface]
     events: list[Event]
@@ -68,7 +68,7 @@ class World:
 
 @dataclass
 class Data:
-    """What a machine knows, and what it can store in."""
+    """Data that a machine can read and write."""
 
     leaves: list[Expression]
     variables: list[Variable]
@@ -111,7 +111,7 @@ def machines(draw: st.DrawFn, name: str, world: World) -> StateMachine:
 
 
 def docs_of(draw: st.DrawFn, docs: st.SearchStrategy[str], *names: str) -> Docs:
-    """Documentation of lines that have no nodes."""
+    """Return documentation of lines without nodes."""
     drawn = [(name, draw(docs)) for name in sorted(names)]
     return tuple((name, doc) for name, doc in drawn if doc)
 
@@ -119,7 +119,7 @@ def docs_of(draw: st.DrawFn, docs: st.SearchStrategy[str], *names: str) -> Docs:
 def _skeleton(
     draw: st.DrawFn, prefix: str, depth: int, docs: st.SearchStrategy[str]
 ) -> tuple[State, ...]:
-    """States without transitions; the first can be entered."""
+    """Return states without transitions; the first can be entered."""
     kinds = [SIMPLE, FINAL, FINAL, CHOICE]
     if depth:
         kinds += [COMPOSITE, PARALLEL, PARALLEL]
@@ -167,7 +167,7 @@ def _content(state: State) -> Sequence[State]:
 
 
 def _below(state: State) -> Iterator[State]:
-    """What a path that begins with the name of a state leads to."""
+    """Return the targets of a path that begins with the name of a state."""
     yield state
     content = _content(state)
     names = [inner.name for inner in content]
@@ -178,7 +178,7 @@ def _below(state: State) -> Iterator[State]:
 
 @dataclass
 class _Filler:
-    """Fills states with what they do and where they lead."""
+    """Fill states with activities, effects and transitions."""
 
     draw: st.DrawFn
     world: World
@@ -226,11 +226,11 @@ class _Filler:
         return self.draw(st.sampled_from(targets))
 
     def _quiet(self, state: State) -> bool:
-        """Whether it is not left at once, whatever it is filled with."""
+        """Return True if the state is not left at once, whatever its content."""
         return state.kind is FINAL
 
     def _targets(self, state: State, around: tuple[State, ...]) -> list[State]:
-        """The states that a transition can name, nearer ones before those they hide."""
+        """Return the states that a transition can name, nearer ones before hidden ones."""
         levels: list[Sequence[State]] = [self.top]
         for each in around:
             if each.kind is not PARALLEL:
@@ -248,7 +248,7 @@ class _Filler:
 
     @staticmethod
     def _same_region(target: State, around: tuple[State, ...]) -> bool:
-        """Whether a target is in no other region of the parallel states around."""
+        """Return True if no enclosing parallel state separates the target."""
         return all(
             target.id.startswith(f"{region.id}.")
             for outer, region in pairwise(around)
@@ -329,7 +329,7 @@ class _Filler:
         )
 
     def _ends(self, state: State) -> list[DoneTrigger]:
-        """The ways in which a state can be done."""
+        """Return the ways in which a state can be done."""
         containers = state.states if state.kind is PARALLEL else [state]
         found = []
         complete = bool(containers)
@@ -358,7 +358,7 @@ class _Filler:
         return tuple(found)
 
     def _place(self, type_: Type) -> tuple[tuple[str, ...], Type]:
-        """A field of a variable, or the variable itself."""
+        """Return a field of a variable, or the variable itself."""
         known = self.world.interfaces.get(type_) if isinstance(type_, Named) else None
         if isinstance(known, Message) and known.fields and self.draw(st.booleans()):
             chosen = self.draw(st.sampled_from(known.fields))

@@ -1,4 +1,4 @@
-"""A system to text and back through the whole front end."""
+"""Print a system and compile the text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from swarmdsl.ir import System
 
 
 def compiled(*paths: Path) -> System:
-    """The system of a valid model; warnings are fine."""
+    """Return the system of a valid model; warnings are allowed."""
     result = pipeline.check(list(paths))
     errors = [
         (found.code, found.message, found.primary and found.primary.span.text)
@@ -23,7 +23,7 @@ def compiled(*paths: Path) -> System:
 
 
 def printed_and_compiled(system: System, folder: Path) -> System:
-    """What comes back from the text of a system."""
+    """Return the system compiled from the text of a system."""
     path = folder / f"{system.name}.swarm"
     path.write_text(print_system(system), encoding="utf-8")
     try:

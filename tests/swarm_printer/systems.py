@@ -1,4 +1,4 @@
-"""A strategy for whole systems, valid ones, with names that a careless printer trips over."""
+"""Strategy for valid systems with names that a careless printer confuses."""
 
 from __future__ import annotations
 
@@ -229,7 +229,7 @@ def _components(
     functions: list[Function],
     package: str,
 ) -> tuple[list[Component], list[Interface], list[Function]]:
-    """Components, and interfaces and functions with those of their operations among them."""
+    """Return components, with the interfaces and functions of their operations."""
     left, right = list(interfaces), list(functions)
     all_interfaces: list[Interface] = []
     all_functions: list[Function] = []
@@ -284,7 +284,7 @@ def _components(
 def asked_of(
     namespace: str, operations: Sequence[str], functions: Sequence[Function]
 ) -> list[Function]:
-    """The same operations, with servers in another namespace."""
+    """Return the same operations, with servers in another namespace."""
     found = [each for name in operations for each in functions if each.name == name]
     names = [each.communication.name.rpartition("/")[2] for each in found]
     return [
@@ -305,7 +305,7 @@ def _members(
     behaviours: list[StateMachine],
     functions: list[Function],
 ) -> list[Member]:
-    """Members; the functions that their parts offer are added to the `functions`."""
+    """Return members; the functions of their parts are added to `functions`."""
     found: list[Member] = []
     for number in range(draw(st.integers(0, 3))):
         base = draw(st.sampled_from(found)) if found and draw(st.booleans()) else None

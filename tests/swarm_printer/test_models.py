@@ -1,4 +1,4 @@
-"""Models to text and back: the examples, and what only lowering makes."""
+"""Round trips of models: the examples, and constructs that only lowering makes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whatever a system is made of, its text means the same."""
+"""The text of any system has the meaning of the system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Target `roster`: who is in a swarm, as text."""
+"""Target `roster`: members of a swarm, as text."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _indent_fault(indent: int) -> str | None:
 
 @dataclass(frozen=True)
 class Options:
-    """What can be chosen."""
+    """Options of target `roster`."""
 
     style: str = option("plain", "How a role is written.", choices=("plain", "markdown"))
     title: str = option("", "A first line.")
@@ -24,7 +24,7 @@ class Options:
 
 
 def emit(system: System, options: Options, report: Diagnostics) -> Iterator[OutputFile]:
-    """One file a swarm."""
+    """Yield a file for each swarm."""
     for swarm in system.swarms:
         lines = [options.title] if options.title else []
         for role in swarm.roles:
