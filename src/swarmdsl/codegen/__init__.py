@@ -1,4 +1,4 @@
-"""From the IR to files: the SDK for authors of generators, and the bundled targets.
+"""SDK for authors of generators, and the way from the IR to files.
 
 A generator imports this package, its modules below, and `swarmdsl.ir`; nothing else is public.
 

@@ -24,7 +24,7 @@ def problem(
     places: Mapping[str, str],
     report: Diagnostics,
 ) -> str:
-    """Return the file; `parameters` is the number search_parameters, `places` are properties."""
+    """Return the file; `parameters` counts those varied, `places` are properties."""
     package = swarm.name.lower()
     root = etree.Element("icomponent")
     config = etree.SubElement(root, "config")

@@ -1,4 +1,4 @@
-"""Target `swarmros`: configuration of the bridge of CPSwarm's library, a file a member."""
+"""Target `swarmros`: for each member, the configuration of CPSwarm's bridge."""
 
 from __future__ import annotations
 

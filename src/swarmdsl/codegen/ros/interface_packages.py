@@ -43,9 +43,9 @@ def group_by_package(
 
 
 def interfaces_to_write(system: System, extra: str) -> list[Interface]:
-    """Return the interfaces to write: the model's own and those of packages `others`.
+    """Return the interfaces to write: the model's own and those of `extra` packages.
 
-    `others` are comma-separated packages that no workspace has, but that the model or its
+    `extra` are comma-separated packages that no workspace has, but that the model or its
     libraries describe.
     """
     packages = extra.split(",")
@@ -81,7 +81,7 @@ def check_described(system: System, extra: str, target: str, report: Diagnostics
 def third_party_packages(
     used: Iterable[Named], made: Iterable[InterfacePackage], system: System
 ) -> list[str]:
-    """Return the packages of used interfaces that neither come with ROS nor are `made`."""
+    """Return the packages of used interfaces that are not `made` or ROS's own."""
     known = {*system.ros_packages, *(package.name for package in made)}
     return sorted({type_.package for type_ in used} - known)
 

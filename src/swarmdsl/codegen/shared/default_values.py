@@ -53,7 +53,7 @@ def sent_types(interface: Interface | None) -> dict[str, Type]:
 
 
 def result_fields(call: Communication, system: System) -> tuple[Field, ...] | None:
-    """Return the fields of a function's result or response; None if they are not known."""
+    """Return the fields of a function's result or response, or None if unknown."""
     match system.known_interface(call.type, Service):
         case Action(result=fields) | Service(response=fields):
             return fields
@@ -61,7 +61,10 @@ def result_fields(call: Communication, system: System) -> tuple[Field, ...] | No
 
 
 def default_result(call: Communication, system: System) -> dict[str, Any]:
-    """Return the result of a function that succeeded; field `success` of a response is true."""
+    """Return the result of a function that succeeded.
+
+    Field `success` of a response is true.
+    """
     found = default_fields(result_fields(call, system) or (), system)
     if call.paradigm == "service" and found.get("success") is False:
         found["success"] = True

@@ -1,4 +1,4 @@
-"""Target `scxml`: each state machine as SCXML, portable and in the CPSwarm dialect."""
+"""Target `scxml`: state machines as portable SCXML and in the CPSwarm dialect."""
 
 from __future__ import annotations
 
