@@ -12,7 +12,7 @@ from climb.implementation import Climb
 
 @pytest.fixture
 def node():
-    """The node with ROS in this process."""
+    """Create the node, with ROS in this process."""
     rclpy.init()
     needed = [
         Parameter('frame', value='map'),
