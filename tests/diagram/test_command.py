@@ -43,8 +43,8 @@ def test_one_goes_to_a_file(tmp_path: Path) -> None:
         (["--name", "Patrl"], 1, "did you mean `Patrol`?"),
         (["--kind", "swarm"], 2, "'swarm' is not one of"),
         (["-o", "all.svg"], 1, "error[SW1302]: cannot write 4 diagrams to file `all.svg`"),
-        (["-o", "all.svg"], 1, "name a folder for them with `-o`, or choose: `--name Pack`"),
-        (["-o", "one.PNG"], 2, "no `.png` is written; name a file that ends with `.svg` (with"),
+        (["-o", "all.svg"], 1, "give a folder with `-o`, or select one: `--name Pack`"),
+        (["-o", "one.PNG"], 2, "`.png` is not written; name a file that ends with `.svg` (with"),
         (["-o", "one.dot"], 2, "ends with `.svg`, or add `--format dot`"),
         (["-o", "rover.swarm/x/y"], 1, "error[SW0909]: cannot write"),
     ],
@@ -67,7 +67,7 @@ def test_what_cannot_be_done_is_said(
 def test_a_timeline_is_no_other_picture(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "t.png"
     assert run(["simulate", str(MODEL), "--machine", "Patrol", "--timeline", str(path)]) == 2
-    assert "no `.png` is written; name a file that ends with `.svg`" in capsys.readouterr().err
+    assert "`.png` is not written; name a file that ends with `.svg`" in capsys.readouterr().err
     assert not path.exists()
 
 

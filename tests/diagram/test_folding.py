@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from swarmdsl.codegen.diagram.graph import Diagram
-from swarmdsl.tools.diagram.folding import folded
+from swarmdsl.tools.diagram.folding import fold
 from swarmdsl.tools.diagram.layout import lay_out
 from swarmdsl.tools.diagram.svg import svg
 from swarmdsl.tools.diagram.views import diagrams
@@ -29,7 +29,7 @@ def ways(of: Diagram) -> set[tuple[str, str, tuple[str, ...]]]:
 
 def test_edges_lead_to_what_is_folded() -> None:
     patrol = diagram("Patrol.statechart")
-    found = folded(patrol, ["Round"])
+    found = fold(patrol, ["Round"])
     ids = {node.id for node in found.frame.walk()}
     assert ids == {
         each.id for each in patrol.frame.walk() if not each.id.startswith(("Round.", "Round#"))
@@ -66,33 +66,33 @@ def test_edges_that_look_the_same_are_one(tmp_path: Path) -> None:
     )
     (walk,) = diagrams(system_of(model))
     assert sum(edge.target == "End" for edge in walk.edges) == 2
-    assert sum(edge.target == "End" for edge in folded(walk, ["Go"]).edges) == 1
+    assert sum(edge.target == "End" for edge in fold(walk, ["Go"]).edges) == 1
 
 
 def test_what_is_not_there_or_has_no_inside_is_not_folded() -> None:
     patrol = diagram("Patrol.statechart")
-    assert folded(patrol, ["Nowhere", "Idle", "Pick", "", "Round.Legs"]) == patrol
+    assert fold(patrol, ["Nowhere", "Idle", "Pick", "", "Round.Legs"]) == patrol
 
 
 def test_a_folded_state_in_a_folded_one_is_hidden_like_the_others() -> None:
     patrol = diagram("Patrol.statechart")
-    assert folded(patrol, ["Round.Eyes.Alert", "Round"]) == folded(patrol, ["Round"])
+    assert fold(patrol, ["Round.Eyes.Alert", "Round"]) == fold(patrol, ["Round"])
     assert "Round.Eyes.Alert" in {
-        node.id for node in folded(patrol, ["Round.Eyes.Alert"]).frame.walk()
+        node.id for node in fold(patrol, ["Round.Eyes.Alert"]).frame.walk()
     }
 
 
 def test_a_folded_part_keeps_its_ports() -> None:
     rover = diagram("Rover.internal")
     part = next(node for node in rover.frame.nodes if node.foldable)
-    found = folded(rover, [part.id])
+    found = fold(rover, [part.id])
     assert found.edges == rover.edges
     (now,) = (node for node in found.frame.nodes if node.id == part.id)
     assert (now.ports, now.compartments) == (part.ports, ())
 
 
 def test_a_picture_says_what_can_be_folded() -> None:
-    root = etree.fromstring(svg(folded(diagram("Patrol.statechart"), ["Round"])).encode())
+    root = etree.fromstring(svg(fold(diagram("Patrol.statechart"), ["Round"])).encode())
     folds = {each.get("data-id"): each.get("data-fold") for each in root.iter("{*}g")}
     assert folds["Round"] == "closed"
     assert folds["Idle"] is None
@@ -107,4 +107,4 @@ def test_pictures_with_what_is_folded_are_laid_out_well(seed: int, direction: ob
     machine = machines(seed)
     ids = [node.id for node in machine.frame.walk()]
     some = random.Random(seed).sample(ids, len(ids) // 3)
-    check(lay_out(folded(machine, some), direction))
+    check(lay_out(fold(machine, some), direction))

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
 from swarmdsl.tools.diagram.layout import Box, Picture, lay_out, layering
-from swarmdsl.tools.diagram.layout.cycles import backward
-from swarmdsl.tools.diagram.layout.simplex import Constraint, minimized
-from swarmdsl.tools.diagram.measure import width, wrapped
+from swarmdsl.tools.diagram.layout.cycles import feedback_edges
+from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
+from swarmdsl.tools.diagram.measure import width, wrap
 from swarmdsl.tools.diagram.shapes import PSEUDO_STATES, Direction
 
 from .conftest import MODEL, drawn_of
@@ -180,7 +180,7 @@ def test_pictures_of_random_machines(seed: int, direction: Direction) -> None:
 def test_pictures_with_lanes_beside_all_else(seed: int, direction: Direction) -> None:
     """As in very large ones."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(layering, "_MOST_PASSED", -1)
+        patch.setattr(layering, "_MAX_CROSSED", -1)
         patch.setattr(layering, "_NEAR", 0)
         check(lay_out(machines(seed), direction))
 
@@ -215,10 +215,10 @@ def test_no_other_numbers_cost_less(data: st.DataObject) -> None:
             return None
         return sum(weight * (numbers[h] - numbers[t]) for t, h, _, weight in constraints)
 
-    found = cost(minimized(count, constraints))
+    found = cost(minimize(count, constraints))
     assert found is not None
     # No step that moves some of them by one makes it better: the costs are convex.
-    numbers = minimized(count, constraints)
+    numbers = minimize(count, constraints)
     for moved in range(1, 2**count):
         for step in (-1, 1):
             other = [n + step * (moved >> at & 1) for at, n in enumerate(numbers)]
@@ -228,7 +228,7 @@ def test_no_other_numbers_cost_less(data: st.DataObject) -> None:
 
 @given(st.lists(st.tuples(st.integers(0, 7), st.integers(0, 7)), max_size=20))
 def test_without_backward_edges_there_are_no_circles(edges: list[tuple[int, int]]) -> None:
-    flipped = backward(8, edges, (0,))
+    flipped = feedback_edges(8, edges, (0,))
     rest = {edge for at, edge in enumerate(edges) if at not in flipped}
     left = set(range(8))
     while left:
@@ -241,7 +241,7 @@ def test_without_backward_edges_there_are_no_circles(edges: list[tuple[int, int]
 
 @given(st.text(min_size=1), st.integers(20, 200))
 def test_lines_are_not_wider_than_asked_for(text: str, most: int) -> None:
-    lines = wrapped(text, "line", most)
+    lines = wrap(text, "line", most)
     assert "".join(lines).split() == "".join(text.split()).split() or "".join(
         "".join(lines).split()
     ) == "".join(text.split())

@@ -12,7 +12,7 @@ from swarmdsl.base.source import Span
 from swarmdsl.codegen.diagram.graph import Diagram
 from swarmdsl.driver.pipeline import Result
 from swarmdsl.ir import System
-from swarmdsl.tools.diagram.folding import folded
+from swarmdsl.tools.diagram.folding import fold
 from swarmdsl.tools.diagram.svg import svg
 from swarmdsl.tools.diagram.views import diagrams
 
@@ -67,7 +67,7 @@ class Pictures:
         """Draw the diagram of an id, else the first one; `hidden` nodes are folded."""
         named = (each for each in self._diagrams if each.stem == id_)
         found = next(named, self._diagrams[0] if self._diagrams else None)
-        return {"id": found.stem, "svg": svg(folded(found, hidden))} if found is not None else {}
+        return {"id": found.stem, "svg": svg(fold(found, hidden))} if found is not None else {}
 
     @cached_property
     def files(self) -> frozenset[str]:

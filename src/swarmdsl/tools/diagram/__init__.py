@@ -1,5 +1,5 @@
-"""Diagrams of a model: its swarms, the insides of its members, and its state machines.
+"""Draw diagrams of swarms, members and state machines: `swarmc diagram`.
 
-A model becomes a graph (`composition`, `internal`, `statechart`), which is written in one of
-the formats. For SVG it is laid out first.
+The graph of a diagram comes from `codegen.diagram` and is written in one of the formats; SVG needs
+a layout first.
 """

@@ -1,4 +1,4 @@
-"""What `swarmc diagram` does: from files to pictures on disk or to one on standard output."""
+"""Draw diagrams to files or standard output: `swarmc diagram`."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from swarmdsl.driver.config import find_settings
 from swarmdsl.tools.diagram.formats import FORMATS, SUFFIXES
 from swarmdsl.tools.diagram.views import diagrams
 
-_MOST_NAMED = 12
+_MAX_NAMED = 12
 
 
 @dataclass(frozen=True)
-class Drawn:
-    """What came of a run: `text` where it is for standard output, else `written` on disk."""
+class DrawResult:
+    """Result of a run: `text` for standard output, or the files `written`."""
 
     report: Diagnostics
     files: int
@@ -32,48 +32,48 @@ class Drawn:
 
 def draw(
     paths: tuple[Path, ...], kind: str, names: Sequence[str], format_: str, out: Path | None
-) -> Drawn:
-    """Draw what is asked for of the model in these files.
+) -> DrawResult:
+    """Draw the selected diagrams of the model in the given files.
 
-    `kind` is one of `KINDS` or `all`, `names` choose among the diagrams if there are any.
-    Several diagrams go to a folder; one goes to file `out`, or to standard output.
+    `kind` is one of `KINDS` or `all`; `names` select diagrams, by default all. Several diagrams go
+    to a folder; a single one goes to file `out` or to standard output.
     """
     report = Diagnostics()
     settings = find_settings(paths, report)
     if report.has_errors:
-        return Drawn(report, 1)
+        return DrawResult(report, 1)
     checked = pipeline.check(paths or settings.sources, settings)
     report.include(checked.report)
     if checked.system is None:
-        return Drawn(report, checked.files)
+        return DrawResult(report, checked.files)
     kinds = KINDS if kind == "all" else tuple(each for each in KINDS if each == kind)
     every = list(diagrams(checked.system, kinds))
-    chosen = _chosen(every, names, report)
+    chosen = _select(every, names, report)
     if not every:
         report.report(
             "nothing-to-draw", what="any diagram" if kind == "all" else f"{kind} diagrams"
         )
     write = FORMATS[format_]
     if report.has_errors:
-        return Drawn(report, checked.files)
+        return DrawResult(report, checked.files)
     suffix = SUFFIXES[format_]
     to_file = out is not None and not out.is_dir() and (out.suffix == suffix or out.exists())
     if len(chosen) > 1 and (out is None or to_file):
         where = f"file `{out}`" if out is not None else "standard output"
-        help_ = _choices(chosen)
+        help_ = _selection_hint(chosen)
         report.report("unclear-diagram", count=len(chosen), where=where, help=help_)
-        return Drawn(report, checked.files)
+        return DrawResult(report, checked.files)
     if out is None:
-        return Drawn(report, checked.files, write(chosen[0]))
+        return DrawResult(report, checked.files, write(chosen[0]))
     is_folder = out.is_dir() or len(chosen) > 1 or (not out.suffix and not out.exists())
     texts = {
         out / f"{each.stem}{suffix}" if is_folder else out: write(each).encode() for each in chosen
     }
-    return Drawn(report, checked.files, written=_write(texts, report))
+    return DrawResult(report, checked.files, written=_write(texts, report))
 
 
-def _chosen(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics) -> list[Diagram]:
-    """The diagrams of these names, or all where none is given."""
+def _select(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics) -> list[Diagram]:
+    """Diagrams with the given names, by default all."""
     known = {each.name for each in every}
     for name in names:
         if name not in known and known:
@@ -84,17 +84,17 @@ def _chosen(every: Sequence[Diagram], names: Sequence[str], report: Diagnostics)
     return [each for each in every if not names or each.name in names]
 
 
-def _choices(chosen: Sequence[Diagram]) -> str:
+def _selection_hint(chosen: Sequence[Diagram]) -> str:
     names = list(dict.fromkeys(f"--name {each.name}" for each in chosen))
-    return f"name a folder for them with `-o`, or choose: {listed(names[:_MOST_NAMED])}"
+    return f"give a folder with `-o`, or select one: {listed(names[:_MAX_NAMED])}"
 
 
 def _write(texts: dict[Path, bytes], report: Diagnostics) -> list[Path]:
-    """Write all files, or none where one cannot be written."""
+    """Write all files, or none if one cannot be written."""
     try:
         with Staging() as staging:
             for path, content in texts.items():
-                # A link stays one: the file that it leads to is replaced.
+                # Keep a symbolic link and replace its target.
                 staging.add(Path(os.path.realpath(path)), content)
             for _ in staging.move_in_place():
                 pass

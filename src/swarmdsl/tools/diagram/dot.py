@@ -1,4 +1,4 @@
-"""Diagrams as DOT text, for Graphviz (https://graphviz.org/doc/info/lang.html)."""
+"""Write diagrams as DOT for Graphviz (https://graphviz.org/doc/info/lang.html)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _EDGES = {
 
 
 def dot(diagram: Diagram) -> str:
-    """The text of a diagram."""
+    """DOT text of a diagram."""
     return "\n".join([*_Writer(diagram).lines(), ""])
 
 
@@ -58,7 +58,7 @@ class _Writer:
             yield f"subgraph cluster_{name} {{"
             yield f"  label={_label(_head(node))}"
             yield f"  style={style}"
-            # What leads to the whole state ends at a point in it.
+            # Edges to the whole state end at an invisible point in the cluster.
             yield f'  {name} [shape=point, style=invis, width=0, label=""]'
             for child in node.nodes:
                 yield from _indented(self.node(child))
@@ -77,7 +77,7 @@ class _Writer:
             yield f"{name} [style={style}, label={_label(_head(node))}]"
 
     def table(self, node: Node) -> str:
-        """A box with a cell for each port, as HTML."""
+        """HTML label of a box with a cell for each port."""
         head = "<br/>".join(map(_html, _head(node)))
         rows = [f'<tr><td colspan="2">{head}</td></tr>']
         ins = [port for port in node.ports if port.direction != "out"]
@@ -102,7 +102,7 @@ class _Writer:
         facts = [_EDGES[edge.kind]] if edge.kind in _EDGES else []
         if edge.label:
             facts.append(f"label={_label(edge.label)}")
-        # An end in a cluster of which the other is a part cannot be cut off at its border.
+        # Graphviz cannot clip an edge at a cluster that contains its other end.
         if self.nodes[edge.source].nodes and not self.within(edge.target, edge.source):
             facts.append(f"ltail=cluster_{self.names[edge.source]}")
         if self.nodes[edge.target].nodes and not self.within(edge.source, edge.target):
@@ -116,7 +116,7 @@ class _Writer:
         return f"{self.names[node]}:{self.names[port]}" if node else self.names[port]
 
     def within(self, node: str, ancestor: str) -> bool:
-        """Whether a node is another one or inside it; all are inside the frame."""
+        """Return True if a node is `ancestor` or inside it; the frame contains all nodes."""
         at: str | None = node
         while at is not None and at != ancestor:
             at = self.parents.get(at)
@@ -124,7 +124,7 @@ class _Writer:
 
 
 def _head(node: Node) -> list[str]:
-    """The name and all that stands below it."""
+    """Keyword, name and compartments of a node."""
     name = f"{node.keyword} {node.name}" if node.kind == "frame" else node.name
     keyword = [f"«{node.keyword}»"] if node.keyword and node.kind != "frame" else []
     return [*keyword, name, *(line for group in node.compartments for line in group)]

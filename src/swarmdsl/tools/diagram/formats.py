@@ -1,4 +1,4 @@
-"""What diagrams are written as."""
+"""Output formats of diagrams."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from swarmdsl.tools.diagram.plantuml import plantuml
 from swarmdsl.tools.diagram.svg import svg
 
 FORMATS = {"svg": svg, "dot": dot, "mermaid": mermaid, "plantuml": plantuml}
-"""What writes a diagram, by the name of the format."""
+"""Writer of each format by name."""
 SUFFIXES = {"svg": ".svg", "dot": ".dot", "mermaid": ".mmd", "plantuml": ".puml"}

@@ -1,7 +1,7 @@
-"""How wide text is, without a font: the widths of Helvetica, which Arial and Liberation Sans share.
+"""Measure text by the widths of Helvetica, Arial and Liberation Sans.
 
-From Adobe's font metrics (Helvetica.afm), in thousandths of the size. A picture says how long
-each text is, so that another font is fitted to that.
+The widths are from Adobe's font metrics (Helvetica.afm), in thousandths of the font size. The SVG
+states the length of each text, so that other fonts are stretched to fit.
 """
 
 from __future__ import annotations
@@ -24,45 +24,45 @@ _WIDTHS = dict(
     )
 )
 _OTHER, _WIDE = 600, 1000
-_SIGNS = "._-,(/="
+_BREAK_AFTER = "._-,(/="
 _BOLD = 1.07
-"""Bold letters are so much wider, on average."""
+"""Average width of bold relative to regular text."""
 SIZES = {"name": 13, "keyword": 10, "line": 11, "label": 11}
 LINE_HEIGHTS = {"name": 17, "keyword": 13, "line": 15, "label": 14}
 BOLD = {"name"}
 
 
 def width(text: str, style: str) -> int:
-    """The width of a line of text in pixels."""
-    units = sum(_WIDTHS.get(character) or _unusual(character) for character in text)
+    """Width of a line of text in pixels."""
+    units = sum(_WIDTHS.get(character) or _fallback_width(character) for character in text)
     return ceil(units * SIZES[style] / 1000 * (_BOLD if style in BOLD else 1))
 
 
-def _unusual(character: str) -> int:
+def _fallback_width(character: str) -> int:
     if combining(character):
         return 0
     return _WIDE if east_asian_width(character) in "WF" else _OTHER
 
 
-def wrapped(text: str, style: str, most: int) -> list[str]:
-    """Text in lines that are not wider than `most`, broken at spaces where that is possible."""
+def wrap(text: str, style: str, limit: int) -> list[str]:
+    """Wrap text into lines of at most `most` pixels, at spaces if possible."""
     lines: list[str] = []
     line = ""
     for word in text.split():
         longer = f"{line} {word}" if line else word
-        if width(longer, style) <= most:
+        if width(longer, style) <= limit:
             line = longer
             continue
         if line:
             lines.append(line)
         line = word
-        while width(line, style) > most and len(line) > 1:
+        while width(line, style) > limit and len(line) > 1:
             end = len(line) - 1
-            while end > 1 and width(line[:end], style) > most:
+            while end > 1 and width(line[:end], style) > limit:
                 end -= 1
-            # Rather after a sign than in a name.
+            # Prefer a break after punctuation to one inside a name.
             end = max(
-                (at for at in range(end // 2, end + 1) if line[at - 1] in _SIGNS), default=end
+                (at for at in range(end // 2, end + 1) if line[at - 1] in _BREAK_AFTER), default=end
             )
             lines.append(line[:end])
             line = line[end:]

@@ -1,4 +1,7 @@
-"""Diagrams as PlantUML text (https://plantuml.com/state-diagram, .../component-diagram)."""
+"""Write diagrams as PlantUML.
+
+https://plantuml.com/state-diagram and .../component-diagram.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +18,12 @@ _STEREOTYPES = {
     "deep history": " <<history*>>",
 }
 _ARROWS = {"connector": "-->", "composition": "*--", "association": "--", "flow": "..>"}
-# What begins markup: single characters, and some that do so when they are doubled.
+# Markup: single characters, and some only when doubled.
 _MARKUP = re.compile(r'[<>"~\\]|([*_/\-.=\[\]])(?=\1)|(?<=([*_/\-.=\[\]]))\2')
 
 
 def plantuml(diagram: Diagram) -> str:
-    """The text of a diagram."""
+    """PlantUML text of a diagram."""
     writer = _Writer(diagram)
     lines = writer.statechart() if diagram.kind == "statechart" else writer.blocks()
     title = _text(f"{diagram.frame.keyword} {diagram.name}")
@@ -31,8 +34,8 @@ class _Writer:
     def __init__(self, diagram: Diagram) -> None:
         self.diagram = diagram
         self.names = identifiers(diagram)
-        # PlantUML has no edges into concurrent states or out of them: those of which an edge
-        # crosses the border of a region are drawn with the regions as states in them.
+        # PlantUML has no edges into or out of regions: if an edge crosses the border of a region,
+        # the regions are drawn as nested states.
         self.crossed = {
             node.id
             for node in diagram.frame.walk()
@@ -52,7 +55,7 @@ class _Writer:
                 yield f"{self.names[edge.source]} --> {self.names[edge.target]}{label}"
 
     def legend(self) -> Iterator[str]:
-        """The data of the machine or member."""
+        """Yield params and variables of the machine or member."""
         lines = [line for group in self.diagram.frame.compartments for line in group]
         if lines:
             yield from ("legend", *map(_text, lines), "endlegend")
@@ -75,7 +78,7 @@ class _Writer:
             yield from (f"{name} : {_text(line)}" for line in lines)
 
     def blocks(self) -> Iterator[str]:
-        """Boxes as classes, which every version of PlantUML draws in compartments."""
+        """Yield boxes as classes, which every version of PlantUML draws with compartments."""
         frame = self.diagram.frame
         yield from ("hide circle", "hide empty members")
         if self.diagram.kind == "internal":
@@ -98,7 +101,7 @@ class _Writer:
         yield f'class "{_text(node.name)}" as {self.names[node.id]} <<{node.keyword}>> {{'
         for number, group in enumerate((*node.compartments, *([ports] if ports else []))):
             yield from ["  --"] if number else []
-            # Parentheses would make methods of lines, which PlantUML draws in another place.
+            # Without `{field}`, a line with parentheses would be drawn as a method.
             yield from (f"  {{field}} {_text(line)}" for line in group)
         yield "}"
 
@@ -122,7 +125,7 @@ def _lines(lines: Iterable[str]) -> str:
 
 
 def _text(text: str) -> str:
-    """Text in which nothing is markup."""
+    """Escape markup."""
     return _MARKUP.sub(lambda found: f"<U+{ord(found[0]):04X}>", " ".join(text.split()))
 
 

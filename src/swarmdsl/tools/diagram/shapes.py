@@ -1,4 +1,4 @@
-"""What nodes look like: their sizes, where edges end on them, and where their text is."""
+"""Shapes of nodes: size, port positions and text."""
 
 from __future__ import annotations
 
@@ -7,26 +7,27 @@ from typing import Literal
 
 from swarmdsl.base.records import dataclass, replace
 from swarmdsl.codegen.diagram.graph import Node, Port
-from swarmdsl.tools.diagram.content import Block, Text, box_block, header_block
 from swarmdsl.tools.diagram.measure import LINE_HEIGHTS, width
+from swarmdsl.tools.diagram.text_blocks import Block, TextLine, box_block, header_block
 
 Direction = Literal["down", "right"]
 PSEUDO_STATES = {"initial": 14, "final": 20, "choice": 26, "history": 22, "deep history": 22}
-"""Their diameters; their names are beside them."""
-_LEAST_WIDTH, _LEAST_HEIGHT = 64, 36
+"""Diameters of pseudostates; their names are beside them."""
+_MIN_WIDTH, _MIN_HEIGHT = 64, 36
 _NAME_GAP = 4
 PORT = 10
-"""The side of the square of a port."""
+"""Side length of the square of a port."""
 _PORT_ROW = 20
 _PORTS_GAP = 24
-"""Between the names of the ports at the left and those at the right."""
+"""Space between the port names on the left and on the right."""
 
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A node without what is inside: `core` is (x, y, width, height) of what edges end on.
+    """Shape of a node without its children.
 
-    `ports` are the centres of ports, from the top left corner, by their id.
+    `core` is the (x, y, width, height) on which edges end. `ports` are the ids and centers of
+    ports, relative to the top left corner.
     """
 
     width: int
@@ -37,10 +38,10 @@ class Shape:
 
 
 def shape_of(node: Node, direction: Direction, right_ports: set[str]) -> Shape:
-    """The shape of a node in a layout of that direction.
+    """Shape of a node for a layout direction.
 
-    `right_ports` are those at the right side, the others are at the left. For a container it
-    is only the head.
+    `right_ports` are on the right side, other ports on the left. The shape of a container is only
+    its header.
     """
     if node.kind in PSEUDO_STATES:
         return _pseudo_state(node, direction)
@@ -51,50 +52,50 @@ def shape_of(node: Node, direction: Direction, right_ports: set[str]) -> Shape:
     if node.ports:
         return _with_ports(node.ports, block, right_ports)
     shape = Shape(block.width, block.height, (0, 0, block.width, block.height), block)
-    return resized(shape, max(block.width, _LEAST_WIDTH), max(block.height, _LEAST_HEIGHT))
+    return resized(shape, max(block.width, _MIN_WIDTH), max(block.height, _MIN_HEIGHT))
 
 
 def resized(shape: Shape, wide: int, high: int) -> Shape:
-    """A box of another size; a name alone stays in the middle."""
+    """Resize a box; a name without compartments stays centered."""
     block = shape.block
     if not block.rules:
-        block = _moved(block, (high - shape.height) // 2)
+        block = _shifted(block, (high - shape.height) // 2)
     return Shape(wide, high, (0, 0, wide, high), block)
 
 
 def _pseudo_state(node: Node, direction: Direction) -> Shape:
-    """A circle or diamond, with its name where no edges come from: at the side, or below."""
+    """Circle or diamond with its name on a side without edges."""
     size = PSEUDO_STATES[node.kind]
     if not node.name:
         return Shape(size, size, (0, 0, size, size), Block(0, 0, ()))
     wide = width(node.name, "line")
     if direction == "down":
-        text = Text(node.name, "line", size + _NAME_GAP, size // 2 + 4, wide)
+        text = TextLine(node.name, "line", size + _NAME_GAP, size // 2 + 4, wide)
         total = size + _NAME_GAP + wide
         return Shape(total, size, (0, 0, size, size), Block(total, size, (text,)))
     total, high = max(size, wide), size + LINE_HEIGHTS["line"] + 2
     total += (total - size) % 2
-    text = Text(node.name, "line", (total - wide) // 2, high - 4, wide)
+    text = TextLine(node.name, "line", (total - wide) // 2, high - 4, wide)
     core = ((total - size) // 2, 0, size, size)
     return Shape(total, high, core, Block(total, high, (text,)))
 
 
 def _with_ports(ports: Sequence[Port], block: Block, right: set[str]) -> Shape:
-    """A box with the ports below all other text, each with its name and type inside."""
-    texts: list[Text] = list(block.texts)
+    """Box with ports below all other text, each with its name and type inside."""
+    texts: list[TextLine] = list(block.texts)
     names = {port.id: port_text(port) for port in ports}
     sides = ([p for p in ports if p.id not in right], [p for p in ports if p.id in right])
     widest = [max((width(names[p.id], "line") for p in side), default=0) for side in sides]
     gap = _PORTS_GAP if all(sides) else 0
     inset = PORT // 2 + 5
-    wide = max(block.width, _LEAST_WIDTH, sum(widest) + gap + 2 * inset)
+    wide = max(block.width, _MIN_WIDTH, sum(widest) + gap + 2 * inset)
     centres = []
     for at_right, side in enumerate(sides):
         for row, port in enumerate(side):
             y = block.height + _PORT_ROW * row + _PORT_ROW // 2
             long = width(names[port.id], "line")
             x = wide - inset - long if at_right else inset
-            texts.append(Text(names[port.id], "line", x, y + 4, long))
+            texts.append(TextLine(names[port.id], "line", x, y + 4, long))
             centres.append((port.id, wide if at_right else 0, y))
     high = block.height + _PORT_ROW * max(map(len, sides)) + 6
     rules = (*block.rules, block.height - 2)
@@ -104,10 +105,10 @@ def _with_ports(ports: Sequence[Port], block: Block, right: set[str]) -> Shape:
 
 
 def port_text(port: Port) -> str:
-    """What is written beside a port."""
+    """Label of a port."""
     return f"{port.name} : {port.type}"
 
 
-def _moved(block: Block, down: int) -> Block:
+def _shifted(block: Block, down: int) -> Block:
     texts = tuple(replace(each, y=each.y + down) for each in block.texts)
     return Block(block.width, block.height, texts, block.rules)

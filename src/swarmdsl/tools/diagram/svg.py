@@ -1,4 +1,4 @@
-"""Diagrams as SVG: one file without anything from elsewhere, for light and dark pages."""
+"""Write diagrams as self-contained SVG for light and dark pages."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from xml.sax.saxutils import escape, quoteattr
 
 from swarmdsl.base.source import Span
 from swarmdsl.codegen.diagram.graph import Diagram
-from swarmdsl.tools.diagram.content import Block
 from swarmdsl.tools.diagram.layout import Box, Line, Picture, Pin, lay_out
 from swarmdsl.tools.diagram.measure import SIZES, width
 from swarmdsl.tools.diagram.shapes import PORT, port_text
+from swarmdsl.tools.diagram.text_blocks import Block
 
 _MARGIN = 12
 _COLOURS = {
@@ -60,22 +60,22 @@ _ROUND = {"state": 10, "submachine": 10, "composite": 12, "parallel": 12}
 
 
 def svg(diagram: Diagram) -> str:
-    """The picture of a diagram."""
+    """SVG text of a diagram."""
     return draw(lay_out(diagram))
 
 
 def draw(picture: Picture, link: Callable[[Span | None], str | None] | None = None) -> str:
-    """The text of an SVG file, or with a `link` that of a part of an HTML page with `style()`.
+    """SVG of a laid-out diagram: a file, or a part of an HTML page if `link` is given.
 
-    Elements have the id of what they show as `data-id`, edges that of their target as `data-to`. A
-    file has its place in the model as `data-place`, so that a program that shows the picture can
-    lead there, and whether what can be folded is `open` or `closed` as `data-fold`; a page links to
-    where `link` says that it is described.
+    An HTML page also needs `style()`. Elements have the id of what they show as `data-id`, edges
+    that of their target as `data-to`. In a file, `data-place` is the location in the model, for
+    programs that show the diagram, and `data-fold` is `open` or `closed` for a foldable node. In a
+    page, `link` gives the URL of an element.
     """
-    return "\n".join([*_Drawing(picture, link).lines(), ""])
+    return "\n".join([*_Writer(picture, link).lines(), ""])
 
 
-class _Drawing:
+class _Writer:
     def __init__(self, picture: Picture, link: Callable[[Span | None], str | None] | None) -> None:
         self.picture = picture
         self.link = link
@@ -83,7 +83,7 @@ class _Drawing:
     def lines(self) -> Iterator[str]:
         picture, frame = self.picture, self.picture.diagram.frame
         wide, high = picture.width + 2 * _MARGIN, picture.height + 2 * _MARGIN
-        # What is in an image cannot be followed with a keyboard.
+        # Links inside role `img` cannot be reached with a keyboard.
         role = "img" if self.link is None else "group"
         yield (
             f'<svg xmlns="http://www.w3.org/2000/svg" class="{_CLASS}" role="{role}" '
@@ -109,7 +109,7 @@ class _Drawing:
     def linked(
         self, shape: Iterator[str], origin: Span | None, by_key: bool = True
     ) -> Iterator[str]:
-        """A shape that leads to what it shows, with a pointer and perhaps with a keyboard."""
+        """Wrap a shape in a link to its element, with a tab stop if `by_key`."""
         to = self.link(origin) if self.link is not None else None
         if to is None:
             yield from shape
@@ -138,7 +138,7 @@ class _Drawing:
             case "frame":
                 yield from self.frame(box)
             case "region":
-                # Where regions fill a state, its border is theirs.
+                # Regions that fill a state share its border.
                 style = "divider" if box.divider is None else "hit"
                 yield f'<rect class="{style}" {_area(box.x, box.y, box.width, box.height)}/>'
                 if box.divider:
@@ -168,7 +168,7 @@ class _Drawing:
         yield "</g>"
 
     def frame(self, box: Box) -> Iterator[str]:
-        """The frame of SysML, with what it is of in a corner."""
+        """SysML frame with its title in a corner."""
         wide = min(
             max(text.width for text in box.block.texts if text.style == "name") + 32, box.width
         )
@@ -186,7 +186,7 @@ class _Drawing:
             y = box.y + box.block.height
             yield f'<path class="rule" d="M{box.x},{y} h{box.width}"/>'
         if node.hides_states:
-            # Two small states, as UML marks those whose inside is not shown.
+            # Two small states, the UML mark for a hidden decomposition.
             x, y = box.x + box.width - 24, box.y + box.height - 9
             yield f'<rect class="border" {_area(x, y, 6, 4)} rx="2"/>'
             yield f'<path class="border" d="M{x + 6},{y + 2} h5"/>'
@@ -202,7 +202,7 @@ class _Drawing:
     def block(self, block: Block, x: int, y: int, wide: int) -> Iterator[str]:
         for text in block.texts:
             left = x + (text.x if text.x is not None else (wide - text.width) // 2)
-            yield _words(text.text, text.style, left, y + text.y, text.width, text.id)
+            yield _text_element(text.text, text.style, left, y + text.y, text.width, text.id)
 
     def edge(self, line: Line) -> Iterator[str]:
         edge, points = line.edge, list(line.points)
@@ -231,14 +231,15 @@ class _Drawing:
             yield f'<path d="M{x - 1},{y - 3} l-3,3 l3,3 M{x + 1},{y - 3} l3,3 l-3,3"/>'
         if pin.name_x is not None:
             name = port_text(port)
-            yield _words(name, "line", pin.name_x, y - 5, width(name, "line"))
+            yield _text_element(name, "line", pin.name_x, y - 5, width(name, "line"))
         yield "</g>"
 
 
 def style() -> str:
-    """Rules with colours as numbers, for programs that know no variables, and as variables.
+    """Style sheet of diagrams, limited to their class.
 
-    They are about this picture alone, also where it stands in a page.
+    Each colour is given as a number and as a variable, because some programs do not know CSS
+    variables.
     """
     light, dark = (
         "".join(f"--{name}: {pair[which]}; " for name, pair in _COLOURS.items()) for which in (0, 1)
@@ -259,15 +260,15 @@ def style() -> str:
     return "\n" + "\n".join(lines) + "\n"
 
 
-def _words(text: str, style: str, x: int, y: int, wide: int, id_: str = "") -> str:
-    """A line of text, as wide as was reckoned in whatever font there is."""
+def _text_element(text: str, style: str, x: int, y: int, wide: int, id_: str = "") -> str:
+    """Line of text that is stretched to the measured width."""
     fitted = f' textLength="{wide}" lengthAdjust="spacingAndGlyphs"' if len(text) > 1 else ""
     about = f" data-id={_quoted(id_)}" if id_ else ""
     return f'<text class="{style}"{about} x="{x}" y="{y}"{fitted}>{_text(text)}</text>'
 
 
 def _rounded(points: list[tuple[int, int]]) -> str:
-    """A line with its corners a little rounded."""
+    """Path with slightly rounded corners."""
     parts = [f"M{points[0][0]},{points[0][1]}"]
     for before, corner, after in zip(points, points[1:], points[2:], strict=False):
         near = [_towards(corner, other) for other in (before, after)]

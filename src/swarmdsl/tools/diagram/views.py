@@ -1,4 +1,4 @@
-"""Which diagrams a model has."""
+"""Diagrams of a model."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from swarmdsl.ir import System
 
 
 def diagrams(system: System, kinds: Collection[Kind] = KINDS) -> Iterator[Diagram]:
-    """Yield the diagrams of a system, in the order of the model.
+    """Yield the diagrams of a system in model order.
 
-    A member without parts has no inside to show.
+    A member without parts has no internal diagram.
     """
     if "composition" in kinds:
         for swarm in system.swarms:

@@ -1,4 +1,4 @@
-"""Where everything in a diagram is."""
+"""Compute the layout of a diagram."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from math import log, sqrt
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node, Port
-from swarmdsl.tools.diagram.content import Block
 from swarmdsl.tools.diagram.layout.compound import Compound
-from swarmdsl.tools.diagram.layout.routing import simplified
+from swarmdsl.tools.diagram.layout.routing import simplify
 from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import PORT, PSEUDO_STATES, Direction, port_text
+from swarmdsl.tools.diagram.text_blocks import Block
 
 _ASPECT = 1.6
-"""Width to height that pages and screens have room for."""
-_MOST_TRIED = 150
-"""Nodes up to which both directions are tried."""
+"""Preferred ratio of width to height."""
+_MAX_TRIED = 150
+"""Maximum number of nodes for which both directions are tried."""
 
 
 @dataclass(frozen=True, slots=True)
 class Box:
-    """A node in its place; `core` is what of it edges end on, the rest is its name.
+    """A placed node; edges end on its `core`.
 
-    `divider` is the line between a region and the one before it: a path from its corner, empty
-    for the first. A region without one has a border of its own.
+    `divider` is the path of the line before a region, empty for the first one. A region without
+    divider has its own border.
     """
 
     node: Node
@@ -39,7 +39,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Pin:
-    """A port: its centre and, where that is not in a box, the place of its name above it."""
+    """A placed port: its center and, outside of boxes, the x of its name."""
 
     port: Port
     x: int
@@ -49,7 +49,7 @@ class Pin:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """An edge from source to target, with right angles, and its label."""
+    """A placed edge with right angles, and its label."""
 
     edge: Edge
     points: tuple[tuple[int, int], ...]
@@ -60,7 +60,7 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A diagram laid out: boxes from the outside in, lines, and ports."""
+    """A laid-out diagram: boxes from the outside in, lines and ports."""
 
     diagram: Diagram
     width: int
@@ -71,21 +71,21 @@ class Picture:
 
 
 def lay_out(diagram: Diagram, direction: Direction | None = None) -> Picture:
-    """Lay out a diagram in the direction that its kind has, or that fits a page better."""
+    """Lay out a diagram; without a direction, in the one that fits a page best."""
     if direction is not None:
         return _picture(Compound(diagram, direction))
     if diagram.kind == "internal":
         return lay_out(diagram, "right")
     if diagram.kind == "composition":
         return lay_out(diagram, "down")
-    if sum(1 for _ in diagram.frame.walk()) > _MOST_TRIED:
+    if sum(1 for _ in diagram.frame.walk()) > _MAX_TRIED:
         return lay_out(diagram, "right")
     pictures = [lay_out(diagram, "down"), lay_out(diagram, "right")]
-    return min(pictures, key=_badness)
+    return min(pictures, key=_fitted_size)
 
 
-def _badness(picture: Picture) -> float:
-    """How large a picture is on a page that it must fit."""
+def _fitted_size(picture: Picture) -> float:
+    """Size of a picture when it is fitted on a page."""
     return max(picture.width / _ASPECT, picture.height) + 0.2 * abs(
         log(picture.width / picture.height / _ASPECT)
     )
@@ -96,8 +96,8 @@ def _picture(compound: Compound) -> Picture:
     boxes: list[Box] = []
     pins: list[Pin] = []
     corners: dict[str, tuple[int, int]] = {}
-    for node, x, y in _places(compound, frame, 0, 0):
-        inside = compound.inside[node.id]
+    for node, x, y in _positions(compound, frame, 0, 0):
+        inside = compound.layouts[node.id]
         corners[node.id] = x, y
         wide, high = _xy(compound, inside.length, inside.breadth)
         core_x, core_y, core_wide, core_high = inside.shape.core
@@ -105,8 +105,10 @@ def _picture(compound: Compound) -> Picture:
             core_x, core_y, core_wide, core_high = 0, 0, wide, high
         core = (x + core_x, y + core_y, core_wide, core_high)
         divider = None
-        if node is not frame and compound.inside[compound.passages.parents[node.id]].regions:
-            is_first = node is compound.passages.nodes[compound.passages.parents[node.id]].nodes[0]
+        if node is not frame and compound.layouts[compound.edge_routes.parents[node.id]].regions:
+            is_first = (
+                node is compound.edge_routes.nodes[compound.edge_routes.parents[node.id]].nodes[0]
+            )
             divider = f"v{high}" if compound.direction == "down" else f"h{wide}"
             divider = "" if is_first else divider
         boxes.append(Box(node, x, y, wide, high, core, inside.shape.block, divider))
@@ -124,7 +126,7 @@ def _picture(compound: Compound) -> Picture:
         _line(compound, number, edge, corners, cores)
         for number, edge in enumerate(compound.diagram.edges)
     ]
-    outer = compound.inside[frame.id]
+    outer = compound.layouts[frame.id]
     wide, high = _xy(compound, outer.length, outer.breadth)
     return Picture(compound.diagram, wide, high, tuple(boxes), tuple(lines), tuple(pins))
 
@@ -133,11 +135,11 @@ def _xy(compound: Compound, along: int, across: int) -> tuple[int, int]:
     return (across, along) if compound.direction == "down" else (along, across)
 
 
-def _places(compound: Compound, node: Node, x: int, y: int) -> Iterator[tuple[Node, int, int]]:
+def _positions(compound: Compound, node: Node, x: int, y: int) -> Iterator[tuple[Node, int, int]]:
     yield node, x, y
     for child in node.nodes:
-        dx, dy = _xy(compound, *compound.inside[node.id].children[child.id])
-        yield from _places(compound, child, x + dx, y + dy)
+        dx, dy = _xy(compound, *compound.layouts[node.id].children[child.id])
+        yield from _positions(compound, child, x + dx, y + dy)
 
 
 def _line(
@@ -148,39 +150,39 @@ def _line(
     boxes: dict[str, Box],
 ) -> Line:
     label = compound.labels.get(number)
-    if number not in compound.passages.routes:
+    if number not in compound.edge_routes.routes:
         x, y = corners[edge.source]
-        loops = compound.inside[edge.source].own_loops
+        loops = compound.layouts[edge.source].own_loops
         loop = next(each for each in loops if each.edge == number)
-        points = tuple((x + dx, y + dy) for dx, dy in loop.points)
+        loop_points = tuple((x + dx, y + dy) for dx, dy in loop.points)
         at = loop.label or (0, 0)
-        return Line(edge, points, label, x + at[0], y + at[1])
-    way: list[tuple[int, int]] = []
+        return Line(edge, loop_points, label, x + at[0], y + at[1])
+    points: list[tuple[int, int]] = []
     label_at = (0, 0)
-    for container, _, _ in compound.passages.routes[number].legs:
-        inside, (x, y) = compound.inside[container], corners[container]
-        for place in inside.pieces[number]:
+    for container, _, _ in compound.edge_routes.routes[number].legs:
+        inside, (x, y) = compound.layouts[container], corners[container]
+        for place in inside.segments_of[number]:
             dx, dy = _xy(compound, *place)
-            way.append((x + dx, y + dy))
+            points.append((x + dx, y + dy))
         if number in inside.labels:
             dx, dy = _xy(compound, *inside.labels[number])
             label_at = (x + dx, y + dy)
-    way = simplified(way)
+    points = simplify(points)
     for end, then, node in ((0, 1, edge.source), (-1, -2, edge.target)):
         if edge.source_port is not None:
-            way[end] = _beside_port(way[end], way[then])
+            points[end] = _end_on_port(points[end], points[then])
         else:
-            way[end] = _on_border(way[end], way[then], boxes[node])
-    return Line(edge, tuple(simplified(way)), label, *label_at)
+            points[end] = _end_on_border(points[end], points[then], boxes[node])
+    return Line(edge, tuple(simplify(points)), label, *label_at)
 
 
-def _beside_port(end: tuple[int, int], before: tuple[int, int]) -> tuple[int, int]:
-    """Where a line meets the square of a port; it comes from the left or the right."""
+def _end_on_port(end: tuple[int, int], before: tuple[int, int]) -> tuple[int, int]:
+    """End of a line on the square of a port, which it meets from the left or right."""
     return end[0] + (PORT // 2 if before[0] > end[0] else -(PORT // 2)), end[1]
 
 
-def _on_border(end: tuple[int, int], before: tuple[int, int], box: Box) -> tuple[int, int]:
-    """Where a line meets a pseudo-state, which does not fill the room that it has."""
+def _end_on_border(end: tuple[int, int], before: tuple[int, int], box: Box) -> tuple[int, int]:
+    """End of a line on the outline of a pseudostate."""
     if box.node.kind not in PSEUDO_STATES:
         return end
     x, y, wide, _ = box.core

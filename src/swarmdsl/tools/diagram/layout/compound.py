@@ -1,21 +1,20 @@
-"""Layouts of nodes in nodes, from the inside out.
+"""Layout of nested containers, from the inside out.
 
-An edge into a container or out of it is cut at each border that it crosses. The inner layout
-says where across it crosses, and the outer one takes that as given; at which side it does is
-decided before, by which edges point backwards in the outer one. So Sander 1996, and ELK, do it.
+An edge into or out of a container is split at each border that it crosses. The inner layout
+determines the crossing position, which is fixed for the outer one. The side is chosen first, from
+the backward edges of the outer container. This follows Sander 1996 and ELK.
 """
 
 from __future__ import annotations
 
 from swarmdsl.codegen.diagram.graph import Diagram, Node
-from swarmdsl.tools.diagram.content import Block, label_block
-from swarmdsl.tools.diagram.layout.inside import Inside
+from swarmdsl.tools.diagram.layout.container_layout import ContainerLayout
+from swarmdsl.tools.diagram.layout.coordinates import END_GAP
+from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes, Route
 from swarmdsl.tools.diagram.layout.layered import layered
-from swarmdsl.tools.diagram.layout.level import Cell, Link, Placement, Point, Side
+from swarmdsl.tools.diagram.layout.layered_graph import Cell, Link, Placement, Point, Side
 from swarmdsl.tools.diagram.layout.loops import Loop, loop_room
-from swarmdsl.tools.diagram.layout.passages import Passages, Route
-from swarmdsl.tools.diagram.layout.placing import END_GAP
-from swarmdsl.tools.diagram.layout.regions import put_beside, stretch
+from swarmdsl.tools.diagram.layout.regions import place_regions, stretch_regions
 from swarmdsl.tools.diagram.measure import width
 from swarmdsl.tools.diagram.shapes import (
     PORT,
@@ -26,35 +25,36 @@ from swarmdsl.tools.diagram.shapes import (
     resized,
     shape_of,
 )
+from swarmdsl.tools.diagram.text_blocks import Block, label_block
 
 PADDING = 18
 _REGION_PADDING = 14
 _PORT_LINE = 16
-"""Above and below the line to a port at the border, above which is its name."""
+"""Space above and below the line to a port at the border; its name is above."""
 
 
 class Compound:
-    """The layouts of all containers of a diagram."""
+    """Layouts of all containers of a diagram."""
 
     def __init__(self, diagram: Diagram, direction: Direction) -> None:
         self.diagram = diagram
         self.direction = direction
-        self.passages = Passages(diagram)
+        self.edge_routes = EdgeRoutes(diagram)
         self.labels: dict[int, Block] = {
             number: label_block(edge.label)
             for number, edge in enumerate(diagram.edges)
             if edge.label
         }
-        self.inside: dict[str, Inside] = {}
+        self.layouts: dict[str, ContainerLayout] = {}
         self._lay_out(diagram.frame, 0)
 
     def _along(self, wide: int, high: int) -> tuple[int, int]:
-        """A size along and across, or coordinates."""
+        """Convert (x, y) sizes or coordinates to (along, across)."""
         return (high, wide) if self.direction == "down" else (wide, high)
 
     def _lay_out(self, node: Node, title: int) -> None:
-        """Lay out a node, and what is in it first; `title` is the least room for its name."""
-        shape = shape_of(node, self.direction, self.passages.right_ports)
+        """Lay out the children of a node and then the node; `title` is its minimum width."""
+        shape = shape_of(node, self.direction, self.edge_routes.right_ports)
         first_title = max(title, shape.width) if node.kind == "parallel" else 0
         for at, child in enumerate(node.nodes):
             self._lay_out(child, 0 if at else first_title)
@@ -64,36 +64,36 @@ class Compound:
             inside = self._leaf(node, shape)
         wide, high = self._along(inside.length, inside.breadth)
         _, _, inside.loops, inside.own_loops = self._loop_room(node, wide, high)
-        self.inside[node.id] = inside
+        self.layouts[node.id] = inside
 
     def _loop_room(self, node: Node, wide: int, high: int) -> tuple[int, int, int, list[Loop]]:
-        loops = [(number, self.labels.get(number)) for number in self.passages.loops[node.id]]
+        loops = [(number, self.labels.get(number)) for number in self.edge_routes.loops[node.id]]
         return loop_room(loops, wide, high, self.direction)
 
-    def _leaf(self, node: Node, shape: Shape) -> Inside:
+    def _leaf(self, node: Node, shape: Shape) -> ContainerLayout:
         if node.kind in PSEUDO_STATES or node.ports:
-            return Inside(shape, *self._along(shape.width, shape.height))
-        ends = max(self.passages.ends[node.id, "first"], self.passages.ends[node.id, "last"])
+            return ContainerLayout(shape, *self._along(shape.width, shape.height))
+        ends = max(self.edge_routes.ends[node.id, "first"], self.edge_routes.ends[node.id, "last"])
         length, breadth = self._along(shape.width, shape.height)
         wide, high = self._along(length, max(breadth, 2 * END_GAP + (ends - 1) * (END_GAP + 4)))
         wide, high, _, _ = self._loop_room(node, wide, high)
-        return Inside(resized(shape, wide, high), *self._along(wide, high))
+        return ContainerLayout(resized(shape, wide, high), *self._along(wide, high))
 
-    def _container(self, node: Node, shape: Shape, title: int) -> Inside:
-        """Lay out what is in a container, and put the head and room around it."""
+    def _container(self, node: Node, shape: Shape, title: int) -> ContainerLayout:
+        """Lay out the children of a container and add its header and padding."""
         cells = [self._cell(child) for child in node.nodes]
         index = {child.id: at for at, child in enumerate(node.nodes)}
         borders: dict[tuple[int, Side], int] = {}
         ports: dict[str, int] = {}
         for port in node.ports:
             ports[port.id] = len(cells)
-            at_border: Side = "last" if port.id in self.passages.right_ports else "first"
+            at_border: Side = "last" if port.id in self.edge_routes.right_ports else "first"
             length = width(port_text(port), "line") + PORT + 8
             cells.append(Cell(length, 2 * _PORT_LINE, _PORT_LINE, _PORT_LINE, at_border))
         links: list[Link] = []
         numbers: list[int] = []
-        for number, leg in self.passages.inner[node.id]:
-            route = self.passages.routes[number]
+        for number, leg in self.edge_routes.inner[node.id]:
+            route = self.edge_routes.routes[number]
             _, source, target = route.legs[leg]
             ends: list[int] = []
             for end, port_id, side in (
@@ -110,27 +110,28 @@ class Compound:
                     cells.append(Cell(0, 0, 0, 0, side))
             links.append(self._link(route, number, leg, ends[0], ends[1], cells))
             numbers.append(number)
-        # Regions fill their state unless an edge has to be drawn between them.
+        # Regions fill their state unless an edge runs between them.
         beside = node.kind == "parallel" and all(
-            leg != self.passages.routes[number].main for number, leg in self.passages.inner[node.id]
+            leg != self.edge_routes.routes[number].main
+            for number, leg in self.edge_routes.inner[node.id]
         )
         entered = any(side == "first" for _, side in borders)
         if entered and self.direction == "down" and not beside:
-            # Edges that come in at the top pass the name at its right.
+            # Edges that enter at the top pass to the right of the name.
             links, cells = _with_title(links, cells, title)
             shift = 1
         else:
             shift = 0
         pitch, before = (5, False) if self.direction == "down" else (3, True)
         if beside:
-            placement = put_beside(cells, links)
+            placement = place_regions(cells, links)
         else:
             in_row = self.diagram.kind == "composition"
             placement = layered(cells, links, pitch, before, in_row)
         return self._wrap(node, shape, title, placement, shift, numbers, borders, ports, beside)
 
     def _cell(self, child: Node) -> Cell:
-        inside = self.inside[child.id]
+        inside = self.layouts[child.id]
         if child.nodes:
             low, high = 0, inside.breadth
         else:
@@ -138,7 +139,7 @@ class Compound:
             low = self._along(x, y)[1]
             high = low + self._along(wide, tall)[1]
         if child.kind in PSEUDO_STATES:
-            # Several edges of one that is passed through are a little apart.
+            # Separate the edges of a pseudostate slightly.
             reach = 0 if child.kind in ("initial", "final") else (high - low) // 2 - 3
             low, high = (low + high) // 2 - reach, (low + high) // 2 + reach
         return Cell(inside.length, inside.breadth + inside.loops, low, high)
@@ -155,23 +156,27 @@ class Compound:
         last = len(route.legs) - 1
         link.target_at = self._crossing(target_id, number, leg < last, edge.target_port)
         if edge.source_port is not None and source_id is not None:
-            link.source_side = "last" if edge.source_port in self.passages.right_ports else "first"
+            link.source_side = (
+                "last" if edge.source_port in self.edge_routes.right_ports else "first"
+            )
         if edge.target_port is not None and target_id is not None:
-            link.target_side = "last" if edge.target_port in self.passages.right_ports else "first"
+            link.target_side = (
+                "last" if edge.target_port in self.edge_routes.right_ports else "first"
+            )
         block = self.labels.get(number)
         if block is not None and leg == route.main:
             link.label = self._along(block.width, block.height)
         if leg == route.main and (block is not None or edge.kind == "association"):
-            link.least = 2
+            link.min_layers = 2
         return link
 
     def _crossing(
         self, node: str | None, number: int, crosses: bool, port: str | None
     ) -> int | None:
-        """Where an edge must end on a node: where it crosses its border, or at its port."""
+        """Position at which an edge must end on a node: a border crossing or a port."""
         if node is None:
             return None
-        inside = self.inside[node]
+        inside = self.layouts[node]
         if port is not None:
             return next(self._along(x, y)[1] for id_, x, y in inside.shape.ports if id_ == port)
         return inside.crossings[number] if crosses else None
@@ -187,15 +192,15 @@ class Compound:
         borders: dict[tuple[int, Side], int],
         ports: dict[str, int],
         beside: bool,
-    ) -> Inside:
-        """Put a layout in its box."""
+    ) -> ContainerLayout:
+        """Put a layout into the box of its container."""
         head = shape.block.height
         pad = 0 if beside else PADDING
         down = self.direction == "down"
         if node.kind == "region":
             pad = _REGION_PADDING
         before_along, before_across = (head + pad, pad) if down else (pad, head + pad)
-        sides = {"last" if port in self.passages.right_ports else "first" for port in ports}
+        sides = {"last" if port in self.edge_routes.right_ports else "first" for port in ports}
         if "first" in sides:
             before_along = 0
         length = before_along + placement.length + (0 if "last" in sides else pad)
@@ -203,7 +208,7 @@ class Compound:
         least = self._loop_room(node, title, head)
         least_length, least_breadth = self._along(least[0], least[1])
         length, breadth = max(length, least_length), max(breadth, least_breadth)
-        inside = Inside(shape, length, breadth, regions=beside)
+        inside = ContainerLayout(shape, length, breadth, regions=beside)
 
         def moved(point: Point) -> Point:
             return point[0] + before_along, point[1] + before_across
@@ -211,19 +216,19 @@ class Compound:
         for at, child in enumerate(node.nodes):
             inside.children[child.id] = moved(placement.cells[at + shift])
         if beside:
-            regions = {child.id: self.inside[child.id] for child in node.nodes}
-            stretch(inside, regions, inside.length - before_along, self.passages)
+            regions = {child.id: self.layouts[child.id] for child in node.nodes}
+            stretch_regions(inside, regions, inside.length - before_along, self.edge_routes)
         for key, cell in borders.items():
             across = placement.cells[cell + shift][1] + before_across
             inside.crossings[key[0]] = across
         for number, way, label in zip(numbers, placement.routes, placement.labels, strict=True):
             points = [moved(point) for point in way]
             if beside and (number, "last") in borders:
-                # Regions reach to the end.
+                # Regions extend to the end.
                 points = [(length, points[0][1])]
-            # It goes on to the border, through the head and the room around.
+            # Extend the edge to the border, through header and padding.
             if (number, "first") in borders or (number, "last") in borders:
-                route = self.passages.routes[number]
+                route = self.edge_routes.routes[number]
                 leg = next(at for at, each in enumerate(route.legs) if each[0] == node.id)
                 _, source, target = route.legs[leg]
                 if source is None:
@@ -233,26 +238,26 @@ class Compound:
                     first = (number, "first") in borders
                     points.append((0 if first else length, points[-1][1]))
             for at, port_id in (
-                (0, self.passages.routes[number].edge.source_port),
-                (-1, self.passages.routes[number].edge.target_port),
+                (0, self.edge_routes.routes[number].edge.source_port),
+                (-1, self.edge_routes.routes[number].edge.target_port),
             ):
                 if port_id in ports:
                     points[at] = (
-                        length if port_id in self.passages.right_ports else 0,
+                        length if port_id in self.edge_routes.right_ports else 0,
                         points[at][1],
                     )
-            inside.pieces[number] = points
+            inside.segments_of[number] = points
             if label is not None:
                 inside.labels[number] = moved(label)
         for port_id, cell in ports.items():
             across = moved(placement.cells[cell])[1]
-            at_end = port_id in self.passages.right_ports
+            at_end = port_id in self.edge_routes.right_ports
             inside.ports[port_id] = (length if at_end else 0, across + _PORT_LINE)
         return inside
 
 
 def _with_title(links: list[Link], cells: list[Cell], title: int) -> tuple[list[Link], list[Cell]]:
-    """The same with room for a name in the first layer."""
+    """Reserve space for a title in the first layer."""
     for link in links:
         link.source += 1
         link.target += 1

@@ -1,25 +1,25 @@
-"""Which edges point backwards, so that the others go one way."""
+"""Choose the edges to reverse so that a graph has no cycles."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 
-def backward(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) -> set[int]:
-    """Numbers of edges without which a graph has no circles; only edges in circles are taken.
+def feedback_edges(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) -> set[int]:
+    """Indices of edges that break all cycles when reversed.
 
-    Either those against the order of the nodes, which is that of the model, or those that
-    lead back to where a walk from the roots came from, whichever are fewer.
+    The smaller of two sets: edges against the order of nodes in the model, or back edges of a
+    depth-first search from the roots. Both contain only edges in cycles.
     """
-    part = _circles(count, edges)
-    inside = [at for at, (tail, head) in enumerate(edges) if part[tail] == part[head]]
-    written = {at for at in inside if edges[at][0] >= edges[at][1]}
-    walked = _walked(count, edges, roots)
-    return walked if len(walked) < len(written) else written
+    component = _components(count, edges)
+    cyclic = [at for at, (tail, head) in enumerate(edges) if component[tail] == component[head]]
+    against_order = {at for at in cyclic if edges[at][0] >= edges[at][1]}
+    back_edges = _back_edges(count, edges, roots)
+    return back_edges if len(back_edges) < len(against_order) else against_order
 
 
-def _walked(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) -> set[int]:
-    """Edges to a node that the walk has entered and not left."""
+def _back_edges(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) -> set[int]:
+    """Back edges of a depth-first search."""
     leaving: list[list[int]] = [[] for _ in range(count)]
     for at, (tail, _) in enumerate(edges):
         leaving[tail].append(at)
@@ -47,8 +47,8 @@ def _walked(count: int, edges: Sequence[tuple[int, int]], roots: Sequence[int]) 
     return found
 
 
-def _circles(count: int, edges: Sequence[tuple[int, int]]) -> list[int]:
-    """The strongly connected component of each node (Tarjan 1972)."""
+def _components(count: int, edges: Sequence[tuple[int, int]]) -> list[int]:
+    """Strongly connected component of each node (Tarjan 1972)."""
     heads: list[list[int]] = [[] for _ in range(count)]
     for tail, head in edges:
         heads[tail].append(head)

@@ -1,23 +1,31 @@
-"""Cells to layers, and links to segments from layer to layer."""
+"""Assign cells to layers and split links into segments between layers."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import pairwise
 
-from swarmdsl.tools.diagram.layout.level import Cell, End, Layers, Link, Segment, Side, Vertex
-from swarmdsl.tools.diagram.layout.simplex import minimized
+from swarmdsl.tools.diagram.layout.layered_graph import (
+    Cell,
+    End,
+    Layers,
+    Link,
+    Segment,
+    Side,
+    Vertex,
+)
+from swarmdsl.tools.diagram.layout.simplex import minimize
 
-_MOST_PASSED = 20_000
-"""Layers that links pass: where it is more, far ones have lanes, as nobody can follow them."""
+_MAX_CROSSED = 20_000
+"""Number of crossed layers above which long links use lanes beside the layers."""
 _NEAR = 4
-"""Layers that a link passes which has no lane then."""
+"""Number of layers that a link may cross without a lane then."""
 
 
 def make_layers(cells: Sequence[Cell], links: Sequence[Link], pitch: int) -> Layers:
-    """Put each cell in a layer so that links are short; those with a label have a layer for it.
+    """Assign layers so that links are short; a label takes a layer of its own.
 
-    `pitch` is the distance of a line from the text beside it.
+    `pitch` is the distance of a label from its line.
     """
     ranks = _ranks(cells, links)
     vertices = [
@@ -30,7 +38,7 @@ def make_layers(cells: Sequence[Cell], links: Sequence[Link], pitch: int) -> Lay
     made = Layers(layers, [], vertices, [])
     passed = sum(abs(ranks[link.source] - ranks[link.target]) for link in links)
     for number, link in enumerate(links):
-        made.segments += _segments(number, link, made, pitch, passed > _MOST_PASSED)
+        made.segments += _segments(number, link, made, pitch, passed > _MAX_CROSSED)
     return made
 
 
@@ -39,17 +47,17 @@ def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
     for link in links:
         tail, head = (link.target, link.source) if link.flipped else (link.source, link.target)
         if tail != head:
-            constraints.append((tail, head, link.least, 1))
+            constraints.append((tail, head, link.min_layers, 1))
     title = next((number for number, cell in enumerate(cells) if cell.title), None)
     if title is not None:
-        # Beside a title there is only what comes in from outside.
+        # A title shares its layer only with incoming edges.
         constraints += (
             (title, number, 1, 0)
             for number, cell in enumerate(cells)
             if cell.border != "first" and number != title
         )
     for border, cell in enumerate(cells):
-        # Beside what has a name at the border there is nothing else.
+        # A border cell with a name has the layer for itself.
         if cell.border is not None and cell.length:
             ends = (
                 (border, number) if cell.border == "first" else (number, border)
@@ -57,7 +65,7 @@ def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
                 if each.border is None
             )
             constraints += ((tail, head, 1, 0) for tail, head in ends)
-    ranks = minimized(len(cells), constraints)
+    ranks = minimize(len(cells), constraints)
     last = max(ranks, default=0)
     for number, cell in enumerate(cells):
         if cell.border is not None:
@@ -68,9 +76,9 @@ def _ranks(cells: Sequence[Cell], links: Sequence[Link]) -> list[int]:
 def _segments(
     number: int, link: Link, layers: Layers, pitch: int, with_lanes: bool
 ) -> list[Segment]:
-    """The way of a link, from its source to its target, with a vertex in each layer between.
+    """Segments of a link from source to target, with a vertex in each layer between.
 
-    With lanes, a far one has a lane beside them for all but the one with its label.
+    With lanes, a long link uses a lane for all layers except that of its label.
     """
     source, target = layers.cells[link.source], layers.cells[link.target]
     step = -1 if link.flipped else 1
@@ -81,7 +89,7 @@ def _segments(
     if with_lanes and len(passed) > _NEAR:
         labels = link.label is not None
         passed, aside = passed[:labels], passed[labels:]
-    # Where it must leave on the side that faces away, it first goes round the cell.
+    # A link that leaves or enters on the far side first goes around the cell.
     leaves_back = link.source_side not in (None, out)
     enters_back = link.target_side not in (None, into)
     if source is target:
@@ -90,7 +98,7 @@ def _segments(
         passed = [*[source.layer] * leaves_back, *passed, *[target.layer] * enters_back]
     way: list[Vertex] = []
     for at, layer in enumerate(passed):
-        # Next to the source one sees whose label it is.
+        # Put the label next to the source.
         if link.label is not None and at == leaves_back:
             length, breadth = link.label
             vertex = Vertex(length, breadth + pitch, layer, link=number, is_label=True)
@@ -100,8 +108,8 @@ def _segments(
         way.append(vertex)
     if aside:
         lane = Vertex(0, 0, min(aside), link=number, beyond=len(aside) - 1)
-        # After all that is in a layer.
-        lane.order = len(layers.cells) + _MOST_PASSED + number
+        # After all vertices of the layer.
+        lane.order = len(layers.cells) + _MAX_CROSSED + number
         layers.lanes.append(lane)
         way.insert(len(way) - enters_back, lane)
     stops = [source, *way, target]
@@ -109,9 +117,9 @@ def _segments(
     for at, (one, other) in enumerate(pairwise(stops)):
         leaving, entering = out, into
         if leaves_back and at == 0:
-            leaving = entering = _other(out)
+            leaving = entering = _opposite(out)
         elif enters_back and at == len(stops) - 2:
-            leaving = entering = _other(into)
+            leaving = entering = _opposite(into)
         gap = one.layer_at(leaving) + (leaving == "last")
         segments.append(Segment(gap, number, _end(one, leaving), _end(other, entering)))
     segments[0].start.at = link.source_at
@@ -119,7 +127,7 @@ def _segments(
     return segments
 
 
-def _other(side: Side) -> Side:
+def _opposite(side: Side) -> Side:
     return "first" if side == "last" else "last"
 
 

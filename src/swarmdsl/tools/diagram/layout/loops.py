@@ -1,15 +1,15 @@
-"""Edges from a node to itself, beside it where no others are."""
+"""Self-loops, on a side of the node without other edges."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.tools.diagram.content import Block
 from swarmdsl.tools.diagram.shapes import Direction
+from swarmdsl.tools.diagram.text_blocks import Block
 
 _REACH = 22
-"""How far a loop goes out at the right."""
+"""Extent of a loop to the right."""
 _LEAST = 18
 _GAP = 6
 _CORNER = 14
@@ -17,7 +17,7 @@ _CORNER = 14
 
 @dataclass
 class Loop:
-    """A loop: its corners and its label as (x, y) from the top left corner of the node."""
+    """A self-loop: corners and label as (x, y) from the top left corner of the node."""
 
     edge: int
     points: list[tuple[int, int]]
@@ -27,10 +27,10 @@ class Loop:
 def loop_room(
     loops: Sequence[tuple[int, Block | None]], wide: int, high: int, direction: Direction
 ) -> tuple[int, int, int, list[Loop]]:
-    """A size of the node with room for loops, how far they reach beyond it, and the loops.
+    """Size of a node with space for loops, their extent beyond it, and the loops.
 
-    Loops are pairs of the number of an edge and its label. In a layout downwards they are at
-    the right, one below the other; else below, one around the other.
+    Loops are pairs of edge number and label. They are stacked on the right in a downward layout,
+    otherwise nested below the node.
     """
     if not loops:
         return wide, high, 0, []

@@ -1,47 +1,47 @@
-"""The order within layers in which few edges cross.
+"""Order the vertices in layers so that few edges cross.
 
-Sweeps that sort each layer by the mean place of its neighbours, and exchanges of neighbours
-while that helps: Gansner et al. 1993, section 3; crossings are counted as in Barth, Juenger,
-Mutzel: Simple and Efficient Bilayer Cross Counting (2002).
+Sweeps sort each layer by the mean position of neighbors, and adjacent vertices are swapped while
+that helps (Gansner et al. 1993, section 3). Crossings are counted as in Barth, Juenger, Mutzel:
+Simple and Efficient Bilayer Cross Counting (2002).
 """
 
 from __future__ import annotations
 
 from bisect import bisect_left, insort
 
-from swarmdsl.tools.diagram.layout.level import End, Layers, Vertex
+from swarmdsl.tools.diagram.layout.layered_graph import End, Layers, Vertex
 
 _SWEEPS, _PATIENCE = 16, 3
 _ROUNDS = 10
-_WORK = 60_000
-"""Vertices that are sorted: very large graphs are swept less often."""
-_EXCHANGED = 400
-"""Vertices in layers in which neighbours are exchanged; in larger graphs it takes too long."""
+_MAX_SORTED = 60_000
+"""Maximum number of sorted vertices; large graphs get fewer sweeps."""
+_MAX_SWAPPED = 400
+"""Maximum number of vertices for which adjacent ones are swapped."""
 
 Neighbours = dict[int, list[tuple[float, Vertex, float]]]
-"""By the id of a vertex: its neighbours, with how far along its side and theirs the edge ends."""
+"""Neighbors by vertex id, with the relative positions of both ends of the edge."""
 
 
 def order(layers: Layers) -> None:
-    """Put the vertices of each layer in order, and number them."""
+    """Order and number the vertices of each layer."""
     before: Neighbours = {}
     after: Neighbours = {}
     for segment in layers.segments:
-        if segment.turns or segment.is_aside:
+        if segment.turns or segment.uses_lane:
             continue
         upper, lower = segment.start, segment.end
         if upper.side == "first":
             upper, lower = lower, upper
-        above, below = _part(upper), _part(lower)
+        above, below = _relative_position(upper), _relative_position(lower)
         after.setdefault(id(upper.vertex), []).append((above, lower.vertex, below))
         before.setdefault(id(lower.vertex), []).append((below, upper.vertex, above))
-    _begin(layers, before)
+    _initial_order(layers, before)
     count = sum(map(len, layers.layers))
-    sweeps = min(_SWEEPS, _WORK // max(count, 1))
+    sweeps = min(_SWEEPS, _MAX_SORTED // max(count, 1))
     if not sweeps:
         return
     best, least = [list(layer) for layer in layers.layers], _crossings(layers, after)
-    small = count <= _EXCHANGED
+    small = count <= _MAX_SWAPPED
     since = 0
     for sweep in range(sweeps):
         if not least or since == _PATIENCE:
@@ -54,7 +54,7 @@ def order(layers: Layers) -> None:
             for layer in reversed(layers.layers[:-1]):
                 _sort(layer, after, sweep % 4 >= 2)
         if small:
-            _exchange(layers, before, after)
+            _swap_neighbours(layers, before, after)
         crossings = _crossings(layers, after)
         if crossings < least:
             best, least, since = [list(layer) for layer in layers.layers], crossings, 0
@@ -63,8 +63,8 @@ def order(layers: Layers) -> None:
         _number(layer)
 
 
-def _begin(layers: Layers, before: Neighbours) -> None:
-    """Begin with the order of the model, of nodes and of the edges that lead to them."""
+def _initial_order(layers: Layers, before: Neighbours) -> None:
+    """Start with the model order of nodes and of their incoming edges."""
     first: dict[int, int] = {}
     for segment in layers.segments:
         for end in (segment.start, segment.end):
@@ -79,8 +79,8 @@ def _number(layer: list[Vertex]) -> None:
         vertex.order = place
 
 
-def _part(end: End) -> float:
-    """How far along its side of a vertex an edge ends; with its number that is its place."""
+def _relative_position(end: End) -> float:
+    """Relative position of an end on its side, added to the order of its vertex."""
     if end.at is None or not end.vertex.breadth:
         return 0.5
     return end.at / (end.vertex.breadth + 1)
@@ -92,9 +92,9 @@ def _sort(
     reverse: bool,
     first: dict[int, int] | None = None,
 ) -> None:
-    """Sort a layer by means; vertices without neighbours stay where they are.
+    """Sort a layer by mean neighbor position; vertices without neighbors stay.
 
-    Of two with the same, the one is before that was so, or that comes `first`.
+    Ties keep their order, or follow `first`.
     """
     keys: dict[int, float] = {}
     for vertex in layer:
@@ -105,7 +105,7 @@ def _sort(
                 total += other.order + part
             keys[id(vertex)] = total / len(ends)
     moving = [vertex for vertex in layer if id(vertex) in keys]
-    # Those that are equal change places in every other sweep, which may show a better order.
+    # Ties are reversed in every other sweep, which can reveal a better order.
     if len(moving) < 2:
         return
     moving.sort(
@@ -120,12 +120,12 @@ def _sort(
     _number(layer)
 
 
-def _exchange(layers: Layers, before: Neighbours, after: Neighbours) -> None:
-    """Exchange neighbours in a layer as long as fewer edges cross then."""
+def _swap_neighbours(layers: Layers, before: Neighbours, after: Neighbours) -> None:
+    """Swap adjacent vertices as long as that removes crossings."""
     for _ in range(_ROUNDS):
         better = False
         for layer in layers.layers:
-            # In the layers beside it, nothing changes meanwhile.
+            # The adjacent layers do not change meanwhile.
             places = [
                 {
                     id(vertex): [
@@ -146,7 +146,7 @@ def _exchange(layers: Layers, before: Neighbours, after: Neighbours) -> None:
 
 
 def _gain(ones: list[float], others: list[float]) -> int:
-    """How many crossings fewer it makes that two vertices change places, by their neighbours."""
+    """Number of crossings removed by swapping two vertices, by neighbor positions."""
     return sum((a > b) - (a < b) for a in ones for b in others)
 
 

@@ -1,16 +1,16 @@
-"""Regions of a parallel state, which fill it, beside each other."""
+"""Place regions side by side so that they fill their parallel state."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from swarmdsl.tools.diagram.layout.inside import Inside
-from swarmdsl.tools.diagram.layout.level import Cell, Link, Placement, Point
-from swarmdsl.tools.diagram.layout.passages import Passages
+from swarmdsl.tools.diagram.layout.container_layout import ContainerLayout
+from swarmdsl.tools.diagram.layout.edge_routes import EdgeRoutes
+from swarmdsl.tools.diagram.layout.layered_graph import Cell, Link, Placement, Point
 
 
-def put_beside(cells: Sequence[Cell], links: Sequence[Link]) -> Placement:
-    """Put regions beside each other, and what crosses their borders at that of the state."""
+def place_regions(cells: Sequence[Cell], links: Sequence[Link]) -> Placement:
+    """Place regions side by side, and border crossings on the border of the state."""
     places: list[Point] = []
     across = 0
     inner = [cell for cell in cells if cell.border is None]
@@ -34,11 +34,16 @@ def put_beside(cells: Sequence[Cell], links: Sequence[Link]) -> Placement:
     return Placement(length, across, places, routes, [None] * len(links))
 
 
-def stretch(state: Inside, regions: Mapping[str, Inside], length: int, passages: Passages) -> None:
-    """Make the regions of a state, by their ids, fill it: they are `length` long along it."""
+def stretch_regions(
+    state: ContainerLayout,
+    regions: Mapping[str, ContainerLayout],
+    length: int,
+    passages: EdgeRoutes,
+) -> None:
+    """Stretch the regions of a state to its full size; `length` is their size along."""
     for id_, region in regions.items():
         region.length = length
-        for number, points in region.pieces.items():
+        for number, points in region.segments_of.items():
             _, source, target = next(
                 each for each in passages.routes[number].legs if each[0] == id_
             )

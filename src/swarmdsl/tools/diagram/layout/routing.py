@@ -1,8 +1,8 @@
-"""Lines between layers, with right angles; and with the room for them, places along.
+"""Route edges with right angles between layers, and assign coordinates along.
 
-What leads from one place across to another needs a track of its own where lines would lie on
-each other; the order of the tracks makes few crossings (Sander: Layout of Directed Hypergraphs
-with Orthogonal Hyperedges, 2004; here a greedy order as in Eades, Lin, Smyth 1993).
+Each part of an edge that runs across gets a track; parts that would overlap get different ones. The
+order of tracks keeps crossings few (Sander: Layout of Directed Hypergraphs with Orthogonal
+Hyperedges, 2004; with a greedy order as in Eades, Lin, Smyth 1993).
 """
 
 from __future__ import annotations
@@ -10,24 +10,31 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from swarmdsl.base.records import dataclass
-from swarmdsl.tools.diagram.layout.level import Cell, Layers, Link, Placement, Point, Segment
+from swarmdsl.tools.diagram.layout.layered_graph import (
+    Cell,
+    Layers,
+    Link,
+    Placement,
+    Point,
+    Segment,
+)
 
 TRACK = 10
-"""Between two lines beside each other."""
+"""Distance between adjacent parallel lines."""
 _MARGIN = 16
-"""Between the outermost line and a node: room for the head of an arrow."""
+"""Distance between a line and a node, with space for an arrow head."""
 _LABEL_MARGIN = 8
 _NEAR = 6
-"""Lines nearer to each other than this look like one."""
-_MOST_ORDERED = 80
-_ON_EACH_OTHER = 1000
+"""Lines closer than this look like one."""
+_MAX_ORDERED = 80
+_OVERLAP_COST = 1000
 
 
 @dataclass
-class _Bar:
-    """The part of a segment that goes across, from `low` to `high`, on a track.
+class _Crossbar:
+    """Part of a segment that runs across, from `low` to `high`, on a track.
 
-    `ups` and `downs` are where lines from it lead to the layer before and after.
+    `ups` and `downs` are the positions of its connections to the layer before and after.
     """
 
     segment: Segment
@@ -41,20 +48,20 @@ class _Bar:
 def route(
     layers: Layers, cells: Sequence[Cell], links: Sequence[Link], pitch: int, in_row: bool
 ) -> Placement:
-    """Find where layers are along, and draw the lines.
+    """Assign coordinates along to layers and route the links.
 
-    The cells of a layer begin in a row, or their middles are in one.
+    With `in_row`, the cells of a layer are aligned at their start, otherwise at their center.
     """
     count = len(layers.layers)
-    bars: list[list[_Bar]] = [[] for _ in range(count + 1)]
+    bars: list[list[_Crossbar]] = [[] for _ in range(count + 1)]
     for segment in layers.segments:
-        if (bar := _bar(segment)) is not None:
+        if (bar := _crossbar(segment)) is not None:
             bars[segment.gap].append(bar)
     starts, lengths = [], []
     along = 0
     firsts = []
     for gap in range(count + 1):
-        tracks = _tracks(bars[gap])
+        tracks = _assign_tracks(bars[gap])
         before, after = _margins(layers, gap)
         room = before + after + max(0, tracks - 1) * TRACK
         if gap in (0, count):
@@ -67,7 +74,7 @@ def route(
             starts.append(along)
             lengths.append(length)
             along += length
-    placed = _Placed(starts, lengths, along, in_row)
+    placed = _LayerPositions(starts, lengths, along, in_row)
     tracks_of = {
         id(bar.segment): firsts[gap] + bar.track * TRACK
         for gap in range(count + 1)
@@ -91,8 +98,8 @@ def route(
 
 
 @dataclass
-class _Placed:
-    """Where layers begin along, how long they are, and where all ends."""
+class _LayerPositions:
+    """Start and length of each layer along, and the total length."""
 
     starts: list[int]
     lengths: list[int]
@@ -100,7 +107,7 @@ class _Placed:
     in_row: bool
 
     def cell(self, cell: Cell, layer: int, length: int) -> int:
-        """Where a cell is in its layer, or at the border."""
+        """Position of a cell in its layer or at the border."""
         if cell.border == "first":
             return 0
         if cell.border == "last":
@@ -111,19 +118,19 @@ class _Placed:
         return self.starts[layer] + (self.lengths[layer] - length) // 2
 
 
-def _bar(segment: Segment) -> _Bar | None:
-    """The part of a segment that goes across; None where it is straight."""
+def _crossbar(segment: Segment) -> _Crossbar | None:
+    """Part of a segment that runs across; None if the segment is straight."""
     start, end = segment.start.across, segment.end.across
     if start == end and not segment.turns:
         return None
-    bar = _Bar(segment, min(start, end), max(start, end), [], [])
+    bar = _Crossbar(segment, min(start, end), max(start, end), [], [])
     for point in (segment.start, segment.end):
         (bar.ups if point.side == "last" else bar.downs).append(point.across)
     return bar
 
 
 def _margins(layers: Layers, gap: int) -> tuple[int, int]:
-    """The room before and after the tracks of a gap: more beside cells, where arrows may end."""
+    """Space before and after the tracks of a gap, with room for arrows beside cells."""
 
     def margin(layer: int) -> int:
         if not 0 <= layer < len(layers.layers):
@@ -134,8 +141,8 @@ def _margins(layers: Layers, gap: int) -> tuple[int, int]:
     return margin(gap - 1), margin(gap)
 
 
-def _tracks(bars: list[_Bar]) -> int:
-    """Give each bar a track; return how many there are."""
+def _assign_tracks(bars: list[_Crossbar]) -> int:
+    """Assign a track to each bar and return the number of tracks."""
     if not bars:
         return 0
     bars.sort(key=lambda bar: (bar.low, bar.high))
@@ -152,23 +159,23 @@ def _tracks(bars: list[_Bar]) -> int:
             if first != second:
                 weight[at][number] = second - first
                 weight[number][at] = first - second
-    place = _greedy(weight) if len(bars) <= _MOST_ORDERED else list(range(len(bars)))
+    place = _greedy_order(weight) if len(bars) <= _MAX_ORDERED else list(range(len(bars)))
     for at in sorted(range(len(bars)), key=place.__getitem__):
         tracks = [bars[each].track + 1 for each in before[at] if place[each] < place[at]]
         bars[at].track = max(tracks, default=0)
     return max(bar.track for bar in bars) + 1
 
 
-def _cost(one: _Bar, other: _Bar) -> int:
-    """How many lines cross, or lie on each other, if one bar is on a track before another's."""
+def _cost(one: _Crossbar, other: _Crossbar) -> int:
+    """Number of crossings and weighted overlaps if `one` is on a track before `other`."""
     cost = sum(other.low < down < other.high for down in one.downs)
     cost += sum(one.low < up < one.high for up in other.ups)
     near = sum(abs(down - up) < _NEAR for down in one.downs for up in other.ups)
-    return cost + _ON_EACH_OTHER * near
+    return cost + _OVERLAP_COST * near
 
 
-def _greedy(weight: Sequence[dict[int, int]]) -> list[int]:
-    """A place for each bar: in turns, the one is next that gains most by being before the rest."""
+def _greedy_order(weight: Sequence[dict[int, int]]) -> list[int]:
+    """Rank of each bar; next is always the one with the highest gain over the rest."""
     gain = [sum(each.values()) for each in weight]
     left = set(range(len(weight)))
     place = [0] * len(weight)
@@ -185,18 +192,18 @@ def _routes(
     layers: Layers,
     cells: Sequence[Cell],
     links: Sequence[Link],
-    placed: _Placed,
+    placed: _LayerPositions,
     tracks_of: dict[int, int],
 ) -> list[list[Point]]:
-    """The way of each link, from its source to its target."""
+    """Points of each link from source to target."""
     routes: list[list[Point]] = [[] for _ in links]
     for segment in layers.segments:
-        way = routes[segment.link]
+        path = routes[segment.link]
         ends = []
         for end in (segment.start, segment.end):
             vertex = end.vertex
             if vertex.cell is None:
-                # It goes on through the layer.
+                # The link continues through the layer.
                 layer = vertex.layer_at(end.side)
                 along = placed.starts[layer]
                 along += placed.lengths[layer] if end.side == "last" else 0
@@ -205,17 +212,17 @@ def _routes(
                 along += vertex.length if end.side == "last" else 0
             ends.append((along, end.across))
         track = tracks_of.get(id(segment))
-        way.append(ends[0])
+        path.append(ends[0])
         if track is not None:
-            way += [(track, ends[0][1]), (track, ends[1][1])]
-        way.append(ends[1])
-    return [simplified(way) for way in routes]
+            path += [(track, ends[0][1]), (track, ends[1][1])]
+        path.append(ends[1])
+    return [simplify(path) for path in routes]
 
 
-def simplified(way: Sequence[Point]) -> list[Point]:
-    """The same line without points on it that are no corners."""
+def simplify(path: Sequence[Point]) -> list[Point]:
+    """Remove repeated and collinear points."""
     found: list[Point] = []
-    for point in way:
+    for point in path:
         if found and point == found[-1]:
             continue
         if len(found) > 1 and (
@@ -227,7 +234,7 @@ def simplified(way: Sequence[Point]) -> list[Point]:
 
 
 def _labels(
-    layers: Layers, links: Sequence[Link], placed: _Placed, pitch: int
+    layers: Layers, links: Sequence[Link], placed: _LayerPositions, pitch: int
 ) -> list[Point | None]:
     labels: list[Point | None] = [None] * len(links)
     for layer in layers.layers:

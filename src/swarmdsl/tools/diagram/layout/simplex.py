@@ -1,7 +1,7 @@
-"""Whole numbers that make weighted differences as small as possible: network simplex.
+"""Network simplex: integers that minimize the weighted sum of differences.
 
-Layers are found with it, and places within layers. Gansner, Koutsofios, North, Vo: A Technique
-for Drawing Directed Graphs, IEEE TSE 19 (1993), section 2.3 and 4.2.
+Used for layers and for coordinates within layers. Gansner, Koutsofios, North, Vo: A Technique for
+Drawing Directed Graphs, IEEE TSE 19 (1993), sections 2.3 and 4.2.
 """
 
 from __future__ import annotations
@@ -10,17 +10,17 @@ from collections.abc import Sequence
 from heapq import heapify, heappop, heappush
 
 Constraint = tuple[int, int, int, int]
-"""Number `head` is at least number `tail` + length; each unit more costs weight."""
+"""(tail, head, length, weight): head >= tail + length; each unit more costs weight."""
 
-_WORK = 500_000
-"""About how many steps are spent: an answer that is not the best is one, too."""
-_SEARCHED = 30
+_MAX_STEPS = 500_000
+"""Approximate step limit; the result may then not be optimal."""
+_MAX_CANDIDATES = 30
 
 
-def minimized(count: int, constraints: Sequence[Constraint]) -> list[int]:
-    """`count` numbers, the least 0, that fulfil all constraints at the least cost.
+def minimize(count: int, constraints: Sequence[Constraint]) -> list[int]:
+    """Find `count` numbers that satisfy the constraints at minimum cost.
 
-    The constraints have no circles. They are the edges (tail, head, length, weight).
+    The smallest is 0. The constraints (tail, head, length, weight) have no cycles.
     """
     if count == 0:
         return []
@@ -31,7 +31,7 @@ def minimized(count: int, constraints: Sequence[Constraint]) -> list[int]:
     heads = {head for _, head in merged}
     root = count
     for node in range(count):
-        # What nothing else holds together, the root does, at no cost.
+        # The root connects separate components at no cost.
         if node not in heads:
             merged[root, node] = (0, 0)
     edges = [(tail, head, *about) for (tail, head), about in merged.items()]
@@ -42,7 +42,7 @@ def minimized(count: int, constraints: Sequence[Constraint]) -> list[int]:
 
 
 class _Solver:
-    """A spanning tree of edges that are as short as they may be, made better edge by edge."""
+    """A feasible spanning tree of tight edges that is improved edge by edge."""
 
     def __init__(self, count: int, edges: list[tuple[int, int, int, int]]) -> None:
         self.count = count
@@ -58,8 +58,8 @@ class _Solver:
         self.in_tree = [False] * len(edges)
         self.tree: list[list[int]] = [[] for _ in range(count)]
         self.cut = [0] * len(edges)
-        # Of the tree as seen from the root: the edge to the parent, the number of a node, and the
-        # last one below it.
+        # For each node of the rooted tree: the edge to its parent, its preorder number, and the
+        # highest number in its subtree.
         self.parent = [-1] * count
         self.low = [0] * count
         self.last = [0] * count
@@ -70,7 +70,7 @@ class _Solver:
         self.number(self.count - 1, -1, 1)
         self.cut_values()
         members = [edge for edge, inside in enumerate(self.in_tree) if inside]
-        work, at = _WORK, 0
+        work, at = _MAX_STEPS, 0
         while work > 0:
             leaving, at = self.leaving(members, at)
             if leaving is None:
@@ -86,7 +86,7 @@ class _Solver:
         return self.rank[self.head[edge]] - self.rank[self.tail[edge]] - self.length[edge]
 
     def longest_paths(self) -> None:
-        """The least numbers that fulfil all constraints."""
+        """Compute the smallest numbers that satisfy all constraints."""
         waits = [0] * self.count
         for head in self.head:
             waits[head] += 1
@@ -100,10 +100,10 @@ class _Solver:
                 waits[head] -= 1
                 if not waits[head]:
                     ready.append(head)
-        assert len(ready) == self.count, "constraints go in a circle"
+        assert len(ready) == self.count, "constraints have a cycle"
 
     def span(self) -> None:
-        """Make a tree of tight edges: join the smallest part to the nearest other, in turns."""
+        """Build a tree of tight edges, joining the smallest part to the nearest other."""
         part = list(range(self.count))
         members: list[list[int]] = [[node] for node in range(self.count)]
 
@@ -137,7 +137,7 @@ class _Solver:
                         if best < 0 or slack < least:
                             best, least = edge, slack
             if best < 0:
-                break  # it is all there is
+                break  # nothing left to join
             delta = least if part[self.tail[best]] == number else -least
             for node in members[number]:
                 self.rank[node] += delta
@@ -145,7 +145,7 @@ class _Solver:
             heappush(heap, (len(members[joined]), joined))
 
     def number(self, root: int, parent: int, low: int) -> int:
-        """Number the tree below a node in preorder; return how many nodes that are."""
+        """Number a subtree in preorder and return its size."""
         tail, head, tree, parents = self.tail, self.head, self.tree, self.parent
         lows, lasts = self.low, self.last
         parents[root] = parent
@@ -164,7 +164,7 @@ class _Solver:
                     parents[child] = edge
                     stack.append(child)
         order.reverse()
-        order.pop()  # of the root, the last one is known
+        order.pop()  # the highest number below the root is known
         lasts[root] = number - 1
         for node in order:
             up = parents[node]
@@ -174,16 +174,16 @@ class _Solver:
         return number - low
 
     def cut_values(self) -> None:
-        """What it costs to make each edge of the tree longer, from the leaves to the root."""
+        """Compute the cut values of all tree edges from the leaves to the root."""
         order = sorted(range(self.count), key=self.low.__getitem__, reverse=True)
         for node in order:
             if self.parent[node] >= 0:
                 self.cut[self.parent[node]] = self.cut_value(node)
 
     def cut_value(self, node: int) -> int:
-        """That of the edge above a node, from those of the edges below it."""
+        """Cut value of the edge above a node, from those of the edges below."""
         above = self.parent[node]
-        # Counted towards the node if the edge leads to it, and the other way round if not.
+        # The sign depends on whether the edge points to the node.
         inward = self.head[above] == node
         total = 0
         for edge in self.incident[node]:
@@ -195,7 +195,10 @@ class _Solver:
         return total
 
     def leaving(self, members: list[int], start: int) -> tuple[int | None, int]:
-        """An edge that had better be longer, of some the one that costs most; where to go on."""
+        """Index of a tree edge with a negative cut value, and where to continue searching.
+
+        Of several candidates, the one with the lowest value.
+        """
         best, found, size = None, 0, len(members)
         for step in range(size):
             at = start + step
@@ -204,20 +207,20 @@ class _Solver:
                 if best is None or self.cut[members[at]] < self.cut[members[best]]:
                     best = at
                 found += 1
-                if found == _SEARCHED:
+                if found == _MAX_CANDIDATES:
                     return best, at
         return best, start
 
     def below(self, edge: int) -> int:
-        """The end of an edge of the tree that is farther from the root."""
+        """End of a tree edge that is farther from the root."""
         tail, head = self.tail[edge], self.head[edge]
         return tail if self.parent[tail] == edge else head
 
     def entering(self, leaving: int) -> int | None:
-        """The shortest edge that holds the parts together on the other side."""
+        """Non-tree edge with minimum slack that reconnects the tree the other way round."""
         node = self.below(leaving)
         low, last = self.low[node], self.last[node]
-        # Without `leaving`, what it leads to may go away; an edge the other way stops that.
+        # `leaving` may become longer until an edge in the other direction is tight.
         outward = self.head[leaving] == node
         best, least = None, 0
         stack = [node]
@@ -238,7 +241,7 @@ class _Solver:
         return best
 
     def exchange(self, leaving: int, entering: int) -> int:
-        """Let one edge of the tree go for another; return how many nodes that touched."""
+        """Replace a tree edge; return the number of nodes visited."""
         node = self.below(leaving)
         low, last = self.low[node], self.last[node]
         slack = self.slack(entering)
@@ -256,7 +259,7 @@ class _Solver:
         return self.number(top, self.parent[top], self.low[top]) + last - low
 
     def shift(self, node: int, delta: int) -> None:
-        """Move the tree below a node."""
+        """Move a subtree."""
         stack = [node]
         while stack:
             here = stack.pop()
@@ -267,7 +270,7 @@ class _Solver:
                     stack.append(other)
 
     def update(self, start: int, goal: int, cut: int, forward: bool) -> int:
-        """Correct cut values from a node up to where the tree goes down to the goal."""
+        """Correct cut values from a node up to the common ancestor with `goal`."""
         node, wanted = start, self.low[goal]
         while not self.low[node] <= wanted <= self.last[node]:
             edge = self.parent[node]
@@ -277,8 +280,8 @@ class _Solver:
         return node
 
     def balance(self, members: list[int]) -> None:
-        """Put in the middle what can be moved at no cost."""
-        work = _WORK // 4
+        """Center nodes that can move at no cost."""
+        work = _MAX_STEPS // 4
         for edge in members:
             if work <= 0:
                 return
@@ -289,6 +292,6 @@ class _Solver:
                 node = self.below(edge)
                 inside = self.low[node] <= self.low[self.head[entering]] <= self.last[node]
                 self.shift(node, -(slack // 2) if inside else slack // 2)
-                # The tree is not tight there any more, and so this edge must not be used again.
+                # The tree is no longer tight there, so this edge must not be used again.
                 self.cut[edge] = 1
                 work -= self.last[node] - self.low[node] + 1

@@ -1,4 +1,4 @@
-"""How edges go through containers, before anything has a place."""
+"""Routes of edges through containers, before any coordinates are known."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ from collections import defaultdict
 
 from swarmdsl.base.records import dataclass
 from swarmdsl.codegen.diagram.graph import Diagram, Edge, Node
-from swarmdsl.tools.diagram.layout.cycles import backward
-from swarmdsl.tools.diagram.layout.level import Side
+from swarmdsl.tools.diagram.layout.cycles import feedback_edges
+from swarmdsl.tools.diagram.layout.layered_graph import Side
 
 
 @dataclass
 class Route:
-    """How an edge goes: the containers that it leaves, the one it is in, those it enters.
+    """Containers on the route of an edge: those left, the common one, those entered.
 
-    Each container comes with the nodes in it between which the edge goes, None for its border.
+    Each leg is a container with the two nodes in it that the edge connects, None for the border.
     """
 
     edge: Edge
@@ -23,20 +23,20 @@ class Route:
     flipped: bool = False
 
     def entry(self, leg: int) -> Side:
-        """The side on which it comes in; from the container itself, as from before."""
+        """Side on which the edge enters; edges from the container itself come from before."""
         return "last" if self.flipped and leg != self.main else "first"
 
     def exit(self, leg: int) -> Side:
-        """The side on which it goes out; to the container itself, as to after."""
+        """Side on which the edge leaves; edges to the container itself go to after."""
         return "first" if self.flipped and leg != self.main else "last"
 
 
-class Passages:
-    """The routes of all edges, by their number, and what follows from them.
+class EdgeRoutes:
+    """Routes of all edges by number, and derived tables.
 
-    `inner` are the numbers of the edges that pass a container, and which leg of their route
-    does; `loops` the edges from a node to itself; `ends` how many edges are on a side of a
-    node; `right_ports` the ports at the right of their box.
+    `inner` lists the edges that cross a container, with the leg of their route; `loops` the
+    self-loops of a node; `ends` the number of edges on a side of a node; `right_ports` the ports on
+    the right side of their box.
     """
 
     def __init__(self, diagram: Diagram) -> None:
@@ -60,12 +60,12 @@ class Passages:
         self._count_ends()
 
     def _right_ports(self) -> set[str]:
-        """Ports from which data go out, by their direction or, if that is both, by their use."""
+        """Output ports, by direction or, for `inout`, by use."""
         sources = {edge.source_port for edge in self.diagram.edges}
         targets = {edge.target_port for edge in self.diagram.edges}
         found = set()
         for node in self.nodes.values():
-            # At the border of the frame, what comes out of it is at the right as well.
+            # Outputs of the frame are on the right as well; inside it, they are targets.
             inner = (targets, sources) if node.kind == "frame" else (sources, targets)
             for port in node.ports:
                 both = port.id in inner[0] and port.id not in inner[1]
@@ -74,7 +74,7 @@ class Passages:
         return found
 
     def _above(self, node: str) -> list[str]:
-        """A node and the containers that it is in, to the frame."""
+        """A node and its containers up to the frame."""
         found = [node]
         while found[-1] in self.parents:
             found.append(self.parents[found[-1]])
@@ -96,7 +96,7 @@ class Passages:
         return Route(edge, legs, main)
 
     def _flip(self, node: Node) -> None:
-        """Decide which edges in a container point backwards."""
+        """Choose the backward edges of a container."""
         index = {child.id: at for at, child in enumerate(node.nodes)}
         found = []
         for number, leg in self.inner[node.id]:
@@ -105,11 +105,11 @@ class Passages:
             if leg == route.main and source is not None and target is not None:
                 found.append((route, index[source], index[target]))
         edges = [(source, target) for _, source, target in found]
-        for at in backward(len(index), edges, ()):
+        for at in feedback_edges(len(index), edges, ()):
             found[at][0].flipped = True
 
     def _count_ends(self) -> None:
-        """Count edges on each side of each node, which has to be wide enough for them."""
+        """Count edges on each side of each node, which determines its minimum width."""
         for route in self.routes.values():
             out: Side = "first" if route.flipped else "last"
             into: Side = "last" if route.flipped else "first"

@@ -1,9 +1,8 @@
-"""Places across: of the vertices in each layer, and of the ends of edges on them.
+"""Assign coordinates across to vertices and edge ends.
 
-The parts of a link that pass layers are one straight line wherever they can be. Where lines
-and cells are is then the cheapest answer to the wish that edges are straight: Gansner et al.
-1993, section 4, with the links' inner parts as one number each, as in Sander: Layout of
-Compound Directed Graphs (1996), section 6.
+Inner segments of a link form one straight line wherever possible. The coordinates of lines and
+cells minimize the weighted bends of edges: Gansner et al. 1993, section 4, with one number for the
+inner segments of a link, as in Sander: Layout of Compound Directed Graphs (1996), section 6.
 """
 
 from __future__ import annotations
@@ -14,41 +13,40 @@ from heapq import heappop, heappush
 from itertools import pairwise
 from statistics import median_low
 
-from swarmdsl.tools.diagram.layout.level import Cell, End, Layers, Link, Segment, Vertex
-from swarmdsl.tools.diagram.layout.simplex import Constraint, minimized
+from swarmdsl.tools.diagram.layout.layered_graph import Cell, End, Layers, Link, Segment, Vertex
+from swarmdsl.tools.diagram.layout.simplex import Constraint, minimize
 
 NODE_GAP, LINE_GAP, LABEL_GAP = 26, 12, 14
 END_GAP = 12
-"""Between two ends on one side of a cell, if there is room."""
+"""Preferred distance between two ends on one side of a cell."""
 _CORNER = 7
 _NARROW = 20
-"""Room in which ends cannot be moved so that it helps."""
+"""Width below which moving ends does not help."""
 
 
-def place(
+def assign_coordinates(
     layers: Layers, cells: Sequence[Cell], links: Sequence[Link], pitch: int, before: bool
 ) -> None:
-    """Set where vertices and ends are across.
+    """Set the positions of vertices and ends across.
 
-    `before` says on which side of its line the label of a single edge is, else of the one in
-    the middle.
+    `before` selects the side for the label of a single edge, or of the middle one.
     """
     sides = _sides(layers, cells)
-    _put_labels(sides, layers, links, pitch, before)
+    _choose_label_sides(sides, layers, links, pitch, before)
     for ends in sides:
         ends.spread()
     lines = _lines(layers)
     fixed = {id(end) for side in sides for end in side.fixed()}
     _minimize(layers, lines, fixed)
-    _put_lanes(layers)
+    _place_lanes(layers)
     for _ in range(2):
-        # The second time, ends follow those of other cells that have moved.
+        # The second pass follows ends on other cells that moved in the first.
         for ends in sides:
             ends.slide()
 
 
 def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]) -> None:
-    """Place all lines so that edges are as straight as may be; the least place is 0."""
+    """Place all lines so that edges are as straight as possible, starting at 0."""
     number = {id(vertex): at for at, line in enumerate(lines) for vertex in line}
     constraints: list[Constraint] = []
     for layer in layers.layers:
@@ -58,16 +56,16 @@ def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]
     count = len(lines)
     for segment in layers.segments:
         start, end = segment.start, segment.end
-        if segment.is_aside:
+        if segment.uses_lane:
             continue
         if number[id(start.vertex)] == number[id(end.vertex)]:
             continue
-        offset = _of_line(end) - _of_line(start)
+        offset = _offset(end) - _offset(start)
         weight = _weight(segment, fixed)
         constraints.append((count, number[id(start.vertex)], max(0, offset), weight))
         constraints.append((count, number[id(end.vertex)], max(0, -offset), weight))
         count += 1
-    places = minimized(count, constraints)
+    places = minimize(count, constraints)
     for at, line in enumerate(lines):
         for vertex in line:
             vertex.across = places[at] - vertex.line
@@ -77,14 +75,14 @@ def _minimize(layers: Layers, lines: Sequence[Sequence[Vertex]], fixed: set[int]
             vertex.across -= least
 
 
-def _put_lanes(layers: Layers) -> None:
-    """Place the lanes beside all else, two at one place where they are far from each other."""
+def _place_lanes(layers: Layers) -> None:
+    """Place lanes beside everything else; lanes that are far apart share a position."""
     across = max((v.across + v.breadth for layer in layers.layers for v in layer), default=0)
-    taken: list[tuple[int, int]] = []  # a heap of the layers up to which places are, and these
+    taken: list[tuple[int, int]] = []  # heap of (last layer, place)
     free: list[int] = []
     places = 0
     for lane in sorted(layers.lanes, key=lambda each: (each.layer, each.beyond)):
-        # What leads to one and from another is in gaps of their own.
+        # Edges to one lane and from the next must be in different gaps.
         while taken and taken[0][0] + 1 < lane.layer:
             heappush(free, heappop(taken)[1])
         places += not free
@@ -93,33 +91,33 @@ def _put_lanes(layers: Layers) -> None:
         lane.across = across + place * LINE_GAP
 
 
-def _of_line(end: End) -> int:
-    """Where an end is from the number that stands for its vertex."""
+def _offset(end: End) -> int:
+    """Offset of an end from the variable of its vertex."""
     assert end.at is not None
     return end.at - end.vertex.line
 
 
 def _gap(one: Vertex, other: Vertex) -> int:
-    nodes = _is_node(one) + _is_node(other)
+    nodes = _takes_space(one) + _takes_space(other)
     if nodes == 2:
         return NODE_GAP
     return LABEL_GAP if nodes or one.is_label or other.is_label else LINE_GAP
 
 
-def _is_node(vertex: Vertex) -> bool:
-    """Whether it is a cell that takes room: where an edge goes on at the border is none."""
+def _takes_space(vertex: Vertex) -> bool:
+    """Return True for a cell that takes space, False for a continuation at the border."""
     return vertex.cell is not None and vertex.breadth > 0
 
 
 def _weight(segment: Segment, fixed: set[int]) -> int:
-    """How much it costs that a segment is not straight.
+    """Cost per pixel of bend in a segment.
 
-    Less at a cell on which its end can still be moved, and least at the link's target: where
-    it must bend, it does so once, and away from its label.
+    Lower at a cell whose end can still move, lowest at the target of the link: a necessary bend is
+    a single one, away from the label.
     """
     if segment.turns:
-        return 1  # it cannot be straight
-    start, end = _is_node(segment.start.vertex), _is_node(segment.end.vertex)
+        return 1  # it always bends
+    start, end = _takes_space(segment.start.vertex), _takes_space(segment.end.vertex)
     if start and end:
         return 12
     if not (start or end):
@@ -130,9 +128,9 @@ def _weight(segment: Segment, fixed: set[int]) -> int:
 
 
 def _lines(layers: Layers) -> list[list[Vertex]]:
-    """Vertices that are at one place across: each cell alone, the inner part of a link together.
+    """Vertices with the same coordinate across: cells, and inner parts of links.
 
-    Where the inner parts of links cross, one is interrupted.
+    If inner parts of two links cross, one is interrupted.
     """
     line_of: dict[int, list[Vertex]] = {
         id(vertex): [vertex] for layer in layers.layers for vertex in layer
@@ -140,14 +138,14 @@ def _lines(layers: Layers) -> list[list[Vertex]]:
     gaps: dict[int, list[tuple[Vertex, Vertex]]] = {}
     for segment in layers.segments:
         upper, lower = segment.start.vertex, segment.end.vertex
-        if segment.turns or upper.cell is not None or lower.cell is not None or segment.is_aside:
+        if segment.turns or upper.cell is not None or lower.cell is not None or segment.uses_lane:
             continue
         if upper.layer > lower.layer:
             upper, lower = lower, upper
         gaps.setdefault(segment.gap, []).append((upper, lower))
     for gap in sorted(gaps):
         pairs = sorted(gaps[gap], key=lambda pair: pair[0].order)
-        for at in _rising([lower.order for _, lower in pairs]):
+        for at in _longest_increasing([lower.order for _, lower in pairs]):
             upper, lower = pairs[at]
             line = line_of[id(upper)]
             line += line_of[id(lower)]
@@ -160,8 +158,8 @@ def _lines(layers: Layers) -> list[list[Vertex]]:
     return list(found.values())
 
 
-def _rising(numbers: Sequence[int]) -> list[int]:
-    """The places of a longest rising part of a sequence."""
+def _longest_increasing(numbers: Sequence[int]) -> list[int]:
+    """Indices of a longest increasing subsequence."""
     ends: list[int] = []
     at_end: list[int] = []
     before: list[int] = []
@@ -181,10 +179,10 @@ def _rising(numbers: Sequence[int]) -> list[int]:
     return found[::-1]
 
 
-def _put_labels(
-    sides: Sequence[_Ends], layers: Layers, links: Sequence[Link], pitch: int, before: bool
+def _choose_label_sides(
+    sides: Sequence[_CellSide], layers: Layers, links: Sequence[Link], pitch: int, before: bool
 ) -> None:
-    """Choose the side of the line for each label: away from the other edges of the source."""
+    """Put each label on the side of its line that faces away from other edges."""
     labels = {vertex.link: vertex for layer in layers.layers for vertex in layer if vertex.is_label}
     for side in sides:
         with_label = [
@@ -202,8 +200,8 @@ def _put_labels(
                 end.at = end.vertex.line
 
 
-class _Ends:
-    """The ends of links on one side of a cell, in order, and where they may be."""
+class _CellSide:
+    """Ends of links on one side of a cell, in order, with their possible positions."""
 
     def __init__(self, cell: Cell, found: Sequence[tuple[End, End, int]]) -> None:
         fixed = [each for each in found if each[0].at is not None]
@@ -212,7 +210,7 @@ class _Ends:
         free.sort(key=lambda each: _order(each[1]))
         merged = list(fixed)
         for each in free:
-            # Between the fixed ones that it does not cross.
+            # Insert it between fixed ends so that it crosses none.
             at = sum(_order(other) < _order(each[1]) for _, other, _ in fixed)
             at += sum(end.at is None for end, _, _ in merged[:])
             merged.insert(min(at, len(merged)), each)
@@ -223,14 +221,14 @@ class _Ends:
         self.cell = cell
 
     def fixed(self) -> list[End]:
-        """The ends that are where they are."""
+        """Ends that cannot move."""
         narrow = self.cell.high - self.cell.low < _NARROW
         return [
             end for end, moves in zip(self.ends, self.movable, strict=True) if narrow or not moves
         ]
 
     def runs(self) -> list[tuple[range, int, int]]:
-        """Ends beside each other that can be moved, and between what."""
+        """Ranges of adjacent movable ends, with their lower and upper bounds."""
         low, high = self.cell.low, self.cell.high
         found = []
         start = 0
@@ -246,13 +244,13 @@ class _Ends:
         return found
 
     def spread(self) -> None:
-        """Put the ends at equal distances."""
+        """Space the ends evenly."""
         for run, bottom, top in self.runs():
             for number, at in enumerate(run, 1):
                 self.ends[at].at = bottom + (top - bottom) * number // (len(run) + 1)
 
     def slide(self) -> None:
-        """Put the ends where their edges are straight, as far as there is room."""
+        """Move the ends so that their edges are straight, within the available space."""
         across = self.ends[0].vertex.across if self.ends else 0
         for run, bottom, top in self.runs():
             room = top - bottom
@@ -272,7 +270,7 @@ def _order(end: End) -> tuple[int, int]:
 
 
 def _monotone(values: Sequence[int]) -> list[int]:
-    """The numbers nearest to these that do not fall: pool adjacent violators, with medians."""
+    """Closest non-decreasing numbers: pool adjacent violators, with medians."""
     pools: list[list[int]] = []
     for value in values:
         pools.append([value])
@@ -282,12 +280,12 @@ def _monotone(values: Sequence[int]) -> list[int]:
     return [median_low(pool) for pool in pools for _ in pool]
 
 
-def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_Ends]:
-    """The ends of links on each side of each cell."""
+def _sides(layers: Layers, cells: Sequence[Cell]) -> list[_CellSide]:
+    """Ends of links for each side of each cell."""
     found: dict[tuple[int, str], list[tuple[End, End, int]]] = {}
     for segment in layers.segments:
         for end, other in ((segment.start, segment.end), (segment.end, segment.start)):
             if end.vertex.cell is not None:
                 key = (end.vertex.cell, end.side)
                 found.setdefault(key, []).append((end, other, segment.link))
-    return [_Ends(cells[cell], ends) for (cell, _), ends in found.items()]
+    return [_CellSide(cells[cell], ends) for (cell, _), ends in found.items()]
