@@ -158,10 +158,10 @@ def test_what_is_of_another_kind_than_it_should_be() -> None:
 
     assert [function.name for function in system.functions] == ["lift", "lower"]
     assert {found.message for found in report if found.name == "left-out"} == {
-        '`"grip"` in `functions` is left out: it is no object',
-        f"`{json.dumps([call])[:40]}...` in `api` is left out: it is no object",
-        '`{"topic": "arm/state", "msg": "arm_msgs/...` in `inputs` is left out: it is no list',
-        "`1` in `param_list` is left out: it is no object",
-        '`"height"` in `fields` is left out: it is no object',
-        '`"reached"` in `result` is left out: it is no object',
+        '`"grip"` in `functions` is left out: it is not an object',
+        f"`{json.dumps([call])[:40]}...` in `api` is left out: it is not an object",
+        '`{"topic": "arm/state", "msg": "arm_msgs/...` in `inputs` is left out: it is not a list',
+        "`1` in `param_list` is left out: it is not an object",
+        '`"height"` in `fields` is left out: it is not an object',
+        '`"reached"` in `result` is left out: it is not an object',
     }

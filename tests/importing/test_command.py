@@ -83,7 +83,7 @@ def test_files_of_the_other_format(
     assert run(["import", "scxml", str(functions)]) == 1
     assert "it looks like JSON: `swarmc import adf` or `amf` reads that" in capsys.readouterr().err
     assert run(["import", "adf", str(door)]) == 1
-    assert "it looks like XML: `swarmc import scxml` reads that" in capsys.readouterr().err
+    assert "it looks like XML: use `swarmc import scxml`" in capsys.readouterr().err
 
 
 def test_a_file_is_never_overwritten(
@@ -110,7 +110,9 @@ def test_a_pipe_stays_one(
         out.symlink_to(pipe)
 
     assert run(["import", "scxml", str(door), "-o", str(out)]) == 1
-    assert f"error[SW0909]: cannot write `{out}`: it is no regular file" in capsys.readouterr().err
+    assert (
+        f"error[SW0909]: cannot write `{out}`: it is not a regular file" in capsys.readouterr().err
+    )
     assert pipe.is_fifo()
     assert out.is_symlink() == linked
 
@@ -199,7 +201,7 @@ def test_fields_that_nothing_names_lead_to_a_description(
     assert run(["import", "scxml", str(scxml)]) == 0
     out, err = capsys.readouterr()
     assert "do lift(value1 = 2.5)" in out
-    assert "= help: a description of the function says them: name its ADF file with `--adf`" in err
+    assert "= help: give the ADF file of the function with `--adf`" in err
 
 
 def vertices(system: System) -> dict[str, object]:

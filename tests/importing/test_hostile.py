@@ -12,7 +12,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.cli import run
 from swarmdsl.importing import command, files, import_adf, import_scxml
-from swarmdsl.importing.json_file import DEEPEST
+from swarmdsl.importing.json_file import MAX_DEPTH
 
 # Each takes some seconds at most.
 pytestmark = pytest.mark.timeout(60)
@@ -111,9 +111,9 @@ def test_what_takes_long_elsewhere(body: str) -> None:
 @pytest.mark.parametrize(
     ("text", "reason", "word"),
     [
-        ("[" * 100_000, f"it is nested deeper than {DEEPEST} levels", "["),
-        ('{"functions": ' + "[" * 200 + "]" * 200 + "}", f"nested deeper than {DEEPEST}", "{"),
-        ('{"functions": NaN}', "`NaN` is no number there", "NaN"),
+        ("[" * 100_000, f"it is nested deeper than {MAX_DEPTH} levels", "["),
+        ('{"functions": ' + "[" * 200 + "]" * 200 + "}", f"nested deeper than {MAX_DEPTH}", "{"),
+        ('{"functions": NaN}', "`NaN` is not a JSON number", "NaN"),
         ('{"functions": ' + "1" * 5000 + "}", "too many digits", "{"),
         ('{"functions": [', "expecting value", ""),
     ],
@@ -152,7 +152,7 @@ def test_descriptions_of_the_wrong_kind() -> None:
 
 
 def test_size(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "MOST", 2**20)
+    monkeypatch.setattr(files, "MAX_BYTES", 2**20)
     path = tmp_path / "large.xml"
     path.write_text(f"{HEAD}{STATE}</scxml>{' ' * 2**20}", encoding="utf-8")
 

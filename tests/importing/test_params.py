@@ -6,11 +6,13 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.importing.params import Owner, read_params
+from swarmdsl.importing.params import NodeParams, read_params
 from swarmdsl.ir import Literal
 
 
-def read(text: str, owners: dict[str, Owner] | None = None) -> tuple[dict[str, Owner], Diagnostics]:
+def read(
+    text: str, owners: dict[str, NodeParams] | None = None
+) -> tuple[dict[str, NodeParams], Diagnostics]:
     owners, report = owners if owners is not None else {}, Diagnostics()
     read_params(Source("uav.yaml", text), "uav", owners, report)
     return owners, report

@@ -1,7 +1,7 @@
-"""Models from files of the CPSwarm project and from plain SCXML, which `printer` writes as text.
+"""Import models from files of the CPSwarm project and from plain SCXML.
 
-A file is read for what it means. What is wrong with it is repaired where that can be done in one
-way, and what a model cannot say is left out; either is reported at its place.
+Files are read for their meaning. Errors with a unique fix are repaired, and anything that a model
+cannot express is left out; both are reported. `codegen.swarm_printer` writes the result.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from swarmdsl.base.source import Source
 from swarmdsl.execution.scxml.document import Document
 from swarmdsl.importing import adf
 from swarmdsl.importing.activities import Activities
-from swarmdsl.importing.activity_outcomes import settle
+from swarmdsl.importing.activity_outcomes import resolve_outcomes
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.events import Events
 from swarmdsl.importing.library import Library
-from swarmdsl.importing.machine import MachineMaker
+from swarmdsl.importing.machine import MachineBuilder
 from swarmdsl.importing.names import is_plain
-from swarmdsl.importing.partial_states import Draft, drop_rest, read_drafts
-from swarmdsl.importing.portable import Described
+from swarmdsl.importing.partial_states import PartialState, drop_unsupported, read_partial_states
+from swarmdsl.importing.portable import PortableDescription
 from swarmdsl.importing.repair import read
-from swarmdsl.importing.scxml_patterns import Ends, fold_idioms
-from swarmdsl.importing.targets import resolve
-from swarmdsl.importing.unlower import fold_lowered
+from swarmdsl.importing.scxml_patterns import FinalEvents, fold_patterns
+from swarmdsl.importing.targets import resolve_targets
+from swarmdsl.importing.unlower import undo_lowering
 from swarmdsl.ir import System
 
-# As many as a machine may have with all that it reuses.
-_MOST_STATES = 10_000
+# The same limit as for a state machine with its submachines.
+_MAX_STATES = 10_000
 
 
 def import_adf(
@@ -39,9 +39,9 @@ def import_adf(
     category: Literal["abstraction", "swarm"] = "abstraction",
     guesses: set[tuple[str, str]] | None = None,
 ) -> System:
-    """The functions and devices that ADF files describe, or AMF files of the swarm library.
+    """Import functions and devices from ADF files or AMF files of the swarm library.
 
-    What is only assumed of one, `communication` for instance, is added to the guesses.
+    `guesses` collects what is only assumed, as pairs of name and property.
     """
     library = Library()
     for source in sources:
@@ -59,23 +59,23 @@ def import_scxml(
     known: System | None = None,
     guesses: set[tuple[str, str]] | None = None,
 ) -> System:
-    """The machines of SCXML documents, one a document; ADF files describe what they call.
+    """Import SCXML documents as state machines; ADF files describe the called functions.
 
-    What a model has that they go into is `known`; guesses are as those of `import_adf`.
+    `known` is the model that the import is merged into; for `guesses` see `import_adf`.
     """
     library = Library()
     for source in described:
         adf.read(source, library, report)
     if known is not None:
-        library.know(known)
+        library.add_existing(known)
     events = Events(library.devices, known.events if known is not None else ())
     read_ = [each for source in sources for each in _read(source, library, events, report)]
-    library.learn(
+    library.infer_goal_fields(
         [d.call for _, top, _, _ in read_ for d in top.walk() if isinstance(d.call, Call)]
     )
     for document, top, ends, _ in read_:
         if any(d.call is not None or d.monitors for d in top.walk()):
-            settle(top, document, report)
+            resolve_outcomes(top, document, report)
         events.collect(top, ends, document, report)
     machines = []
     for document, top, ends, described_ in read_:
@@ -83,7 +83,7 @@ def import_scxml(
         exact = described_ and is_plain(text) and text not in events.names.taken
         called = text if exact else events.names.new(text.removesuffix(".xml"))
         activities = Activities(document, library, report)
-        maker = MachineMaker(document, top, described_, events, ends, activities, report)
+        maker = MachineBuilder(document, top, described_, events, ends, activities, report)
         machines.append(maker.machine(called))
     packages = {described_.package for *_, described_ in read_}
     if len(packages) == 1 and all(packages):
@@ -103,30 +103,30 @@ def import_scxml(
 
 def _read(
     source: Source, library: Library, events: Events, report: Diagnostics
-) -> Iterator[tuple[Document, Draft, Ends, Described]]:
-    """The states of a document; nothing where there are none."""
+) -> Iterator[tuple[Document, PartialState, FinalEvents, PortableDescription]]:
+    """Yield the states of a document, if it has any."""
     document = read(source, report)
     if document is None:
         return
-    top = read_drafts(document, report)
+    top = read_partial_states(document, report)
     states = sum(1 for _ in top.walk()) - 1
-    if states > _MOST_STATES:
-        reason = f"it has more than {_MOST_STATES} states"
+    if states > _MAX_STATES:
+        reason = f"it has more than {_MAX_STATES} states"
         report.report("no-model", document.at(document.root), path=source.name, reason=reason)
-    if not 0 < states <= _MOST_STATES:
+    if not 0 < states <= _MAX_STATES:
         return
-    described = Described(document, top, report)
-    resolve(top, document, report)
+    described = PortableDescription(document, top, report)
+    resolve_targets(top, document, report)
     if described:
-        fold_lowered(top)
+        undo_lowering(top)
         for interface in described.interfaces():
             library.interfaces.setdefault(interface.type, interface)
         for function in described.functions():
-            library.take(function)
+            library.add_portable(function)
         for event in described.events():
-            events.take(event, document.at(document.root), report)
-    ends = fold_idioms(top, document, report)
-    drop_rest(top, document, report)
+            events.add_portable(event, document.at(document.root), report)
+    ends = fold_patterns(top, document, report)
+    drop_unsupported(top, document, report)
     yield document, top, ends, described
 
 

@@ -1,4 +1,4 @@
-"""Calls of the dialect as activities, with the functions and interfaces that they need."""
+"""Import calls of the CPSwarm dialect as activities with functions and interfaces."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData
-from swarmdsl.importing.expressions import UnsayableError, path
+from swarmdsl.importing.expressions import UnsupportedError, path
 from swarmdsl.importing.library import Library, literal
-from swarmdsl.importing.names import Names
+from swarmdsl.importing.names import NamePool
 from swarmdsl.importing.portable import doc_of
 from swarmdsl.ir import (
     Action,
@@ -33,7 +33,7 @@ _ZEROS: dict[str, Literal] = {
 
 
 class Activities:
-    """Makes the activities of one document; `keys` are the variables that they need."""
+    """Builds the activities of one document; `keys` are the variables that they need."""
 
     def __init__(self, document: Document, library: Library, report: Diagnostics) -> None:
         self.document = document
@@ -41,8 +41,8 @@ class Activities:
         self.report = report
         self.keys: dict[str, Type] = {}
 
-    def activity(self, call: Call, variables: Names) -> Activity:
-        """What a state does that makes this call."""
+    def activity(self, call: Call, variables: NamePool) -> Activity:
+        """Activity of a state that makes the call."""
         function = self.library.function(call)
         described = self._described(call)
         goal = _part(described, ("goal", "request"))
@@ -80,12 +80,12 @@ class Activities:
             f"{function.name}_{words[1]}" if reads else None,
         )
 
-    def said(self, node: Node, data: MachineData) -> Activity | None:
-        """What a state does as the portable profile says it; None where that is incomplete."""
+    def portable_activity(self, node: Node, data: MachineData) -> Activity | None:
+        """Activity as described by the portable profile; None if it is incomplete."""
         name = node.get("function", "")
-        function = self.library.called(name)
+        function = self.library.function_named(name)
         if function is None:
-            what, reason = f"the activity `{name}`", "no function is called so"
+            what, reason = f"the activity `{name}`", "no function has this name"
             self.report.report("left-out", self.document.at(node), what=what, reason=reason)
             return None
         known = self.library.interfaces.get(function.communication.type)
@@ -102,9 +102,9 @@ class Activities:
                 elif each.name == "mapping":
                     variable, *below = path(each.get("location", ""))
                     if variable not in data.types:
-                        raise UnsayableError(f"no variable is called `{variable}`")
+                        raise UnsupportedError(f"unknown variable `{variable}`")
                     results.append(ResultMapping(field, data.name(variable), tuple(below)))
-            except UnsayableError as fault:
+            except UnsupportedError as fault:
                 place = self.document.at(each)
                 self.report.report("left-out", place, what=f"`{field}`", reason=fault.reason)
         callbacks = [
@@ -116,30 +116,30 @@ class Activities:
         )
 
     def _described(self, call: Call) -> Interface | None:
-        """What is known of the interface of a call; nothing, where it is known as another kind."""
+        """Known interface of a call; None if it is known as another kind."""
         known = self.library.interface(call)
         if known is None or isinstance(known, Action) == (call.paradigm == "action"):
             return known
         self.library.interfaces.pop(call.type, None)
-        reason = f"here it is that of {'an action' if call.paradigm == 'action' else 'a service'}"
-        self._left_out(call, f"what is known of `{call.type}`", reason)
+        reason = f"it is used as {'an action' if call.paradigm == 'action' else 'a service'} here"
+        self._left_out(call, f"the description of `{call.type}`", reason)
         return None
 
     def _fixed(
         self, call: Call, goal: dict[str, Type] | None, arguments: dict[str, Expression]
     ) -> bool:
-        """Fill in values in the order of the fields; False where they are no plain values."""
+        """Assign values to fields in order; return False if a value is computed."""
         values = [literal(item) for item in call.goal_items]
         names = list(goal) if goal is not None else []
         if goal is None:
             names = [f"value{number}" for number in range(1, len(values) + 1)]
         if goal is None or any(name.startswith("value") for name in names):
-            what = f"the names of the fields of `{call.type}` are not known"
-            help_ = "a description of the function says them: name its ADF file with `--adf`"
+            what = f"the field names of `{call.type}` are unknown"
+            help_ = "give the ADF file of the function with `--adf`"
             self._assumed(call, what, ", ".join(f"`{name}`" for name in names), help_)
         if None in values:
             what = ", ".join(call.goal_items)
-            self._left_out(call, f"`{what}`", "it is code; a callback has to fill the goal")
+            self._left_out(call, f"`{what}`", "it is code; fill the goal in a callback")
             return False
         for name, value in zip(names, values, strict=False):
             assert value is not None
@@ -151,27 +151,27 @@ class Activities:
     def _complete(
         self, call: Call, goal: dict[str, Type] | None, arguments: dict[str, Expression]
     ) -> None:
-        """Say what ROS does: a field that is not given is zero."""
+        """Set missing fields to zero, the default of ROS."""
         missing = {name: type_ for name, type_ in (goal or {}).items() if name not in arguments}
         if not missing:
             return
         zeros = {name: _ZEROS.get(str(type_)) for name, type_ in missing.items()}
         if None in zeros.values():
-            # Its fields would have to be given: then it is better not described at all.
+            # A described interface requires all fields, so drop the description.
             self.library.interfaces.pop(call.type, None)
-            reason = f"a call of it leaves {', '.join(f'`{name}`' for name in missing)} open"
-            self._left_out(call, f"what is known of `{call.type}`", reason)
+            reason = f"a call does not set {', '.join(f'`{name}`' for name in missing)}"
+            self._left_out(call, f"the description of `{call.type}`", reason)
             return
         for name, zero in zeros.items():
             assert zero is not None
             arguments[name] = zero
-            self._assumed(call, f"`{name}` has no value", "zero, as ROS has it,")
+            self._assumed(call, f"`{name}` has no value", "zero, the default of ROS,")
 
     def _key(self, call: Call, key: str, type_: Type | None) -> Type:
         known = self.keys.get(key)
         if known is None:
             if type_ is None:
-                self._assumed(call, f"the type of `{key}` is not known", "`string`")
+                self._assumed(call, f"the type of `{key}` is unknown", "`string`")
             known = self.keys[key] = type_ or STRING
         return known
 
@@ -184,7 +184,7 @@ class Activities:
 
 
 def _part(described: Interface | None, names: tuple[str, str]) -> dict[str, Type] | None:
-    """The fields of one part of an interface; None where nothing is known."""
+    """Fields of one part of an interface; None if it is unknown."""
     for name in names:
         fields = getattr(described, name, None)
         if fields is not None:

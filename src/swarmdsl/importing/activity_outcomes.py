@@ -1,7 +1,7 @@
-"""Bare outcomes of the CPSwarm dialect: whose activity it is that has ended so.
+"""Assign outcomes of the CPSwarm dialect to activities.
 
-There, `succeeded` on a container means that something inside has succeeded and says no more
-itself, as SMACH hands an outcome from a state to the container around it.
+In the dialect, `succeeded` on a container handles that outcome of any activity inside, as SMACH
+passes an outcome to the enclosing container.
 """
 
 from __future__ import annotations
@@ -9,18 +9,18 @@ from __future__ import annotations
 from swarmdsl.base.diagnostics.collector import Diagnostics, listed
 from swarmdsl.execution.scxml.document import Document
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.partial_states import OUTCOMES, Draft, Edge
+from swarmdsl.importing.partial_states import OUTCOMES, Edge, PartialState
 from swarmdsl.ir import StateKind
 
 
-def settle(top: Draft, document: Document, report: Diagnostics) -> None:
-    """Give each activity a way on for its outcomes, and take them from all other states.
+def resolve_outcomes(top: PartialState, document: Document, report: Diagnostics) -> None:
+    """Move transitions for outcomes to the states whose activities have them.
 
-    What nothing reacts to ends the machine, in a final state of the name of the outcome.
+    An unhandled outcome ends the machine in a final state with the name of the outcome.
     """
-    finals: dict[str, Draft] = {}
+    finals: dict[str, PartialState] = {}
     used: set[Edge] = set()
-    passed: list[tuple[Draft, list[Edge]]] = []
+    passed: list[tuple[PartialState, list[Edge]]] = []
     for draft in top.walk():
         if not isinstance(draft.call, Call):
             continue
@@ -28,7 +28,7 @@ def settle(top: Draft, document: Document, report: Diagnostics) -> None:
         open_: list[str] = []
         for outcome in OUTCOMES:
             handled = False
-            for level in (draft, *draft.around()):
+            for level in (draft, *draft.ancestors()):
                 edges = [edge for edge in level.edges if edge.event == outcome]
                 if level is not draft:
                     used.update(edges)
@@ -39,7 +39,7 @@ def settle(top: Draft, document: Document, report: Diagnostics) -> None:
             if not handled and outcome != "preempted":
                 open_.append(outcome)
                 if outcome not in finals:
-                    finals[outcome] = Draft(
+                    finals[outcome] = PartialState(
                         document.root, outcome.capitalize(), StateKind.FINAL, top
                     )
                 added.append(Edge(draft.call.node, outcome, finals[outcome]))
@@ -50,31 +50,33 @@ def settle(top: Draft, document: Document, report: Diagnostics) -> None:
                 document.at(draft.node, "id"),
                 outcomes=listed(open_, "and"),
                 state=draft.id,
-                help="let it lead elsewhere in the model if the robot should go on",
+                help="add a transition to another state if the robot should continue",
             )
     for draft, added in passed:
         draft.edges += added
     for draft in top.walk():
         if not isinstance(draft.call, Call):
             draft.edges = [
-                edge for edge in draft.edges if _stays(edge, draft, used, document, report)
+                edge for edge in draft.edges if _is_kept(edge, draft, used, document, report)
             ]
     top.children += finals.values()
 
 
-def _stays(
-    edge: Edge, draft: Draft, used: set[Edge], document: Document, report: Diagnostics
+def _is_kept(
+    edge: Edge, draft: PartialState, used: set[Edge], document: Document, report: Diagnostics
 ) -> bool:
-    """Whether a state keeps a transition: one on an outcome that never comes has no use."""
+    """Return False for a transition that was moved or whose outcome cannot occur."""
     if edge.event not in OUTCOMES:
         return True
     if edge in used:
         return False
     place = document.at(edge.node, "event", edge.event or "")
     if edge.event == "succeeded" and draft.kind is StateKind.SIMPLE and not draft.monitors:
-        fault = f"`{draft.id}` does nothing that could succeed: it is left at once"
+        fault = f"`{draft.id}` has no activity that could succeed: it is left immediately"
         report.report("repaired-dialect", place, fault=fault)
         return True
-    reason = f"nothing in `{draft.id}` can end so" if draft.children else "there is no activity"
+    reason = (
+        f"no activity in `{draft.id}` has this outcome" if draft.children else "it has no activity"
+    )
     report.report("left-out", place, what="this transition", reason=reason)
     return False

@@ -1,8 +1,8 @@
-"""Abstraction Description Files of all generations: what robots can do, and their devices.
+"""Import Abstraction Description Files (ADF) of all generations.
 
-The first generation has `msg_def` and `comm_paradigm`, the second `comm_model` with `paradigm` and
-`definition` in it, that of D5.4 `msg` and `param_list`; the exporter of 2021 has no `comm_model`.
-Algorithm Modelling Files, which describe behaviours of the swarm, have the shape of the first.
+The first generation has `msg_def` and `comm_paradigm`; the second has `comm_model` with `paradigm`
+and `definition`; that of D5.4 has `msg` and `param_list`; the exporter of 2021 has no `comm_model`.
+Algorithm Modelling Files, which describe swarm behaviors, have the form of the first generation.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from typing import Any, Literal
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
-from swarmdsl.importing.json_file import Content, read_json
+from swarmdsl.importing.json_file import JsonContent, read_json
 from swarmdsl.importing.library import Library
-from swarmdsl.importing.names import Names, is_plain, value_names
+from swarmdsl.importing.names import NamePool, is_plain, value_names
 from swarmdsl.importing.types import MISSPELT, data_type, qualified
 from swarmdsl.ir import (
     Action,
@@ -60,9 +60,9 @@ def read(
     report: Diagnostics,
     category: Literal["abstraction", "swarm"] = "abstraction",
 ) -> None:
-    """Add what a file describes to a library; all that is wrong with it is reported.
+    """Add the functions and devices of a file to a library and report errors.
 
-    Functions of which it does not say so are of this category.
+    `category` is for functions that do not state theirs.
     """
     content = read_json(source, report)
     if content is None:
@@ -83,14 +83,14 @@ class _Reader:
         category: Literal["abstraction", "swarm"],
     ) -> None:
         self.source = source
-        self.content = Content(source, report)
+        self.content = JsonContent(source, report)
         self.library = library
         self.report = report
         self.category = category
 
     def read(self, content: dict[str, Any]) -> None:
         for key in content.keys() - _KNOWN:
-            reason = "only functions and devices are read"
+            reason = "only functions and devices are imported"
             self.report.report("left-out", self.content.at(key), what=f"`{key}`", reason=reason)
         for typo, meant in MISSPELT.items():
             match = re.search(rf'(?<="){typo}(?=/)', self.source.text)
@@ -103,14 +103,14 @@ class _Reader:
             self._device(described)
 
     def _device(self, described: dict[str, Any]) -> None:
-        """A sensor, actuator or other device, with what it hears and tells as ports."""
+        """Read a sensor, actuator or other device with its ports."""
         written = str(described.get("name", ""))
         name = self.library.devices.new(written)
         if not is_plain(written):
             self.report.report("renamed", self.content.at(written), name=written, new=name)
         api = self.content.inside(described, "api")
         if api.get("services"):
-            reason = "nothing says what they are for: a function would"
+            reason = "their purpose is unknown; describe them as functions"
             what = f"the services of `{written}`"
             self.report.report("left-out", self.content.at(written), what=what, reason=reason)
         if "category" not in described:
@@ -118,7 +118,7 @@ class _Reader:
         kind = _DEVICES.get(str(described.get("category", "controller")).lower())
         if kind is None:
             self.library.guesses.add((name, "kind"))
-            what = f"`{described['category']}` is no kind of device"
+            what = f"`{described['category']}` is not a kind of device"
             self.report.report("assumed", self.content.at(written), what=what, assumed="`virtual`")
         names = value_names()
         ports = tuple(
@@ -152,7 +152,7 @@ class _Reader:
     def _communication(self, api: dict[str, Any], name: str) -> Communication:
         model = api.get("comm_model")
         if not isinstance(model, dict):
-            what = f"how `{name}` is called is not said"
+            what = f"the communication of `{name}` is missing"
             assumed = f"an action `{name}` of `cpswarm_msgs/Empty`"
             self.report.report("assumed", self.content.at(name), what=what, assumed=assumed)
             return Communication("action", _topic(name), Named("cpswarm_msgs", "Empty"))
@@ -162,7 +162,7 @@ class _Reader:
         if paradigm not in ("rosaction", "rosservice"):
             is_service = "request" in definition or "response" in definition
             kind = "service" if is_service else "action"
-            what = f"`{paradigm}` is no paradigm"
+            what = f"`{paradigm}` is not a paradigm"
             self.report.report(
                 "assumed", self.content.at(paradigm or name), what=what, assumed=kind
             )
@@ -185,14 +185,17 @@ class _Reader:
 
     def _describe(self, interface: Interface) -> None:
         if not self.library.describe(interface):
-            what, reason = f"what is said of `{interface.type}`", "in ROS it has other fields"
+            what, reason = (
+                f"the description of `{interface.type}`",
+                "its fields differ from those in ROS",
+            )
             place = self.content.at(str(interface.type))
             self.report.report("left-out", place, what=what, reason=reason)
 
     def _interface(self, written: str, kind: str, name: str) -> Named:
         type_ = qualified(written, kind)
         if not re.search(r"[/.]", written):
-            what = f"the package of `{written}` is not said"
+            what = f"the package of `{written}` is missing"
             place = self.content.at(written or name)
             self.report.report("assumed", place, what=what, assumed=f"`{type_}`")
         return type_
@@ -221,8 +224,8 @@ class _Reader:
                 if key == "dependencies":
                     if topic in heard:
                         continue
-                    what = f"what is done with `{topic}` is not said"
-                    assumed = "that it is listened to"
+                    what = f"the direction of `{topic}` is missing"
+                    assumed = "an input"
                     self.report.report(
                         "assumed", self.content.at(topic), what=what, assumed=assumed
                     )
@@ -230,7 +233,7 @@ class _Reader:
                 yield FunctionPort(direction, _topic(topic), type_)
 
     def _params(self, described: dict[str, Any]) -> Iterator[Param]:
-        names: Names = value_names()
+        names: NamePool = value_names()
         for param in self.content.objects(described, "param_list"):
             written = str(param.get("name", ""))
             name = names.exact(written)
@@ -243,7 +246,7 @@ class _Reader:
                 default = Value(value, _TYPES[type(value)])
             elif value is not None:
                 what = f"the value of `{written}`"
-                reason = "it is no number, text or truth value"
+                reason = "it is not a number, string or boolean"
                 self.report.report("left-out", self.content.at(written), what=what, reason=reason)
             yield Param(name, type_, default, doc=_line(param.get("description")))
 
@@ -258,12 +261,12 @@ class _Reader:
                     known = Value(round(value * 1_000_000_000), DURATION)
                 yield Constant(name, type_, known, doc)
             else:
-                reason = "it is no name with a number, text or truth value"
+                reason = "it is not a name with a number, string or boolean"
                 what = f"constant `{name}`"
                 self.report.report("left-out", self.content.at(name), what=what, reason=reason)
 
     def _part(self, definition: dict[str, Any], key: str) -> tuple[Field, ...]:
-        """The fields of a goal or the like: in an object, or without one around them."""
+        """Fields of a goal, result or the like, with or without an enclosing object."""
         if isinstance(definition.get(key), list):
             return self._fields({"fields": definition[key]})
         return self._fields(self.content.inside(definition, key))
@@ -273,7 +276,7 @@ class _Reader:
         for field in self.content.objects(described, "fields"):
             name = str(field.get("name", ""))
             if not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
-                reason = "no field can be called so"
+                reason = "it is not a valid field name"
                 self.report.report(
                     "left-out", self.content.at(name), what=f"field `{name}`", reason=reason
                 )
@@ -288,7 +291,7 @@ def _param_type(class_: str, value: object) -> Type:
         inner = value[0] if isinstance(value, list) and value else 0.0
         return Array(_TYPES.get(type(inner), FLOAT))
     type_ = data_type(class_ or "number")
-    # What a value is says more than a class that it cannot be of.
+    # If class and value contradict each other, trust the value.
     fits = isinstance(type_, Primitive) and (class_ != "number" or type(value) not in (bool, str))
     return type_ if fits or type(value) not in _TYPES else _TYPES[type(value)]
 
@@ -298,7 +301,7 @@ def _line(text: object) -> str:
 
 
 def _topic(name: str) -> str:
-    """A name that ROS takes."""
+    """Replace characters that ROS does not allow in names."""
     if _TOPIC.fullmatch(name):
         return name
     plain = re.sub(r"[^A-Za-z0-9_/]+", "_", name).strip("_/")

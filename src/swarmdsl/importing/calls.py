@@ -1,4 +1,4 @@
-"""What a state of the CPSwarm dialect does or hears: all that its periods wrote for `invoke`."""
+"""Read the activity of a state in all generations of the CPSwarm dialect."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SPARE = ("adf", "input", "invoke")
 
 @dataclass(frozen=True)
 class Monitor:
-    """A topic that is listened to; `topic` is empty where the file leaves it open."""
+    """A monitored topic; `topic` is empty if the file does not give it."""
 
     node: Node
     topic: str
@@ -32,7 +32,7 @@ class Monitor:
 
 @dataclass(frozen=True)
 class Call:
-    """An action or service that is called; `function` is the name that ADF has for it."""
+    """A called action or service; `function` is its name in ADF."""
 
     node: Node
     paradigm: Literal["action", "service"]
@@ -47,14 +47,14 @@ class Call:
 
 
 class Calls:
-    """Reads what the states of one document do, and reports what it repairs."""
+    """Reads the calls of one document and reports repairs."""
 
     def __init__(self, document: Document, report: Diagnostics) -> None:
         self.document = document
         self.report = report
 
     def read(self, state: Node) -> Call | Monitor | None:
-        """What a state calls or listens to; None for a state that does neither."""
+        """Call or monitor of a state; None if it has neither."""
         data = [each for each in _inside(state, "datamodel") if each.name == "data"]
         invokes = [each for each in state.children if each.name == "invoke"]
         holder = next((each for each in data if each.get("id") == "invoke"), None)
@@ -67,14 +67,16 @@ class Calls:
             body = next((each for each in state.children if each.name in _BODIES), None)
             holder = state
             if body is None and any(each.name in ("action", "srv") for each in state.children):
-                # The exporter of 2021 leaves out all that stands around.
-                self._repaired(state, "its call stands outside of `<data>` and `<invoke>`")
+                # The exporter of 2021 omits the enclosing elements.
+                self._repaired(state, "its call is outside of `<data>` and `<invoke>`")
                 body = state
         for spare in invokes[1:]:
-            self._left_out(spare, "a second `<invoke>`", "a state does one thing")
+            self._left_out(spare, "a second `<invoke>`", "a state has one activity")
         for each in data:
             if each.get("id") not in _SPARE:
-                self._left_out(each, f"data `{each.get('id', '')}`", "only machines have data")
+                self._left_out(
+                    each, f"data `{each.get('id', '')}`", "only state machines have data"
+                )
         if body is None:
             if invokes:
                 name = invokes[0].get("type") or invokes[0].get("id") or "invoke"
@@ -86,8 +88,10 @@ class Calls:
         )
         written = invokes[0].get("type") if invokes else None
         if body is not state and _TYPES.get(written or "") != body.name:
-            fault = f"`{written}` does not fit" if written else "no `<invoke>` goes with it"
-            self._repaired(invokes[0] if invokes else body, f"{fault}: it is the call of a {kind}")
+            fault = f"`{written}` does not match" if written else "`<invoke>` is missing"
+            self._repaired(
+                invokes[0] if invokes else body, f"{fault}: it is read as a call of a {kind}"
+            )
         if kind == "monitor":
             return self._monitor(body)
         function = next((_text(each, "name") for each in data if each.get("id") == "adf"), "")
@@ -96,7 +100,7 @@ class Calls:
     def _monitor(self, body: Node) -> Monitor:
         topic = _text(body, "topic").lstrip("/")
         if not _TOPIC.fullmatch(topic):
-            self._assumed(body, f"topic `{topic}` is open", "the name of the event")
+            self._assumed(body, f"topic `{topic}` is undefined", "the name of the event")
             topic = ""
         return Monitor(body, topic, self._type(body, "msg", "message"))
 
@@ -131,26 +135,26 @@ class Calls:
         text = _text(body, tag)
         type_ = qualified(text, kind)
         if not re.search(r"[/.]", text):
-            self._assumed(body, f"the package of `{text}` is not said", f"`{type_}`", tag)
+            self._assumed(body, f"the package of `{text}` is missing", f"`{type_}`", tag)
         return type_
 
     def _policy(self, body: Node, name: str, other: str) -> tuple[Policy, tuple[str, ...]]:
-        """The policy of a goal or result, and the values or fields with it."""
+        """Policy of a goal or result with its values or fields."""
         node = _child(body, name)
         if node is None and name != other:
             node = _child(body, other)
             if node is not None:
-                self._repaired(node, f"`<{other}>` of a service is `<{name}>`")
+                self._repaired(node, f"`<{other}>` of a service is read as `<{name}>`")
         if node is None:
             if name in ("goal", "request"):
-                self._repaired(body, f"`<{name}>` is missing: it is empty")
+                self._repaired(body, f"`<{name}>` is missing: it is read as empty")
             else:
-                self._repaired(body, f"`<{name}>` is missing: nothing is kept of it")
+                self._repaired(body, f"`<{name}>` is missing: its values are not stored")
             return Policy.EMPTY, ()
         values = [each for each in node.children if each.name in ("param", "var")]
         for value in values:
             if value.name == "var" and not _FIELD.fullmatch(value.text.strip()):
-                self._left_out(value, f"`{value.text.strip()}`", "no field is called so")
+                self._left_out(value, f"`{value.text.strip()}`", "it is not a valid field name")
                 values = [each for each in values if each is not value]
         items = tuple(each.text.strip() for each in values)
         given = node.get("type", "")
@@ -163,25 +167,27 @@ class Calls:
             policy = Policy.USERDATA if items else Policy.EMPTY
         if given != policy.value:
             shown = next((f'{key}="{value}"' for key, value in node.attributes.items()), "none")
-            self._repaired(node, f"the policy {shown} is `{policy.value}` today")
+            self._repaired(node, f"the policy {shown} is read as `{policy.value}`")
         if bool(items) != (policy in (Policy.FIXED, Policy.USERDATA)):
             if items:
                 what = ", ".join(f"`{item}`" for item in items)
                 self._left_out(node, what, f"the policy is `{policy.value}`")
             elif name in ("goal", "request", "result", "response"):
-                self._repaired(node, f"the policy `{policy.value}` has no values: it is empty")
+                self._repaired(
+                    node, f"the policy `{policy.value}` has no values: it is read as empty"
+                )
                 policy = Policy.EMPTY
             items = ()
         return policy, items
 
     def _mappings(self, holder: Node) -> Iterator[tuple[str, str]]:
-        """Pairs of a field and the key that it is kept by."""
+        """Yield pairs of a field and the key that stores it."""
         for mappings in (each for each in holder.walk() if each.name == "mappings"):
             for pair in (each for each in mappings.children if each.name == "map"):
                 yield _text(pair, "x"), _text(pair, "y")
             bare = [each for each in mappings.children if each.name in ("x", "y")]
             if bare:
-                self._repaired(bare[0], f"`<{bare[0].name}>` stands outside of `<map>`")
+                self._repaired(bare[0], f"`<{bare[0].name}>` is outside of `<map>`")
             keys = [each.text.strip() for each in bare if each.name == "y"]
             yield from zip((e.text.strip() for e in bare if e.name == "x"), keys, strict=False)
 

@@ -1,4 +1,4 @@
-"""The variables and params of a machine, as its document holds and uses them."""
+"""Variables and params of an imported machine."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import re
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
-from swarmdsl.importing.expressions import Expressions, UnsayableError, constant
+from swarmdsl.importing.expressions import Expressions, UnsupportedError, constant
 from swarmdsl.importing.library import Library
 from swarmdsl.importing.names import is_plain, value_names
-from swarmdsl.importing.partial_states import Draft
-from swarmdsl.importing.portable import Described
+from swarmdsl.importing.partial_states import PartialState
+from swarmdsl.importing.portable import PortableDescription
 from swarmdsl.importing.scxml_patterns import contents
 from swarmdsl.ir import (
     Expression,
@@ -30,17 +30,17 @@ _STAYED_IN = (StateKind.SIMPLE, StateKind.COMPOSITE, StateKind.PARALLEL)
 
 
 class MachineData:
-    """The data of one document; what is only used gets a type by its use.
+    """Data of one document; undeclared variables get a type from their use.
 
-    `active` is the variable that tells whether a state is active, of each state that a condition
-    asks about: the language has no such question.
+    `active` maps each state that a condition tests with `In()` to a variable for it, because the
+    language has no such test.
     """
 
     def __init__(
         self,
         document: Document,
-        top: Draft,
-        described: Described,
+        top: PartialState,
+        described: PortableDescription,
         library: Library,
         report: Diagnostics,
     ) -> None:
@@ -51,7 +51,7 @@ class MachineData:
         self.names = value_names()
         self.types: dict[str, Type] = {}
         self.first: dict[str, Expression] = {}
-        self.active: dict[Draft, str] = {}
+        self.active: dict[PartialState, str] = {}
         self.ignores = False
         self.expressions = Expressions(self.types, self._refer, self._field, self._is_active)
         for key, datum in described.data.items():
@@ -80,11 +80,11 @@ class MachineData:
                     continue
                 try:
                     if data.get("src") is not None:
-                        raise UnsayableError("other files are not read")
+                        raise UnsupportedError("`src` is not supported")
                     if known is None and not is_plain(name):
-                        raise UnsayableError("no variable can be called so")
+                        raise UnsupportedError("it is not a valid variable name")
                     value = constant(text, known.type if known is not None else None)
-                except UnsayableError as fault:
+                except UnsupportedError as fault:
                     what = f"data `{name}`"
                     place = self.document.at(data)
                     self.report.report("left-out", place, what=what, reason=fault.reason)
@@ -95,7 +95,7 @@ class MachineData:
                     self.types.setdefault(name, type_)
 
     def _widen(self, nodes: list[Node]) -> None:
-        """Make a whole number any number, where one is assigned that is not whole."""
+        """Make integer variables float if a float is assigned to them."""
         assigned = [
             (node.get("location", ""), node.get("expr", node.text.strip()))
             for node in nodes
@@ -110,17 +110,17 @@ class MachineData:
                     assigned.remove(each)
 
     def name(self, text: str) -> str:
-        """What a variable is called in the model."""
+        """Name of a variable in the model."""
         return self.names.of(text)
 
     @property
     def ignored(self) -> str:
-        """The variable that a transition sets which does nothing: those of a model do something."""
+        """Variable set by transitions without effects, which the language does not allow."""
         self.ignores = True
         return self.names.of("event ignored")
 
     def variables(self) -> tuple[Variable, ...]:
-        """Those of the machine, the given ones first."""
+        """Variables of the machine, declared ones first."""
         given = self.described.data
         made = [
             Variable(
@@ -136,7 +136,7 @@ class MachineData:
         return (*made, *(Variable(name, BOOL, Literal(False, BOOL)) for name in flags))
 
     def params(self) -> tuple[Param, ...]:
-        """The params of the machine."""
+        """Params of the machine."""
         return tuple(
             Param(datum.name, datum.type, self.first.get(key), datum.doc)
             for key, datum in self.described.data.items()
@@ -144,42 +144,42 @@ class MachineData:
         )
 
     def condition(self, node: Node, event: Type | None) -> Expression | None:
-        """The condition of an element; None where it has none. Raises UnsayableError."""
+        """Condition of an element; None if it has none. Raises UnsupportedError."""
         text = node.get("cond")
         return self.read(node, "cond", text, BOOL, event) if text else None
 
     def read(
         self, node: Node, attribute: str, text: str, wanted: Type | None, event: Type | None = None
     ) -> Expression:
-        """An expression; what has to be assumed for it is reported. Raises UnsayableError."""
+        """Read an expression and report assumptions. Raises UnsupportedError."""
         known = set(self.types)
         try:
             made = self.expressions.read(text, wanted, event)
-        except UnsayableError:
+        except UnsupportedError:
             for name in self.types.keys() - known:
                 del self.types[name]
             raise
         for name in self.types.keys() - known:
             place = self.document.at(node, attribute)
-            what, assumed = f"nothing is said of `{name}`", f"a variable of `{self.types[name]}`"
+            what, assumed = f"`{name}` is not declared", f"a variable of `{self.types[name]}`"
             self.report.report("assumed", place, what=what, assumed=assumed)
         return made
 
     def variable(self, location: tuple[str, ...], value: Expression) -> str:
-        """What the variable is called that a location begins with. Raises UnsayableError."""
+        """Name of the variable in a location. Raises UnsupportedError."""
         name = location[0]
         if not is_plain(name) and name not in self.types:
-            raise UnsayableError(f"no variable can be called `{name}`")
+            raise UnsupportedError(f"`{name}` is not a valid variable name")
         datum = self.described.data.get(name)
         if datum is not None and datum.param:
-            raise UnsayableError(f"`{name}` is a param")
+            raise UnsupportedError(f"`{name}` is a param")
         if len(location) > 1 and name not in self.types:
-            raise UnsayableError(f"nothing is said of `{name}`")
+            raise UnsupportedError(f"`{name}` is not declared")
         self.types.setdefault(name, getattr(value, "type", None) or BOOL)
         return self.names.of(name)
 
     def type_at(self, location: tuple[str, ...]) -> Type | None:
-        """The type of what is there, None where it is not known."""
+        """Type of a location; None if it is unknown."""
         type_ = self.types.get(location[0])
         for name in location[1:]:
             type_ = self._field(type_, name)
@@ -199,5 +199,5 @@ class MachineData:
     def _is_active(self, state: str) -> Expression:
         draft = self.drafts.get(state)
         if draft is None or draft not in self.active:
-            raise UnsayableError(f"whether `{state}` is active cannot be asked")
+            raise UnsupportedError(f"state `{state}` cannot be tested for being active")
         return VariableRef(self.active[draft], BOOL)

@@ -1,4 +1,4 @@
-"""Events of a document: which there are, and on which topics robots hear of them."""
+"""Events of documents and their topics."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from swarmdsl.base.naming import snake_case
 from swarmdsl.base.source import Span
 from swarmdsl.execution.scxml.document import Document, Node
 from swarmdsl.importing.calls import Monitor
-from swarmdsl.importing.names import Names
-from swarmdsl.importing.partial_states import OUTCOMES, Draft
-from swarmdsl.importing.scxml_patterns import Ends, contents
+from swarmdsl.importing.names import NamePool
+from swarmdsl.importing.partial_states import OUTCOMES, PartialState
+from swarmdsl.importing.scxml_patterns import FinalEvents, contents
 from swarmdsl.ir import Event, Named, Type
 
 _BRIDGE = "bridge/events/"
@@ -19,33 +19,35 @@ _INTERNAL = ("done.", "error.")
 
 
 class Events:
-    """The events of all documents that are read together."""
+    """Events of all documents that are imported together."""
 
-    def __init__(self, names: Names, of_model: Iterable[Event] = ()) -> None:
+    def __init__(self, names: NamePool, of_model: Iterable[Event] = ()) -> None:
         self.names = names
         self.known: dict[str, Event] = {}
         self.topics: dict[str, Named] = {}
         self._by_words: dict[str, list[str]] = {}
         self._words_of = 0
         self._types: dict[str, Type] = {}
-        # The names of those of which a document does not say with which topic they go.
+        # Names of events without a topic in the document.
         self.guessed: set[str] = set()
         self._by_name = {event.name: event for event in of_model}
         self._by_topic = {event.incoming_topic: event for event in of_model}
 
-    def take(self, event: Event, place: Span, report: Diagnostics) -> None:
-        """Take an event as the portable profile says it is."""
+    def add_portable(self, event: Event, place: Span, report: Diagnostics) -> None:
+        """Add an event that the portable profile describes."""
         known = self.known.setdefault(event.name, event)
         self.names.taken.add(event.name)
         if (known.type, known.topic, known.swarm) != (event.type, event.topic, event.swarm):
             what = f"event `{event.name}` of `{event.type}` on `{event.topic}`"
-            reason = f"another document has it with `{known.type}` on `{known.topic}`"
+            reason = f"another document declares it with `{known.type}` on `{known.topic}`"
             report.report("left-out", place, what=what, reason=reason)
 
-    def collect(self, top: Draft, ends: Ends, document: Document, report: Diagnostics) -> None:
-        """Find the events of one document, and pair them with the topics of its monitors.
+    def collect(
+        self, top: PartialState, ends: FinalEvents, document: Document, report: Diagnostics
+    ) -> None:
+        """Collect the events of a document and pair them with the topics of its monitors.
 
-        Those of which only the machine itself hears are none: its delays, ends and activities.
+        Delays, completion events and outcomes of activities are internal and left out.
         """
         monitored: dict[str, Monitor] = {}
         for draft in top.walk():
@@ -83,7 +85,7 @@ class Events:
                     continue
                 type_ = Named("std_msgs", "Empty")
                 place = document.at(node, "event", text)
-                what = f"no topic goes with event `{text}`"
+                what = f"event `{text}` has no topic"
                 report.report("assumed", place, what=what, assumed=f"`{type_}`")
                 self.known[text] = Event(name, type_, snake_case(name), swarm=False)
                 continue
@@ -92,15 +94,15 @@ class Events:
             carried = self.topics.setdefault(topic, monitor.type)
             if carried != monitor.type:
                 place = document.at(monitor.node)
-                what = f"`{monitor.type}` as what `{topic}` carries"
-                reason = f"another monitor hears `{carried}` there"
+                what = f"`{monitor.type}` as the type of `{topic}`"
+                reason = f"another monitor declares `{carried}`"
                 report.report("left-out", place, what=what, reason=reason)
             self.known[text] = Event(name, carried, topic.removeprefix(_BRIDGE), swarm)
 
-    def meant_by(self, descriptor: str) -> list[str]:
-        """The names of the events that a descriptor of a transition stands for.
+    def matching(self, descriptor: str) -> list[str]:
+        """Names of the events that match an event descriptor.
 
-        A descriptor stands for all events of which it is the first words (SCXML 3.12.1).
+        A descriptor matches events that begin with its tokens (SCXML 3.12.1).
         """
         if self._words_of != len(self.known):
             self._words_of = len(self.known)
@@ -112,7 +114,7 @@ class Events:
         return self._by_words.get(descriptor.removesuffix("*").removesuffix("."), [])
 
     def message(self, name: str) -> Named | None:
-        """What an event of the model carries."""
+        """Message type of an event."""
         if len(self._types) != len(self.known):
             self._types = {event.name: event.type for event in self.known.values()}
         type_ = self._types.get(name)
@@ -120,7 +122,7 @@ class Events:
 
     def _pair(
         self,
-        draft: Draft,
+        draft: PartialState,
         monitored: dict[str, Monitor],
         document: Document,
         report: Diagnostics,
@@ -142,15 +144,15 @@ class Events:
                 monitored.setdefault(waiting.pop(0), monitor)
             else:
                 what = f"the monitor of `{monitor.topic or monitor.type}`"
-                reason = "nothing waits for what it hears"
+                reason = "no transition handles its messages"
                 report.report("left-out", document.at(monitor.node), what=what, reason=reason)
 
 
-def _is_own(event: str, draft: Draft, ends: Ends) -> bool:
-    does = draft.said("activity") is not None and event.startswith(("do.", "gives."))
+def _is_own(event: str, draft: PartialState, ends: FinalEvents) -> bool:
+    does = draft.payload_node("activity") is not None and event.startswith(("do.", "gives."))
     return does or event in draft.timers or event in ends
 
 
 def _is_plain(event: str) -> bool:
-    """Whether it is an event of the system, and not one of the machine itself."""
+    """Return True for an external event, False for one of the machine itself."""
     return not (event.startswith(_INTERNAL) or event in OUTCOMES or event.endswith("*"))

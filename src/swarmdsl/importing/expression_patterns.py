@@ -1,4 +1,4 @@
-"""What trees of expressions of ECMAScript stand for, and of which types they are."""
+"""Patterns and types in expression trees of ECMAScript."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
 FLOAT_TYPES = tuple(map(Primitive, FLOATS))
 
 
-class Types:
-    """The types of expressions, as far as they do not depend on what is wanted.
+class TypeInference:
+    """Infers types of expressions that do not depend on the expected type.
 
-    `data` has those of variables and params, `field` gives those of fields; `event` is the message
-    at hand.
+    `data` maps variables and params to types, `field` gives the type of a field, and `event` is the
+    type of the current message.
     """
 
     def __init__(
@@ -36,7 +36,7 @@ class Types:
         self.event = event
 
     def common(self, *trees: Any) -> Type | None:
-        """The type that operands have together, which that of a number only seems to be."""
+        """Common type of operands; number literals count last."""
         found = [type_ for type_ in map(self.of, trees) if type_ is not None]
         sure = [
             t
@@ -49,7 +49,7 @@ class Types:
         return next(iter(floats or sure or found), None)
 
     def of(self, tree: Any) -> Type | None:
-        """The type of an operand, where it does not depend on what is wanted."""
+        """Type of an operand; None if it depends on the expected type."""
         children = tree.children
         match tree.data:
             case "number":
@@ -78,13 +78,13 @@ class Types:
                 meant = operator_of(callee, arguments)
                 if meant in ("/", "%"):
                     return self.of_operation(meant, *map(self.of, arguments))
-                if copied(tree) is not None:
-                    return self.of(copied(tree))
+                if copied_value(tree) is not None:
+                    return self.of(copied_value(tree))
                 return self.common(*arguments) if meant is None else FLOAT
         return None
 
     def of_operation(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
-        """The type of a sum, product or the like of these."""
+        """Type of an arithmetic operation."""
         if operator == "/" and right == DURATION:
             return FLOAT
         if DURATION in (left, right):
@@ -96,7 +96,7 @@ class Types:
 
 
 def number(text: str, wanted: Type | None) -> Literal:
-    """A number as it is written; a duration in milliseconds, where one is wanted."""
+    """Literal of a number; an expected duration is in milliseconds."""
     if text[1:2] in ("x", "X"):
         value: int | float = int(text, 16)
     else:
@@ -107,35 +107,35 @@ def number(text: str, wanted: Type | None) -> Literal:
 
 
 def is_number(tree: Any) -> bool:
-    """Whether it is a number, with signs before it."""
+    """Return True for a number with optional signs."""
     if tree.data == "sign":
         return is_number(tree.children[1])
     return bool(tree.data == "number")
 
 
 def is_name(tree: Any, name: str) -> bool:
-    """Whether it is that name."""
+    """Return True for the given name."""
     return bool(tree.data == "name" and tree.children[0] == name)
 
 
 def is_event(tree: Any) -> bool:
-    """Whether it is `_event.data`."""
+    """Return True for `_event.data`."""
     return is_name(tree.children[0], "_event") and tree.children[1] == "data"
 
 
-def copied(tree: Any) -> Any:
-    """What `JSON.parse(JSON.stringify(...))` copies; None for anything else."""
+def copied_value(tree: Any) -> Any:
+    """Operand of `JSON.parse(JSON.stringify(...))`; None for other expressions."""
     callee, *arguments = tree.children
     if callee.data != "member" or not is_name(callee.children[0], "JSON") or len(arguments) != 1:
         return None
     if callee.children[1] == "stringify":
         return arguments[0]
     inner = arguments[0]
-    return copied(inner) if inner.data == "call" else None
+    return copied_value(inner) if inner.data == "call" else None
 
 
 def remainder(tree: Any) -> tuple[Any, Any] | None:
-    """The operands of `((a % b) + b) % b`, which has the sign of `b`; None for anything else."""
+    """Operands of `((a % b) + b) % b`, which has the sign of `b`; None otherwise."""
     match tree:
         case Tree(
             data="operation",
@@ -153,9 +153,9 @@ def remainder(tree: Any) -> tuple[Any, Any] | None:
 
 
 def operator_of(callee: Any, arguments: list[Any]) -> str | None:
-    """The operator, or `sqrt`, that is meant where a function is called in its place.
+    """Operator, or `sqrt`, that a function of the portable profile stands for.
 
-    The portable profile writes these as functions, to have no value where they have none.
+    The profile wraps these in functions that return no value where the operation is undefined.
     """
     operator = _wrapped().get(callee) if callee.data == "function" else None
     return operator if operator and len(arguments) == (1 if operator == "sqrt" else 2) else None

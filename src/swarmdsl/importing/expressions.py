@@ -1,7 +1,6 @@
-"""Expressions of ECMAScript, as far as the language has them too.
+"""Convert expressions of ECMAScript.
 
-The types of what they are made of decide what they mean: a number is a duration in milliseconds
-where it stands for a duration.
+Types determine the meaning: a number is a duration in milliseconds where a duration is expected.
 """
 
 from __future__ import annotations
@@ -13,8 +12,8 @@ from swarmdsl.execution.scxml.ecmascript import Unreadable, parse, unquoted
 from swarmdsl.importing.expression_patterns import (
     COMPARISONS,
     OPERATORS,
-    Types,
-    copied,
+    TypeInference,
+    copied_value,
     is_event,
     is_name,
     number,
@@ -37,19 +36,19 @@ from swarmdsl.ir import (
 )
 from swarmdsl.syntax.types import BOOL, DURATION, FLOAT, INT, STRING
 
-# How many values each takes, or more.
+# Minimum number of arguments of each function.
 _FUNCTIONS = {"min": 2, "max": 2, "abs": 1, "sqrt": 1}
-_NO_NAMES = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
+_RESERVED = {"null", "undefined", "NaN", "Infinity", "_event", "_name", "_sessionid"}
 
-# In milliseconds: it has as many nanoseconds as 64 bits can hold.
-_LONGEST = 2**63 // 1_000_000
+# Longest duration in milliseconds: 64 bits of nanoseconds.
+_MAX_MILLISECONDS = 2**63 // 1_000_000
 
 _SHOWN = 80
 _TEXTS = ("string", "wstring")
 
 
-class UnsayableError(Exception):
-    """The language has no such thing; `reason` says why, as a clause."""
+class UnsupportedError(Exception):
+    """The language has no equivalent; `reason` is a clause that explains why."""
 
     def __init__(self, reason: str) -> None:
         super().__init__(reason)
@@ -57,10 +56,10 @@ class UnsayableError(Exception):
 
 
 class Expressions:
-    """Reads the expressions of one document.
+    """Converts the expressions of one document.
 
-    `refer` gives what a name means where a value of some type is wanted, and `inside` the
-    condition that a state is active. `field` gives the type of a field, None for an unknown one.
+    `refer` resolves a name for an expected type, `inside` gives the condition that a state is
+    active, and `field` the type of a field, None if it is unknown.
     """
 
     def __init__(
@@ -76,54 +75,51 @@ class Expressions:
         self.inside = inside
 
     def read(self, text: str, wanted: Type | None, event: Type | None = None) -> Expression:
-        """The expression, where `event` is the message at hand. Raises UnsayableError."""
+        """Convert an expression; `event` is the current message. Raises UnsupportedError."""
         try:
-            return _Reading(self, event).expression(parse(text), wanted)
+            return _ExpressionReader(self, event).expression(parse(text), wanted)
         except Unreadable as error:
             reason = str(error)
-        except UnsayableError as error:
+        except UnsupportedError as error:
             reason = error.reason
         shown = text if len(text) <= _SHOWN else f"{text[:_SHOWN]}..."
-        raise UnsayableError(f"`{shown}` has no meaning in a model: {reason}")
+        raise UnsupportedError(f"`{shown}` is not supported: {reason}")
 
     def type(self, text: str) -> Type | None:
-        """The type of an expression, as far as it does not depend on what is wanted."""
+        """Type of an expression; None if it depends on the expected type."""
         try:
-            return Types(self.types, self.field, None).of(parse(text))
+            return TypeInference(self.types, self.field, None).of(parse(text))
         except Unreadable:
             return None
 
 
 def path(text: str) -> tuple[str, ...]:
-    """The name of a variable and the fields below it that a location stands for.
-
-    Raises UnsayableError.
-    """
+    """Variable and field names of a location. Raises UnsupportedError."""
     names = text.strip().split(".")
     if not all(name.isidentifier() and name.isascii() for name in names):
-        raise UnsayableError(f"`{text}` is no variable or field of one")
+        raise UnsupportedError(f"`{text}` is not a variable or field")
     return tuple(names)
 
 
 def constant(text: str, wanted: Type | None) -> Expression:
-    """An expression that depends on nothing. Raises UnsayableError."""
+    """Convert a constant expression. Raises UnsupportedError."""
 
     def refer(name: str, wanted: Type) -> VariableRef:
-        raise UnsayableError(f"`{name}` is not known in advance")
+        raise UnsupportedError(f"`{name}` is not a constant")
 
     def inside(state: str) -> Expression:
-        raise UnsayableError("states are not known in advance")
+        raise UnsupportedError("it depends on the active states")
 
     return Expressions({}, refer, lambda type_, field: None, inside).read(text, wanted)
 
 
-class _Reading:
-    """Reads one expression."""
+class _ExpressionReader:
+    """Converts one expression."""
 
     def __init__(self, known: Expressions, event: Type | None) -> None:
         self.known = known
         self.event = event
-        self.types = Types(known.types, known.field, event)
+        self.types = TypeInference(known.types, known.field, event)
 
     def expression(self, tree: Any, wanted: Type | None) -> Expression:
         children = tree.children
@@ -145,41 +141,41 @@ class _Reading:
                 return self._operation(tree, wanted)
             case "call":
                 return self._call(tree, wanted)
-        raise UnsayableError("there is nothing like it")
+        raise UnsupportedError("it has no equivalent in a model")
 
     def _name(self, name: str, wanted: Type | None) -> Expression:
         if name in ("true", "false"):
             return Literal(name == "true", BOOL)
-        if name in _NO_NAMES:
-            raise UnsayableError(f"`{name}` is no value")
+        if name in _RESERVED:
+            raise UnsupportedError(f"`{name}` is not a value")
         return self.known.refer(name, wanted or BOOL)
 
     def _member(self, tree: Any) -> Expression:
         base, name = tree.children[0], str(tree.children[1])
         if is_event(tree):
             if self.event is None:
-                raise UnsayableError("it is not known what came with the event")
+                raise UnsupportedError("the type of the event is unknown")
             return EventData(self.event)
-        if base.data == "name" and str(base.children[0]) in (*_NO_NAMES, "Math"):
-            raise UnsayableError(f"`{base.children[0]}.{name}` is no value")
+        if base.data == "name" and str(base.children[0]) in (*_RESERVED, "Math"):
+            raise UnsupportedError(f"`{base.children[0]}.{name}` is not a value")
         unknown = base.data == "name" and str(base.children[0]) not in self.known.types
         if unknown and name != "length":
-            raise UnsayableError(f"nothing is said of `{base.children[0]}`")
+            raise UnsupportedError(f"`{base.children[0]}` is not declared")
         owner = self.expression(base, STRING if name == "length" else None)
         type_ = getattr(owner, "type", None)
         kind = type_.name if isinstance(type_, Primitive) else ""
         if name == "length" and (kind in _TEXTS or isinstance(type_, Array)):
             return Call("len", (owner,), INT)
-        # Times have fields in ROS.
+        # Time and duration have fields in ROS.
         if isinstance(type_, Array) or (kind and kind not in ("time", "duration")):
-            raise UnsayableError(f"`{type_}` has no `{name}`")
+            raise UnsupportedError(f"`{type_}` has no `{name}`")
         return FieldAccess(owner, name, self.known.field(type_, name))
 
     def _sign(self, sign: str, operand: Any, wanted: Type | None) -> Expression:
         if sign == "!":
             return Unary("not", self.expression(operand, BOOL), BOOL)
         if sign == "typeof":
-            raise UnsayableError("types are known in advance")
+            raise UnsupportedError("`typeof` is not supported")
         value = self.expression(operand, wanted if wanted != BOOL else INT)
         if sign == "+":
             return value
@@ -194,7 +190,7 @@ class _Reading:
             return self._arithmetic("%", *rest, wanted)
         operator = OPERATORS.get(str(sign), str(sign))
         if operator == "%":
-            raise UnsayableError("`%` of a negative number is another one in a model")
+            raise UnsupportedError("`%` of a negative number differs in a model")
         if operator not in COMPARISONS:
             return self._arithmetic(operator, left, right, wanted)
         hint = self.types.common(left, right) or INT
@@ -209,10 +205,10 @@ class _Reading:
             hint = self.types.common(left, right) if open_ else wanted
             values = [self.expression(each, hint or plain) for each in (left, right)]
         elif wanted == DURATION or (
-            # A number is no product of a duration, but a duration divided by one may be a factor.
+            # A product with a duration is no number, but a quotient of durations can be a factor.
             DURATION in (first, second) and not (operator == "*" and is_number)
         ):
-            # A duration times a number, or divided by one; of two numbers, the first is meant.
+            # One operand is a duration, the other a number; if both look like numbers, the first.
             is_second = first != DURATION and (
                 second == DURATION
                 or (
@@ -239,7 +235,7 @@ class _Reading:
         if meant is not None:
             return self._arithmetic(meant, arguments[0], arguments[1], wanted)
         if is_name(callee, "In") and [e.data in ("text", "name") for e in arguments] == [True]:
-            # The null data model has no quotes around the id (SCXML, B.1.2).
+            # The null data model omits quotes around the id (SCXML B.1.2).
             return self.known.inside(unquoted(arguments[0].children[0]))
         if callee.data == "member" and is_name(callee.children[0], "Math"):
             name = str(callee.children[1])
@@ -250,16 +246,16 @@ class _Reading:
                 hint = FLOAT if name == "sqrt" else hint
                 return Call(name, tuple(self.expression(e, hint) for e in arguments), hint)
             if least:
-                raise UnsayableError(f"`Math.{name}` is of other values")
-            raise UnsayableError(f"there is no `Math.{name}`")
-        inner = copied(tree)
+                raise UnsupportedError(f"`Math.{name}` has other arguments")
+            raise UnsupportedError(f"a model has no `Math.{name}`")
+        inner = copied_value(tree)
         if inner is not None:
             return self.expression(inner, wanted)
-        raise UnsayableError("only some functions of `Math` can be called")
+        raise UnsupportedError("only some functions of `Math` are supported")
 
 
 def _is_root(tree: Any) -> bool:
-    """Whether it is a square root, which is no length of time."""
+    """Return True for a square root, which is never a duration."""
     if tree.data != "call":
         return False
     callee, *arguments = tree.children
@@ -269,10 +265,10 @@ def _is_root(tree: Any) -> bool:
 
 
 def _is_too_long(tree: Any) -> bool:
-    """Whether it is a number of milliseconds that no duration has."""
+    """Return True for a number of milliseconds beyond the range of durations."""
     while tree.data == "sign" and str(tree.children[0]) in "+-":
         tree = tree.children[1]
     if tree.data != "number":
         return False
     value = number(str(tree.children[0]), None).value
-    return isinstance(value, (int, float)) and value > _LONGEST
+    return isinstance(value, (int, float)) and value > _MAX_MILLISECONDS

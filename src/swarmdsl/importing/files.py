@@ -1,4 +1,4 @@
-"""The files that are imported: what they say, and what the model of them is called."""
+"""Read the files to import and name the resulting model."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from swarmdsl.importing import import_adf, import_scxml
 from swarmdsl.ir import System
 from swarmdsl.project.read_source import read_source
 
-MOST = 16 * 2**20
-"""How many bytes a file of others may have."""
+MAX_BYTES = 16 * 2**20
+"""Maximum size of an imported file in bytes."""
 
 
 def read_files(
@@ -26,7 +26,10 @@ def read_files(
     guesses: set[tuple[str, str]],
     report: Diagnostics,
 ) -> tuple[System, int]:
-    """What the files say, and how many they are; an empty system where one cannot be read."""
+    """Import files and return the system and the number of files.
+
+    The system is empty if a file cannot be read.
+    """
     files = len(paths) + len(described)
     sources, adfs = read_sources(paths, report), read_sources(described, report)
     if report.has_errors:
@@ -38,12 +41,12 @@ def read_files(
 
 
 def read_sources(paths: Sequence[Path], report: Diagnostics) -> list[Source]:
-    """The texts of the files that can be read, each read once: one may be a pipe."""
-    sources = (read_source(path, None, report, "a file", MOST) for path in paths)
+    """Read each readable file once, since it may be a pipe."""
+    sources = (read_source(path, None, report, "a file", MAX_BYTES) for path in paths)
     return [source for source in sources if source is not None]
 
 
 def package_of(path: Path) -> str:
-    """The package of a model, after the file that it is in or comes from."""
+    """Package name of a model, from the name of its file or origin."""
     name = snake_case(path.absolute().name.partition(".")[0])
     return name if name[:1].isalpha() else f"model_{name}".rstrip("_")

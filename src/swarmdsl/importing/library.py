@@ -1,4 +1,4 @@
-"""What all files that are read together say of functions, devices and interfaces."""
+"""Functions, devices and interfaces of all files that are imported together."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from swarmdsl.base.records import replace
 from swarmdsl.importing.calls import Call
-from swarmdsl.importing.names import Names, type_names, value_names
+from swarmdsl.importing.names import NamePool, type_names, value_names
 from swarmdsl.importing.types import data_type
 from swarmdsl.ir import (
     Action,
@@ -32,21 +32,21 @@ from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
 
 class Library:
-    """The functions, devices and interfaces of all that is read together."""
+    """Functions, devices and interfaces of all imported files."""
 
     def __init__(self) -> None:
-        self.names: Names = value_names()
+        self.names: NamePool = value_names()
         self.functions: dict[tuple[str, str, Named], Function] = {}
         self.by_name: dict[str, tuple[str, str, Named]] = {}
         self.interfaces: dict[Named, Interface] = {}
-        self.devices: Names = type_names()
+        self.devices: NamePool = type_names()
         self.components: list[Component] = []
-        # What nobody has said: the name of a declaration, and what of it.
+        # Assumed properties: name of the declaration and name of the property.
         self.guesses: set[tuple[str, str]] = set()
         self._known = System("")
 
-    def know(self, system: System) -> None:
-        """Take what a model has beside what is described: calls are of its functions too."""
+    def add_existing(self, system: System) -> None:
+        """Add the declarations of an existing model, to which calls can refer."""
         others = {name for each in system.components for name in each.operations}
         others |= {n for m in system.members for part in m.parts for n in part.operations}
         others |= {function.name for function in self.functions.values()}
@@ -60,18 +60,18 @@ class Library:
             self.interfaces.setdefault(interface.type, interface)
 
     def new_functions(self) -> tuple[Function, ...]:
-        """Those that are not known from a model."""
+        """Functions that the existing model does not have."""
         return tuple(each for each in self.functions.values() if each not in self._known.functions)
 
     def new_interfaces(self) -> tuple[Interface, ...]:
-        """Those that are not known from a model."""
+        """Interfaces that the existing model does not have."""
         known = self._known.interfaces
         return tuple(each for each in self.interfaces.values() if each not in known)
 
     def describe(self, interface: Interface) -> bool:
-        """Take what is said of an interface; False where ROS comes with it, and has it otherwise.
+        """Add an interface; return False if ROS defines it with other fields.
 
-        What ROS itself says of services and actions is enough.
+        Services and actions of ROS are not added.
         """
         standard = lookup(interface.type)
         if standard is None:
@@ -83,7 +83,7 @@ class Library:
         return True
 
     def interface(self, call: Call) -> Interface | None:
-        """What is known of the interface that a call goes by."""
+        """Known interface of a call."""
         known = self.interfaces.get(call.type)
         kind: Kind = "srv" if call.paradigm == "service" else "action"
         standard = lookup(call.type, kind) if known is None else None
@@ -97,7 +97,7 @@ class Library:
         return known
 
     def message(self, type_: Type | None) -> Message | None:
-        """What is known of a message."""
+        """Known description of a message."""
         known = self.interfaces.get(type_) if isinstance(type_, Named) else None
         if isinstance(known, Message) or not isinstance(type_, Named):
             return known if isinstance(known, Message) else None
@@ -107,12 +107,12 @@ class Library:
         return None
 
     def add(self, function: Function) -> None:
-        """Take a function that an ADF file or a document describes."""
+        """Add a function that an ADF file or a document describes."""
         call = function.communication
         self.functions[call.paradigm, call.name, call.type] = function
 
-    def take(self, function: Function) -> None:
-        """Take a function that the portable profile names; ADF says more of one, if it is there."""
+    def add_portable(self, function: Function) -> None:
+        """Add a function of the portable profile, unless an ADF file describes it."""
         call = function.communication
         key = (call.paradigm, call.name, call.type)
         if key not in self.functions:
@@ -120,12 +120,12 @@ class Library:
             self.functions[key] = function
         self.by_name[function.name] = key
 
-    def called(self, name: str) -> Function | None:
-        """The function that the portable profile calls so."""
+    def function_named(self, name: str) -> Function | None:
+        """Function by its name in the portable profile."""
         return self.functions.get(self.by_name[name]) if name in self.by_name else None
 
     def function(self, call: Call) -> Function:
-        """The function that a call asks for, made where nothing is known of it."""
+        """Function of a call, created if it is unknown."""
         known = self.functions.get((call.paradigm, call.name, call.type))
         if known is None:
             name = call.function
@@ -142,8 +142,8 @@ class Library:
             self.add(known)
         return known
 
-    def learn(self, calls: list[Call]) -> None:
-        """Name the fields of goals that are only ever given as values in their order."""
+    def infer_goal_fields(self, calls: list[Call]) -> None:
+        """Name the fields of goals whose values are only given in order."""
         by_type: dict[tuple[str, Named], list[Call]] = {}
         for call in calls:
             by_type.setdefault((call.paradigm, call.type), []).append(call)
@@ -173,7 +173,7 @@ def _standard_fields(fields: Iterable[Described]) -> tuple[Field, ...]:
 
 
 def literal(text: str) -> Literal | None:
-    """A value as Python writes it; None for anything that would have to be computed."""
+    """Parse a Python literal; None for other expressions."""
     try:
         value = ast.literal_eval(text)
     except (ValueError, SyntaxError, MemoryError, RecursionError):

@@ -1,4 +1,4 @@
-"""Names that the language takes, each given once."""
+"""Unique names that are valid in the language."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ _PLAIN = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 
 
 def is_plain(name: str) -> bool:
-    """Whether only its style may have to change for the language to take it."""
+    """Return True for a valid identifier that is not reserved."""
     return _PLAIN.fullmatch(name) is not None and name not in RESERVED
 
 
-class Names:
-    """The names of one kind of thing; `style` brings one into the form that is usual."""
+class NamePool:
+    """Unique names of one namespace; `style` converts a name to its usual form."""
 
     def __init__(self, style: Callable[[str], str]) -> None:
         self.style = style
@@ -26,20 +26,20 @@ class Names:
         self.numbers: dict[str, int] = {}
 
     def of(self, text: str) -> str:
-        """The name of a thing; the same for the same text."""
+        """Name for a string; equal strings get equal names."""
         if text not in self.given:
             self.given[text] = self.new(text)
         return self.given[text]
 
     def exact(self, text: str) -> str:
-        """The name itself, where the language takes it; else one that no other thing has."""
+        """The string itself if it is a valid and free name, otherwise a new name."""
         if not is_plain(text) or text in self.taken:
             return self.new(text)
         self.taken.add(text)
         return text
 
     def new(self, text: str) -> str:
-        """A name that no other thing has, in the usual style."""
+        """New unique name in the usual style."""
         ascii_ = text.encode("ascii", "ignore").decode()
         name = self.style(re.sub(r"[^A-Za-z0-9]+", "_", ascii_))
         if not name or not name[0].isalpha():
@@ -55,11 +55,11 @@ class Names:
         return free
 
 
-def type_names() -> Names:
-    """Names of states, machines and events, `LikeThis`."""
-    return Names(camel_case)
+def type_names() -> NamePool:
+    """Names of states, machines and events, in CamelCase."""
+    return NamePool(camel_case)
 
 
-def value_names() -> Names:
-    """Names of variables and functions, `like_this`."""
-    return Names(snake_case)
+def value_names() -> NamePool:
+    """Names of variables and functions, in snake_case."""
+    return NamePool(snake_case)

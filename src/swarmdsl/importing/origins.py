@@ -1,8 +1,7 @@
-"""Where what a model is made of stands in the files of others.
+"""Map locations in an intermediate model to the files that it was imported from.
 
-The model that `swarmc codegen` makes on the way is shown to nobody, so that places in it mean
-nothing. What it declares has the names of the files, by which it is found there again; what got
-another name is not.
+The user never sees the intermediate model of `swarmc codegen`. Its declarations are found in the
+imported files by name; renamed ones are not found.
 """
 
 from __future__ import annotations
@@ -17,19 +16,19 @@ from swarmdsl.base.source import Source, Span
 from swarmdsl.codegen.api import OutputFile
 from swarmdsl.codegen.source_map import Entry, MappedText
 
-# A topic and a server are called by a text, and all else by a name.
+# Topics and servers are string literals, everything else has an identifier.
 _NAME = re.compile(r'(?:in|out|inout|action|service)\b[^"]*"([^"\\]+)"|([A-Za-z_]\w*)\Z')
 
 
 class Origins:
-    """The places in SCXML documents, and then in ADF files, of what a model declares."""
+    """Locations of declarations in SCXML documents, then in ADF files."""
 
     def __init__(self, documents: Iterable[Source], described: Iterable[Source]) -> None:
         self._documents, self._described = tuple(documents), tuple(described)
-        self._found = cache(self._look)
+        self._found = cache(self._search)
 
-    def told(self, file: OutputFile) -> OutputFile:
-        """A file that was made of the model, with these places in place of those of the model."""
+    def relocate(self, file: OutputFile) -> OutputFile:
+        """Replace locations in the model by locations in the imported files."""
         text = file.text
         if isinstance(text, MappedText):
             entries = (Entry(line, self._of(origin)) for line, origin in text.entries)
@@ -40,8 +39,8 @@ class Origins:
         name = _NAME.match(declared.text) if declared is not None else None
         return self._found(name[1] or name[2]) if name is not None else None
 
-    def _look(self, name: str) -> Span | None:
-        # A machine begins with a capital letter in a model, which its name need not do.
+    def _search(self, name: str) -> Span | None:
+        # The model capitalizes the name of a machine, so a second search ignores case.
         of_element = rf"""\b(?:id|name)\s*=\s*(["']){re.escape(name)}\1"""
         for flags in (re.RegexFlag(0), re.IGNORECASE):
             for source in self._documents:

@@ -1,7 +1,7 @@
-"""Parameter files of ROS: names, values and comments to params.
+"""Import ROS parameter files: names, values and comments of params.
 
-The YAML is that of version 1.1, as ROS reads it. A map in a map is a namespace of parameters;
-`ros__parameters` is what ROS 2 puts between the name of a node and its parameters.
+The format is YAML 1.1, as in ROS. Nested maps are namespaces; in ROS 2, `ros__parameters` is
+between the name of a node and its parameters.
 """
 
 from __future__ import annotations
@@ -14,34 +14,34 @@ import yaml
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass, field
 from swarmdsl.base.source import Source, Span
-from swarmdsl.importing.names import Names, is_plain, value_names
+from swarmdsl.importing.names import NamePool, is_plain, value_names
 from swarmdsl.ir import Array, Literal, Param, Primitive, Type
 from swarmdsl.syntax.types import BOOL, FLOAT, INT, STRING
 
-_OF_A_NODE = "ros__parameters"
+_ROS2_KEY = "ros__parameters"
 _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING}
-# Of what has more, or is deeper, somebody has made a bomb of aliases.
-_MOST = 10_000
-_DEEPEST = 32
+# Limits against YAML bombs, which expand aliases.
+_MAX_PARAMS = 10_000
+_MAX_DEPTH = 32
 _COMMENT = re.compile(r"(?P<indent>[ \t]*)#+(?:[ \t]+(?P<text>.*))?")
-_BEHIND = re.compile(r"(?:.*\s)?#+[ \t]*(?P<text>.*)")
+_TRAILING = re.compile(r"(?:.*\s)?#+[ \t]*(?P<text>.*)")
 _CONTROL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f]")
 _TAG = "tag:yaml.org,2002:"
 _PLAIN = {f"{_TAG}{name}" for name in ("bool", "int", "float", "str", "timestamp")}
 
 
 @dataclass(eq=False)
-class Owner:
-    """The params of one node, by the names that ROS has for them; `doc` stands above all."""
+class NodeParams:
+    """Params of one node by their ROS names; `doc` is the header comment of the file."""
 
     doc: str = ""
     params: dict[str, Param] = field(default_factory=dict)
-    names: Names = field(default_factory=value_names)
+    names: NamePool = field(default_factory=value_names)
 
 
 @dataclass(eq=False)
-class _Entry:
-    """A parameter as it is written; `node` is empty where none is named."""
+class _Parameter:
+    """Parameter in a file; `node` is empty if the file names none."""
 
     node: str
     name: str
@@ -51,9 +51,9 @@ class _Entry:
 
 
 def read_params(
-    source: Source, package: str, owners: dict[str, Owner], report: Diagnostics
+    source: Source, package: str, owners: dict[str, NodeParams], report: Diagnostics
 ) -> None:
-    """Add the params in a file to those of its package, or of the nodes that it names."""
+    """Add the params of a file to its package or to the nodes that it names."""
     reader = _Reader(source, report)
     try:
         deep = _too_deep(source.text)
@@ -69,37 +69,37 @@ def read_params(
         reader.fault(error.position, error.reason)
         return
     if top is not None and not isinstance(top, yaml.MappingNode):
-        reader.left_out(top, "this file", "it is no map of parameters")
+        reader.left_out(top, "this file", "it is not a map of parameters")
     elif top is not None:
         reader.read(top)
         for entry in reader.entries:
-            owner = owners.setdefault(entry.node or package, Owner())
+            owner = owners.setdefault(entry.node or package, NodeParams())
             if reader.header:
                 owner.doc, reader.header = f"{owner.doc}\n{reader.header}".strip(), ""
             reader.add(entry, owner)
 
 
 def _too_deep(text: str) -> int | None:
-    """Where a text is nested deeper than a parameter file is, which would exhaust the stack."""
+    """Offset at which a text is nested too deeply to be parsed safely, or None."""
     depth = 0
     for event in yaml.parse(text, Loader=yaml.SafeLoader):
         depth += isinstance(event, yaml.CollectionStartEvent)
         depth -= isinstance(event, yaml.CollectionEndEvent)
-        if depth > 2 * _DEEPEST:
+        if depth > 2 * _MAX_DEPTH:
             return event.start_mark.index if event.start_mark is not None else 0
     return None
 
 
 class _Reader:
-    """Reads one file; `header` is the comment at its top with a blank line below."""
+    """Reads one file; `header` is the comment at its top that a blank line ends."""
 
     def __init__(self, source: Source, report: Diagnostics) -> None:
-        self.entries: list[_Entry] = []
+        self.entries: list[_Parameter] = []
         self.header = ""
         self._source = source
         self._report = report
-        # Up to where comments have been read, what they may still be about, and those that wait
-        # for what they are about.
+        # End of the comments read so far, the docs of the previous parameter, and comments that
+        # belong to the next parameter.
         self._end = 0
         self._last: list[str] | None = None
         self._waiting: list[str] = []
@@ -115,22 +115,24 @@ class _Reader:
             self._end = max(self._end, key.end_mark.index)
             word = key.value if isinstance(key, yaml.ScalarNode) else "<<"
             name = f"{prefix}{word}"
-            if len(self.entries) == _MOST or depth > _DEEPEST:
-                self.left_out(key, f"`{name}`", "no parameter file has so much in it")
+            if len(self.entries) == _MAX_PARAMS or depth > _MAX_DEPTH:
+                self.left_out(key, f"`{name}`", "the file has too many parameters or levels")
                 return
             if word == "<<":
-                self.left_out(key, f"`{Span(self._source, *_extent(key)).text}`", "it is no name")
+                self.left_out(
+                    key, f"`{Span(self._source, *_extent(key)).text}`", "it is not a name"
+                )
             elif value.tag == f"{_TAG}map" and not value.value:
-                self.left_out(key, f"`{name}`", "there is nothing in it")
+                self.left_out(key, f"`{name}`", "it is empty")
             elif value.tag == f"{_TAG}map" and isinstance(value, yaml.MappingNode):
                 self._last = None
-                if word == _OF_A_NODE:
+                if word == _ROS2_KEY:
                     node_name = prefix.rstrip("/").rpartition("/")[2]
                     self._map(value, "" if "*" in node_name else node_name, "", depth + 1)
                 else:
                     self._map(value, whose, f"{name}/", depth + 1)
             else:
-                entry = _Entry(whose, name, key, value, self._waiting)
+                entry = _Parameter(whose, name, key, value, self._waiting)
                 self.entries.append(entry)
                 self._waiting, self._last = [], entry.doc
                 line_end = self._source.text.find("\n", self._end)
@@ -138,17 +140,17 @@ class _Reader:
                 self._end = max(self._end, _end(value))
 
     def _comments(self, until: int, column: int) -> None:
-        """Give the comments before a place to what they are about.
+        """Assign the comments before an offset to parameters.
 
-        That is what they stand behind, or what they are further in than that place, else what
-        comes there.
+        A trailing comment, or one with more indentation than `column`, belongs to the previous
+        parameter, any other to the next.
         """
         if until <= self._end:
             return
         behind, *lines = self._source.text[self._end : until].split("\n")
         if self._end == 0:
             lines = self._after_header([behind, *lines])
-        elif (found := _BEHIND.fullmatch(behind)) and found["text"].strip():
+        elif (found := _TRAILING.fullmatch(behind)) and found["text"].strip():
             (self._waiting if self._last is None else self._last).append(found["text"].strip())
         self._end = until
         for line in lines:
@@ -166,10 +168,10 @@ class _Reader:
         self.header = "\n".join(found["text"].strip() for found in comments if found["text"])
         return lines[cut:]
 
-    def add(self, entry: _Entry, owner: Owner) -> None:
-        """Add a param to those of its owner; what it cannot be is reported."""
+    def add(self, entry: _Parameter, owner: NodeParams) -> None:
+        """Add a param to its owner and report what is not supported."""
         if entry.name in owner.params:
-            self.left_out(entry.key, f"`{entry.name}`", "it has a value already")
+            self.left_out(entry.key, f"`{entry.name}`", "it already has a value")
             return
         type_, default = self._value(entry)
         if type_ is None:
@@ -182,7 +184,7 @@ class _Reader:
         doc = _CONTROL.sub(" ", "\n".join(entry.doc))
         owner.params[entry.name] = Param(name, type_, default, doc, self._at(entry.key))
 
-    def _value(self, entry: _Entry) -> tuple[Type | None, Literal | None]:
+    def _value(self, entry: _Parameter) -> tuple[Type | None, Literal | None]:
         node = entry.value
         if isinstance(node, yaml.SequenceNode):
             known = {type(each) for each in map(_scalar, node.value)}
@@ -190,29 +192,31 @@ class _Reader:
             if len(known) == 1:
                 element = _TYPES.get(known.pop())
             if element is None:
-                self.left_out(entry.key, f"`{entry.name}`", "its values have no type in common")
+                self.left_out(entry.key, f"`{entry.name}`", "its values have different types")
                 return None, None
             what = f"the value of `{entry.name}`"
-            self.left_out(entry.key, what, "a model has no values of arrays")
+            self.left_out(entry.key, what, "a model has no array values")
             return Array(element), None
         value = _scalar(node)
         if value is None:
-            self.left_out(entry.key, f"`{entry.name}`", "its value is not of a type")
+            self.left_out(entry.key, f"`{entry.name}`", "its value has no supported type")
             return None, None
         type_ = _TYPES[type(value)]
         if not _can_be_written(value):
             what = f"the value of `{entry.name}`"
-            reason = f"a model has no such {'text' if isinstance(value, str) else 'number'}"
+            reason = (
+                f"a model cannot contain this {'string' if isinstance(value, str) else 'number'}"
+            )
             self.left_out(entry.key, what, reason)
             return type_, None
         return type_, Literal(value, type_)
 
     def left_out(self, node: yaml.Node, what: str, reason: str) -> None:
-        """Report what does not become a param."""
+        """Report a parameter that is not imported."""
         self._report.report("left-out", self._at(node), what=what, reason=reason)
 
     def fault(self, at: int, reason: str) -> None:
-        """Report that the file cannot be read from a place on."""
+        """Report a syntax error."""
         at = min(at, len(self._source.text))
         place = Span(self._source, at, min(at + 1, len(self._source.text)))
         self._report.report("not-yaml", place, reason=reason)
@@ -226,7 +230,7 @@ def _extent(node: yaml.Node) -> tuple[int, int]:
 
 
 def _end(node: yaml.Node) -> int:
-    """Where a value ends: a block is said to end where the next thing begins."""
+    """End of a value; PyYAML ends a block at the start of the next token."""
     inner = node.value
     if isinstance(node, yaml.CollectionNode) and not node.flow_style and inner:
         last = inner[-1]
@@ -238,7 +242,7 @@ def _scalar(node: yaml.Node) -> bool | int | float | str | None:
     if not isinstance(node, yaml.ScalarNode) or node.tag not in _PLAIN:
         return None
     if node.tag == f"{_TAG}timestamp":
-        return str(node.value)  # to ROS it is a text
+        return str(node.value)  # ROS reads it as a string
     try:
         value = yaml.constructor.SafeConstructor().construct_object(node)
     except (ValueError, KeyError):

@@ -1,4 +1,4 @@
-"""The states of a document on their way to a machine: they may still be folded and renamed."""
+"""States of a document during import, which can still be merged and renamed."""
 
 from __future__ import annotations
 
@@ -27,79 +27,79 @@ THREADS, _BEHAVIOR = "Threads", "Behavior"
 
 @dataclass(frozen=True)
 class Edge:
-    """A transition: one descriptor of an event (None for none), and where it leads.
+    """A transition with one event descriptor, None without event, and its target.
 
-    `content` is the element that holds what it does, where that is another one.
+    `content` is the element with its executable content if that is not `node`.
     """
 
     node: Node
     event: str | None
-    target: Draft | None = None
+    target: PartialState | None = None
     content: Node | None = None
 
     @property
-    def does(self) -> list[Node]:
-        """The elements of what it does."""
+    def actions(self) -> list[Node]:
+        """Elements of the executable content."""
         return (self.content or self.node).children
 
 
 @dataclass(eq=False)
-class Draft:
-    """A state; `ids` are those of all elements that it was made of.
+class PartialState:
+    """A state; `ids` are those of all elements that were merged into it.
 
-    `about` is what the portable profile says of it. `timers` are the delayed events that it sends
-    itself when it is entered, by their names.
+    `about` is its description in the portable profile. `timers` are the delayed events that it
+    sends to itself on entry, by name.
     """
 
     node: Node
     id: str
     kind: StateKind
-    parent: Draft | None = None
+    parent: PartialState | None = None
     ids: list[str] = field(default_factory=list)
-    children: list[Draft] = field(default_factory=list)
+    children: list[PartialState] = field(default_factory=list)
     monitors: list[Monitor] = field(default_factory=list)
     edges: list[Edge] = field(default_factory=list)
     call: Call | Monitor | None = None
-    initial: Draft | None = None
+    initial: PartialState | None = None
     entry: list[Node] = field(default_factory=list)
     exit: list[Node] = field(default_factory=list)
-    about: list[Node] = field(default_factory=list)
+    payload: list[Node] = field(default_factory=list)
     timers: dict[str, Node] = field(default_factory=dict)
     name: str = ""
 
-    def walk(self) -> Iterator[Draft]:
-        """Yield it and all inside it, in document order."""
+    def walk(self) -> Iterator[PartialState]:
+        """Yield the state and its descendants in document order."""
         yield self
         for child in self.children:
             yield from child.walk()
 
-    def around(self) -> Iterator[Draft]:
-        """Yield the states around it, the inner first."""
+    def ancestors(self) -> Iterator[PartialState]:
+        """Yield the ancestors, innermost first."""
         outer = self.parent
         while outer is not None:
             yield outer
             outer = outer.parent
 
-    def said(self, name: str) -> Node | None:
-        """What the portable profile says of it under a name."""
-        return next((node for node in self.about if node.name == name), None)
+    def payload_node(self, name: str) -> Node | None:
+        """Element of the portable profile with the given name."""
+        return next((node for node in self.payload if node.name == name), None)
 
 
-def read_drafts(document: Document, report: Diagnostics) -> Draft:
-    """The states of a document, as what is inside of a state that stands for the machine."""
+def read_partial_states(document: Document, report: Diagnostics) -> PartialState:
+    """Read the states of a document, inside a state for the whole machine."""
     top = _Reader(document, report).draft(document.root, None)
-    if not top.about:
+    if not top.payload:
         _fold(top)
     top.kind = StateKind.COMPOSITE
     return top
 
 
-def drop_rest(top: Draft, document: Document, report: Diagnostics) -> None:
-    """Report and forget what only states that are stayed in can have."""
+def drop_unsupported(top: PartialState, document: Document, report: Diagnostics) -> None:
+    """Report and remove content that final and history states cannot have."""
     for draft in top.walk():
         if draft is not top and draft.kind not in (StateKind.FINAL, StateKind.HISTORY):
             continue
-        reason = f"`<{draft.node.name}>` has none in a model"
+        reason = f"`<{draft.node.name}>` cannot have it in a model"
         for node in (*draft.entry, *draft.exit):
             report.report("left-out", document.at(node), what=f"`<{node.name}>`", reason=reason)
         draft.entry, draft.exit = [], []
@@ -117,17 +117,17 @@ class _Reader:
         self.calls = Calls(document, report)
         self.foreign: set[str] = set()
 
-    def draft(self, node: Node, parent: Draft | None) -> Draft:
+    def draft(self, node: Node, parent: PartialState | None) -> PartialState:
         kind = _KINDS.get(node.name, StateKind.COMPOSITE)
         identifier = node.get("id", "").strip()
-        draft = Draft(node, identifier, kind, parent, [identifier] if identifier else [])
+        draft = PartialState(node, identifier, kind, parent, [identifier] if identifier else [])
         for child in node.children:
             if child.namespace == OURS:
-                draft.about.append(child)
+                draft.payload.append(child)
             elif child.namespace != self.document.root.namespace:
                 if child.namespace not in self.foreign:
                     self.foreign.add(child.namespace)
-                    self._left_out(child, f"`<{child.name}>`", "it is no SCXML")
+                    self._left_out(child, f"`<{child.name}>`", "it is not SCXML")
             elif child.name in _KINDS:
                 draft.children.append(self.draft(child, draft))
             elif child.name == "transition":
@@ -135,18 +135,18 @@ class _Reader:
             elif child.name in ("onentry", "onexit"):
                 (draft.entry if child.name == "onentry" else draft.exit).extend(child.children)
             elif child.name not in _KNOWN and (child.name not in _OF_CALLS or parent is None):
-                self._left_out(child, f"`<{child.name}>`", "there is nothing like it in a model")
+                self._left_out(child, f"`<{child.name}>`", "it has no equivalent in a model")
         if kind is StateKind.SIMPLE and draft.children:
             draft.kind = StateKind.COMPOSITE
         if kind is StateKind.PARALLEL and not draft.children:
             draft.kind = StateKind.SIMPLE
-        vertex = draft.said("vertex")
+        vertex = draft.payload_node("vertex")
         if vertex is not None and vertex.get("kind") == "choice":
             draft.kind = StateKind.CHOICE
         if parent is not None and kind in (StateKind.SIMPLE, StateKind.PARALLEL):
             draft.call = self.calls.read(node)
             if draft.call is not None and draft.children:
-                reason = "a state with states inside does nothing itself"
+                reason = "a composite state has no activity"
                 self._left_out(draft.call.node, "this call", reason)
                 draft.call = None
         return draft
@@ -161,8 +161,8 @@ class _Reader:
         self.report.report("left-out", place, what=what, reason=reason)
 
 
-def _fold(draft: Draft) -> None:
-    """Make one state of a state and the monitors beside it; monitors alone are a state too."""
+def _fold(draft: PartialState) -> None:
+    """Merge a parallel state with its monitors; monitors alone become a simple state."""
     for child in draft.children:
         _fold(child)
     if draft.kind is not StateKind.PARALLEL:
@@ -172,7 +172,7 @@ def _fold(draft: Draft) -> None:
         if isinstance(child.call, Monitor):
             draft.monitors.append(child.call)
             draft.ids += child.ids
-            # What a monitor itself leads to is as good on what it stands in.
+            # Transitions of a monitor also work on the state that contains it.
             draft.edges += child.edges
     draft.children = others
     idiom = bool(draft.monitors) or draft.id.endswith(THREADS)

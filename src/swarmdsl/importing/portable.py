@@ -1,4 +1,7 @@
-"""What the portable profile says beside SCXML: the vocabulary of exchange/scxml/payload.py."""
+"""Read the vocabulary of the portable profile.
+
+See `codegen.exchange.scxml.payload`.
+"""
 
 from __future__ import annotations
 
@@ -8,8 +11,8 @@ from typing import Literal
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import dataclass
 from swarmdsl.execution.scxml.document import Document, Node
-from swarmdsl.importing.expressions import UnsayableError, constant
-from swarmdsl.importing.partial_states import Draft
+from swarmdsl.importing.expressions import UnsupportedError, constant
+from swarmdsl.importing.partial_states import PartialState
 from swarmdsl.importing.types import written_type
 from swarmdsl.ir import (
     Action,
@@ -28,8 +31,8 @@ from swarmdsl.ir.docs import Docs
 
 
 @dataclass(frozen=True)
-class Datum:
-    """A variable or param, by the `<data>` that holds it."""
+class DataItem:
+    """A variable or param of a `<data>` element."""
 
     name: str
     type: Type
@@ -38,39 +41,39 @@ class Datum:
     doc: str
 
 
-class Described:
-    """What one document says of the model that it was made of; faults in it are reported.
+class PortableDescription:
+    """Description of the exported model in a document; errors in it are reported.
 
-    All of it is empty for a document of others.
+    Empty for documents of other tools.
     """
 
-    def __init__(self, document: Document, top: Draft, report: Diagnostics) -> None:
+    def __init__(self, document: Document, top: PartialState, report: Diagnostics) -> None:
         self.document = document
         self.report = report
-        self.about = top.about
-        model = top.said("model")
+        self.payload = top.payload
+        model = top.payload_node("model")
         self.package = model.get("package", "") if model is not None else ""
-        self.endless = top.said("endless") is not None
-        self.doc = doc_of(top.about)
-        self.data: dict[str, Datum] = {}
-        for node in self.about:
+        self.endless = top.payload_node("endless") is not None
+        self.doc = doc_of(top.payload)
+        self.data: dict[str, DataItem] = {}
+        for node in self.payload:
             if node.name in ("variable", "parameter"):
                 self._datum(node)
 
     def __bool__(self) -> bool:
-        return bool(self.about)
+        return bool(self.payload)
 
     def _datum(self, node: Node) -> None:
         type_ = self._type(node)
         if type_ is not None:
             given = node.get("initial") != "default"
             name = node.get("name", "")
-            self.data[node.get("location", name)] = Datum(
+            self.data[node.get("location", name)] = DataItem(
                 name, type_, node.name == "parameter", given, doc_of(node.children)
             )
 
     def events(self) -> Iterator[Event]:
-        """The events that the machine hears or sends."""
+        """Yield the events that the machine handles or sends."""
         for node in self._named("event"):
             type_ = self._type(node)
             if isinstance(type_, Named):
@@ -78,7 +81,7 @@ class Described:
                 yield Event(node.attributes["name"], type_, topic, swarm, doc_of(node.children))
 
     def functions(self) -> Iterator[Function]:
-        """The functions that its activities call."""
+        """Yield the functions that its activities call."""
         for node in self._named("function"):
             type_ = self._type(node)
             if isinstance(type_, Named):
@@ -93,8 +96,8 @@ class Described:
                 yield Function(name, category, call, (), (), doc_of(node.children))
 
     def interfaces(self) -> Iterator[Interface]:
-        """The interfaces that all of these are made of."""
-        for node in self.about:
+        """Yield the interfaces of events and functions."""
+        for node in self.payload:
             if node.name not in ("message", "service", "action"):
                 continue
             type_ = self._type(node)
@@ -120,7 +123,7 @@ class Described:
                     yield Action(type_, goal, result, feedback, external, doc)
 
     def _named(self, tag: str) -> Iterator[Node]:
-        for node in self.about:
+        for node in self.payload:
             if node.name == tag and node.get("name"):
                 yield node
 
@@ -136,7 +139,7 @@ class Described:
             if type_ is not None:
                 try:
                     value = constant(each.get("value", ""), type_)
-                except UnsayableError as fault:
+                except UnsupportedError as fault:
                     self._left_out(each, "value", fault.reason)
                     continue
                 yield Constant(each.get("name", ""), type_, value, doc_of(each.children))
@@ -145,7 +148,7 @@ class Described:
         written = node.get("type", "")
         made = written_type(written)
         if made is None:
-            self._left_out(node, "type", f"`{written}` is no type")
+            self._left_out(node, "type", f"`{written}` is not a type")
         return made
 
     def _left_out(self, node: Node, attribute: str, reason: str) -> None:
@@ -155,24 +158,24 @@ class Described:
 
 
 def doc_of(nodes: list[Node]) -> str:
-    """The documentation among some elements."""
+    """Documentation among elements."""
     return next((node.text for node in nodes if node.name == "doc"), "")
 
 
-def docs_of(draft: Draft) -> Docs:
-    """What is said of lines of a state, in the order of their names."""
-    first = draft.said("first")
+def docs_of(draft: PartialState) -> Docs:
+    """Documentation of blocks in a state, by the keyword of the block."""
+    first = draft.payload_node("first")
     said = [(word, comment_of(nodes[0].parent)) for word, nodes in _blocks(draft)]
     said.append(("initial", doc_of(first.children) if first is not None else ""))
     return tuple((word, text) for word, text in said if text)
 
 
-def _blocks(draft: Draft) -> Iterator[tuple[str, list[Node]]]:
+def _blocks(draft: PartialState) -> Iterator[tuple[str, list[Node]]]:
     yield from ((w, nodes) for w, nodes in (("entry", draft.entry), ("exit", draft.exit)) if nodes)
 
 
 def comment_of(node: Node | None) -> str:
-    """What a person says of an element; XML that was taken out is no documentation."""
+    """XML comment of an element; commented-out XML is no documentation."""
     comment = node.comment if node is not None else ""
-    # XML has no `--` in comments.
+    # `--` is not allowed in XML comments; the exporter writes `- -`.
     return "" if "<" in comment else comment.replace("- -", "--")

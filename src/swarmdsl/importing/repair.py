@@ -1,4 +1,4 @@
-"""Text that is nearly XML, as exporters and hands have left it, to a document."""
+"""Repair nearly valid XML of exporters and manual edits."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source, Span
 from swarmdsl.execution.scxml.document import SCXML, Document, parse
 
-# Each keeps the length of the text, so that places stay what they are: the quote that the Modelio
-# exporter forgets takes the place of indentation in the next line.
+# Repairs keep the length of the text, so that locations stay valid: the quote that the Modelio
+# exporter forgets replaces a blank at the start of the next line.
 _REPAIRS = (
     (
         re.compile(r'(<(?:parallel|state|final)\s+id\s*=\s*"[^"<>\r\n]*)>(\r?\n)[ \t]'),
@@ -20,7 +20,7 @@ _REPAIRS = (
     (
         re.compile(r"[ \t]<state>(?=\s*(?:<state\s|<parallel\s|</))"),
         "</state>",
-        "`<state>` stands where `</state>` is meant",
+        "`<state>` is used instead of `</state>`",
     ),
     (
         re.compile(r"&(?!amp;|lt;|gt;|quot;|apos;|#)\w+;"),
@@ -36,9 +36,9 @@ _REPAIRS = (
 
 
 def read(source: Source, report: Diagnostics) -> Document | None:
-    """Parse a file, repaired where that makes XML of it; None where it does not.
+    """Parse a file, with repairs if necessary; None if they do not help.
 
-    Each repair is reported; what cannot be repaired is reported as in any other document.
+    Repairs are reported; otherwise, the errors of the original text.
     """
     found = Diagnostics()
     document = _parsed(source, found)
@@ -51,14 +51,14 @@ def read(source: Source, report: Diagnostics) -> Document | None:
         for match in pattern.finditer(text):
             place = Span(source, *match.span())
             repairs.report("malformed-xml", _trimmed(place), fault=fault)
-        text = pattern.sub(partial(_as_long, replacement), text)
-    mended = _parsed(Source(source.name, text, source.path), repairs) if repairs else None
-    report.include(found if mended is None else repairs)
-    return mended
+        text = pattern.sub(partial(_same_length, replacement), text)
+    repaired = _parsed(Source(source.name, text, source.path), repairs) if repairs else None
+    report.include(found if repaired is None else repairs)
+    return repaired
 
 
 def _parsed(source: Source, report: Diagnostics) -> Document | None:
-    """Parse a file; elements without a namespace are taken for those of SCXML, with a warning."""
+    """Parse a file; elements without a namespace count as SCXML, with a warning."""
     document = parse(source, report, (SCXML, ""))
     if document is not None and not document.root.namespace:
         fault = "the namespace of SCXML is missing"
@@ -68,7 +68,7 @@ def _parsed(source: Source, report: Diagnostics) -> Document | None:
     return document
 
 
-def _as_long(replacement: str, match: re.Match[str]) -> str:
+def _same_length(replacement: str, match: re.Match[str]) -> str:
     new = match.expand(replacement)
     return new.ljust(len(match[0])) if new.strip() else re.sub(r"[^\r\n]", " ", match[0])
 

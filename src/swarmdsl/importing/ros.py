@@ -1,7 +1,7 @@
-"""Folders of ROS packages: their interfaces, and the parameters of their nodes.
+"""Import folders of ROS packages: interfaces and parameters of nodes.
 
-A node is a function where one has the name of the package, as those of the CPSwarm libraries
-have; else a component.
+A node is a function if a function has the name of its package, as in the CPSwarm libraries,
+otherwise a component.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.records import replace
 from swarmdsl.base.source import Source, Span
 from swarmdsl.driver import pipeline
-from swarmdsl.importing.files import MOST
+from swarmdsl.importing.files import MAX_BYTES
 from swarmdsl.importing.names import type_names
-from swarmdsl.importing.params import Owner, read_params
+from swarmdsl.importing.params import NodeParams, read_params
 from swarmdsl.ir import (
     Action,
     Component,
@@ -48,24 +48,24 @@ _TYPES: dict[type, Primitive] = {bool: BOOL, int: INT, float: FLOAT, str: STRING
 def import_ros(
     folders: Sequence[Path], name: str, functions: Mapping[str, Function], report: Diagnostics
 ) -> tuple[System, int]:
-    """What the packages in the folders describe, and how many files that are.
+    """Import the packages in the folders; return the system and the number of files.
 
-    `functions` are those that a package may be the node of.
+    `functions` are the functions whose nodes may be among the packages.
     """
     interfaces: dict[Named, Interface] = {}
-    owners: dict[str, Owner] = {}
+    owners: dict[str, NodeParams] = {}
     files = 0
     for folder in folders:
         parameters = find_parameters(folder) if folder.is_dir() else []
         found = find_interfaces(folder, None, report, required=not parameters)
         files += len(found) + len(parameters)
         for each in found:
-            source = read_source(each.path, None, report, "a file", MOST)
+            source = read_source(each.path, None, report, "a file", MAX_BYTES)
             if source is not None and lookup(Named(each.package, each.name), each.kind) is None:
                 read = parse_interface(source, each.package, each.name, each.kind, report)
                 _add(_interface(read, report), interfaces, source, report)
         for file in parameters:
-            source = read_source(file.path, None, report, "a file", MOST)
+            source = read_source(file.path, None, report, "a file", MAX_BYTES)
             if source is not None:
                 read_params(source, file.package, owners, report)
     system = System(
@@ -86,7 +86,7 @@ def _add(
 ) -> None:
     known = interfaces.setdefault(new.type, new)
     if known != new:
-        what, reason = f"`{new.type}`", "something else is called so already"
+        what, reason = f"`{new.type}`", "another interface has this name"
         report.report("left-out", Span(source, 0, 0), what=what, reason=reason)
 
 
@@ -100,7 +100,7 @@ def _interface(read: InterfaceFile, report: Diagnostics) -> Interface:
 
     if not isinstance(declared, MessageType):
         for constant in (each for part in read.constants.values() for each in part):
-            what, reason = f"constant `{constant.name}`", "in a model only messages have some"
+            what, reason = f"constant `{constant.name}`", "in a model, only messages have constants"
             report.report("left-out", constant.name.span, what=what, reason=reason)
     match declared:
         case MessageType(fields=written):
@@ -115,10 +115,10 @@ def _interface(read: InterfaceFile, report: Diagnostics) -> Interface:
 
 def _field(field: WrittenField, defaults: Mapping[WrittenField, Values]) -> Field:
     type_ = written_type(field.type)
-    assert type_ is not None  # a file of ROS says the package of each
+    assert type_ is not None  # types in ROS files are qualified
     doc = field.doc
     if field in defaults:
-        # ROS 2 alone has them, and a model of data has no place for them.
+        # Only ROS 2 has default values, and a model has none for fields.
         doc = "\n".join(filter(None, (doc, f"Default: {_text(defaults[field])}")))
     return Field(str(field.name), type_, doc)
 
@@ -138,9 +138,9 @@ def _constant(constant: WrittenConstant) -> Constant:
 
 
 def _components(
-    owners: Mapping[str, Owner], functions: Mapping[str, Function]
+    owners: Mapping[str, NodeParams], functions: Mapping[str, Function]
 ) -> Iterator[Component]:
-    """The nodes that are no functions: what they do is not known."""
+    """Yield the nodes that are not functions."""
     names = type_names()
     for package, owner in owners.items():
         if package not in functions and owner.params:
@@ -149,7 +149,7 @@ def _components(
 
 
 def library_functions() -> dict[str, Function]:
-    """The functions in the library that comes with swarmdsl, by their names."""
+    """Functions of the bundled library by name."""
     system = pipeline.check([resources.library() / "cpswarm"]).system
     assert system is not None
     return {function.name: function for function in system.functions}

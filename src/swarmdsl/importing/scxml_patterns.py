@@ -1,7 +1,7 @@
-"""How SCXML says what the language has words for: delays, and ends that are told apart.
+"""Recognize SCXML patterns for delays and for final states with their own events.
 
-A delay is a `<send>` to the machine itself on entry and a `<cancel>` on exit. A final state that
-raises an event tells the state around it in which of its final states that is.
+A delay is a `<send>` to the machine itself on entry and a `<cancel>` on exit. A final state can
+raise an event that identifies it to the enclosing state.
 """
 
 from __future__ import annotations
@@ -10,28 +10,28 @@ from collections import Counter
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.execution.scxml.document import Document, Node
-from swarmdsl.importing.partial_states import Draft
+from swarmdsl.importing.partial_states import PartialState
 from swarmdsl.ir import StateKind
 
-Ends = dict[str, list[Draft]]
-"""The final states that raise an event."""
+FinalEvents = dict[str, list[PartialState]]
+"""Final states by the event that they raise."""
 
 _DELAYED = {"event", "id", "delay", "delayexpr"}
 
 
-def fold_idioms(top: Draft, document: Document, report: Diagnostics) -> Ends:
-    """Take delayed events and those of final states out of what the states do."""
+def fold_patterns(top: PartialState, document: Document, report: Diagnostics) -> FinalEvents:
+    """Remove delayed events and events of final states from executable content."""
     sent = Counter(
         node.get("event")
         for draft in top.walk()
         for node in contents(draft)
         if node.name in ("send", "raise")
     )
-    heard: dict[str, list[Draft]] = {}
+    heard: dict[str, list[PartialState]] = {}
     for draft in top.walk():
         for edge in draft.edges:
             heard.setdefault(edge.event or "", []).append(draft)
-    ends: Ends = {}
+    ends: FinalEvents = {}
     for draft in top.walk():
         _fold_timers(draft, sent, heard, document, report)
         if draft.kind is StateKind.FINAL:
@@ -39,8 +39,10 @@ def fold_idioms(top: Draft, document: Document, report: Diagnostics) -> Ends:
                 if node.name == "raise":
                     ends.setdefault(node.get("event", ""), []).append(draft)
     for event, finals in list(ends.items()):
-        unheard = top.about and event not in heard and event == f"final.{finals[0].id}"
-        if not unheard and (sent[event] > len(finals) or not _tells(finals, heard.get(event, []))):
+        unheard = top.payload and event not in heard and event == f"final.{finals[0].id}"
+        if not unheard and (
+            sent[event] > len(finals) or not _only_parent_handles(finals, heard.get(event, []))
+        ):
             del ends[event]
             continue
         for final in finals:
@@ -48,8 +50,8 @@ def fold_idioms(top: Draft, document: Document, report: Diagnostics) -> Ends:
     return ends
 
 
-def contents(draft: Draft) -> list[Node]:
-    """All elements of what a state and its transitions do."""
+def contents(draft: PartialState) -> list[Node]:
+    """All elements of executable content of a state and its transitions."""
     inside = [*draft.entry, *draft.exit]
     seen: dict[Node, None] = dict.fromkeys(edge.content or edge.node for edge in draft.edges)
     inside += [child for node in seen for child in node.children]
@@ -57,9 +59,9 @@ def contents(draft: Draft) -> list[Node]:
 
 
 def _fold_timers(
-    draft: Draft,
+    draft: PartialState,
     sent: Counter[str | None],
-    heard: dict[str, list[Draft]],
+    heard: dict[str, list[PartialState]],
     document: Document,
     report: Diagnostics,
 ) -> None:
@@ -70,7 +72,9 @@ def _fold_timers(
         if not set(node.attributes) & {"delay", "delayexpr"}:
             continue
         alone = set(heard.get(event, ())) == {draft}
-        hidden = any(_fits(each, event) for inner in draft.walk() for each in _events(inner, draft))
+        hidden = any(
+            _matches(each, event) for inner in draft.walk() for each in _events(inner, draft)
+        )
         if not alone or hidden or set(node.attributes) - _DELAYED or node.children:
             continue
         cancels = [
@@ -80,24 +84,24 @@ def _fold_timers(
         ]
         if not cancels:
             what = f"nothing cancels the delayed event `{event}`"
-            assumed = "that it ends with the state"
+            assumed = "cancellation on exit"
             report.report("assumed", document.at(node), what=what, assumed=assumed)
         draft.exit = [each for each in draft.exit if each not in cancels]
         draft.entry.remove(node)
         draft.timers[event] = node
 
 
-def _events(inner: Draft, draft: Draft) -> list[str]:
+def _events(inner: PartialState, draft: PartialState) -> list[str]:
     return [edge.event or "" for edge in inner.edges] if inner is not draft else []
 
 
-def _fits(descriptor: str, event: str) -> bool:
+def _matches(descriptor: str, event: str) -> bool:
     beginning = descriptor.removesuffix("*").removesuffix(".")
     return bool(descriptor) and (not beginning or f"{event}.".startswith(f"{beginning}."))
 
 
-def _tells(finals: list[Draft], hearers: list[Draft]) -> bool:
-    """Whether only the state around the final states, or around their region, hears of them."""
+def _only_parent_handles(finals: list[PartialState], hearers: list[PartialState]) -> bool:
+    """Return True if only the parent, or its parallel state, handles the event."""
     owners = {final.parent for final in finals}
     if len(owners) > 1 or not hearers:
         return False

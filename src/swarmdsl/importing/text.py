@@ -1,4 +1,4 @@
-"""What was imported as the text of a model, and whether that is a good one."""
+"""Text of an imported model and its check."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from swarmdsl.project.loader import Project
 from swarmdsl.syntax.formatter import formatted
 
 
-def text_of(system: System, path: Path, report: Diagnostics) -> str | None:
-    """The text of a system in the canonical layout; None where there is none."""
-    if not (report.has_errors or _says_something(system)):
+def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
+    """Formatted text of a system; None if it is empty or cannot be printed."""
+    if not (report.has_errors or _has_content(system)):
         report.report("nothing-to-import", path=path.as_posix())
     if report.has_errors:
         return None
@@ -28,12 +28,12 @@ def text_of(system: System, path: Path, report: Diagnostics) -> str | None:
     return formatted(Source(f"{system.name}.swarm", plain), report) or plain
 
 
-def _says_something(system: System) -> bool:
+def _has_content(system: System) -> bool:
     return bool(system.machines or system.functions or system.components or system.interfaces)
 
 
-def checked(text: str, path: Path, report: Diagnostics) -> Project | None:
-    """The model with this text; None where it has an error, which has no place in what was read."""
+def check_model(text: str, path: Path, report: Diagnostics) -> Project | None:
+    """Check the text as a model; report its errors without location and return None."""
     found = Diagnostics()
     project = read_model(path, found, texts={str(path): text}, names=found).project
     validate(project, found)

@@ -1,4 +1,4 @@
-"""What transitions wait for: events of a document as triggers of the language."""
+"""Convert SCXML events to triggers."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from swarmdsl.execution.scxml.document import Node
 from swarmdsl.importing.calls import Call
 from swarmdsl.importing.data import MachineData
 from swarmdsl.importing.events import Events
-from swarmdsl.importing.expressions import UnsayableError
-from swarmdsl.importing.partial_states import OUTCOMES, Draft, Edge
-from swarmdsl.importing.scxml_patterns import Ends
+from swarmdsl.importing.expressions import UnsupportedError
+from swarmdsl.importing.partial_states import OUTCOMES, Edge, PartialState
+from swarmdsl.importing.scxml_patterns import FinalEvents
 from swarmdsl.ir import (
     Binary,
     DoneTrigger,
@@ -28,7 +28,7 @@ from swarmdsl.ir import (
 )
 from swarmdsl.syntax.types import DURATION, INT
 
-# What the portable profile writes for a delay that is computed, and what others may.
+# Computed delays in the portable profile and in other documents.
 _COMPUTED = re.compile(r'Math\.max\(0, Math\.ceil\((.*)\)\) \+ "ms"')
 _WITH_UNIT = re.compile(r"""(.*)\+\s*(["'])(ms|s)\2\s*""")
 _TEXT = re.compile(r"""\s*(["'])([^"']*)\1\s*""")
@@ -36,14 +36,14 @@ _EMPTY = Named("std_msgs", "Empty")
 
 
 class Triggers:
-    """Finds the triggers of the transitions of one machine, whose states have their paths."""
+    """Converts the triggers of one machine; `paths` are those of its states."""
 
     def __init__(
         self,
         events: Events,
-        ends: Ends,
-        paths: Mapping[Draft, str],
-        wrapped: set[Draft],
+        ends: FinalEvents,
+        paths: Mapping[PartialState, str],
+        wrapped: set[PartialState],
         data: MachineData,
     ) -> None:
         self.events = events
@@ -52,13 +52,16 @@ class Triggers:
         self.wrapped = wrapped
         self.data = data
 
-    def of(self, edges: list[Edge], draft: Draft) -> tuple[Trigger, ...]:
-        """The triggers of a transition; each of its events is an edge. Raises UnsayableError."""
+    def of(self, edges: list[Edge], draft: PartialState) -> tuple[Trigger, ...]:
+        """Triggers of a transition, which has an edge for each event.
+
+        Raises UnsupportedError.
+        """
         found = dict.fromkeys(each for edge in edges for each in self._of_edge(edge, draft))
-        return tuple(self._together(list(found), draft))
+        return tuple(self._merged(list(found), draft))
 
     def message(self, triggers: tuple[Trigger, ...]) -> Type | None:
-        """The message that comes with all of them; None where that is not said."""
+        """Common message type of all triggers; None if there is none."""
         heard = [each.event for each in triggers if isinstance(each, EventTrigger)]
         types = set(map(self.events.message, heard))
         if len(types) != 1 or len(heard) < len(triggers):
@@ -66,7 +69,7 @@ class Triggers:
         (type_,) = types
         return type_ if type_ != _EMPTY else None
 
-    def _of_edge(self, edge: Edge, draft: Draft) -> Iterator[Trigger]:
+    def _of_edge(self, edge: Edge, draft: PartialState) -> Iterator[Trigger]:
         event, path = edge.event, self.paths[draft]
         if event is None:
             return
@@ -80,43 +83,43 @@ class Triggers:
                 owner = final.parent
                 assert owner is not None
                 if owner in self.wrapped:
-                    raise UnsayableError(f"the end of `{owner.id}` is known there only")
+                    raise UnsupportedError(f"the completion of `{owner.id}` cannot be handled here")
                 yield DoneTrigger(self.paths[owner], self.paths[final])
         elif event.startswith("done.state."):
             yield self._done(event.removeprefix("done.state."), draft)
-        elif draft.said("activity") is not None and event.startswith(("do.", "gives.")):
+        elif draft.payload_node("activity") is not None and event.startswith(("do.", "gives.")):
             _, state, outcome = (*event.split("."), "", "")[:3]
             if state != draft.id or outcome not in OUTCOMES:
-                raise UnsayableError(f"`{event}` is no outcome of the activity of this state")
+                raise UnsupportedError(f"`{event}` is not an outcome of the activity of this state")
             yield OutcomeTrigger(path, outcome)
         elif event.startswith(("done.", "error.")):
-            raise UnsayableError(f"a model has no event `{event}`")
+            raise UnsupportedError(f"a model has no event `{event}`")
         else:
-            names = self.events.meant_by(event)
+            names = self.events.matching(event)
             if not names:
-                raise UnsayableError(f"no event is called `{event}`")
+                raise UnsupportedError(f"unknown event `{event}`")
             yield from map(EventTrigger, names)
 
-    def _done(self, identifier: str, draft: Draft) -> Trigger:
+    def _done(self, identifier: str, draft: PartialState) -> Trigger:
         if identifier in draft.ids and draft.children:
             return DoneTrigger(self.paths[draft], None)
         for child in draft.children if draft.kind is StateKind.PARALLEL else ():
             if identifier in child.ids and child not in self.wrapped:
                 return DoneTrigger(self.paths[child], None)
-        raise UnsayableError(f"the end of `{identifier}` is known there only")
+        raise UnsupportedError(f"the completion of `{identifier}` cannot be handled here")
 
-    def _together(self, triggers: list[Trigger], draft: Draft) -> Iterator[Trigger]:
-        """The triggers, where those that say the same together are one.
+    def _merged(self, triggers: list[Trigger], draft: PartialState) -> Iterator[Trigger]:
+        """Yield the triggers, with equivalent groups merged.
 
-        All final states of a state are its end. In the portable profile `aborted` is written as
-        two events, where no transition tells `preempted` from it.
+        All final states of a state together are its completion. The portable profile writes
+        `aborted` as two events unless a transition handles `preempted` separately.
         """
         owners: dict[str, set[str]] = {}
         for owner in (draft, *draft.children):
             if owner in self.paths:
                 finals = {self.paths[e] for e in owner.children if e.kind is StateKind.FINAL}
                 owners[self.paths[owner]] = finals
-        together = draft.said("activity") is not None and self._tells_nothing_apart(draft)
+        together = draft.payload_node("activity") is not None and self._treats_alike(draft)
         seen: set[Trigger] = set()
         for trigger in triggers:
             if together and isinstance(trigger, OutcomeTrigger) and trigger.outcome == "preempted":
@@ -129,8 +132,8 @@ class Triggers:
                 seen.add(trigger)
                 yield trigger
 
-    def _tells_nothing_apart(self, draft: Draft) -> bool:
-        """Whether an activity that gave up leads where one that failed does, everywhere."""
+    def _treats_alike(self, draft: PartialState) -> bool:
+        """Return True if `preempted` leads to the same transitions as `aborted`."""
         given_up, failed = f"do.{draft.id}.preempted", f"do.{draft.id}.aborted"
         by_node: dict[Node, set[str | None]] = {}
         for edge in draft.edges:
@@ -143,14 +146,14 @@ class Triggers:
         if written is not None or text is not None:
             length = delay_of(written if written is not None else text[2] if text else "")
             if length is None:
-                raise UnsayableError(f"`{written}` is no delay")
+                raise UnsupportedError(f"`{written}` is not a delay")
             return Literal(length, DURATION)
         computed = _COMPUTED.fullmatch(node.get("delayexpr", ""))
         if computed is not None:
             return self.data.read(node, "delayexpr", computed[1], DURATION)
         with_unit = _WITH_UNIT.fullmatch(node.get("delayexpr", ""))
         if with_unit is None:
-            raise UnsayableError(f"`{node.get('delayexpr')}` is no duration")
+            raise UnsupportedError(f"`{node.get('delayexpr')}` is not a duration")
         unit = Literal(1_000_000 if with_unit[3] == "ms" else 1_000_000_000, DURATION)
         number = self.data.read(node, "delayexpr", with_unit[1], INT)
         return Binary("*", number, unit, DURATION)

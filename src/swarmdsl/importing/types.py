@@ -1,4 +1,4 @@
-"""Types as the CPSwarm project writes them: `pkg/Class`, `pkg.srv.Class`, or only `Class`."""
+"""Types as the CPSwarm project writes them: `pkg/Class`, `pkg.srv.Class`, `Class`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from swarmdsl.ir import Array, Named, Primitive, Type
 from swarmdsl.syntax.types import PRIMITIVES
 
-# Scripts of the code generator find bare names in these two packages.
+# The CPSwarm code generator looks up unqualified names in these two packages.
 _VALUES = ("Bool", "Int", "UInt", "Double", "String")
 _SWARMROS = {"EventHeader", "NodeInfo", "SimpleEvent", *_VALUES, *(f"ArrayOf{v}" for v in _VALUES)}
 _ARRAY = re.compile(r"(.+)\[(\d*)\]")
@@ -16,11 +16,11 @@ _WRITTEN_NAME = re.compile(r"([A-Za-z_][\w.-]*)/([A-Za-z_]\w*)", re.ASCII)
 _ALIASES = {"number": "float64", "boolean": "bool", "float": "float64", "int": "int32"}
 _ALIASES |= {"double": "float64", "integer": "int32", "String": "string"}
 MISSPELT = {"stds_msgs": "std_msgs"}
-"""Packages that do not exist, and what they mean: the files of the project have them."""
+"""Misspelt package names in files of the project."""
 
 
 def qualified(text: str, kind: str) -> Named:
-    """The interface that a class means; `kind` is message, service or action."""
+    """Interface for a class name; `kind` is message, service or action."""
     words = re.findall(r"[A-Za-z_][A-Za-z0-9_]*", text)
     name = words[-1] if words else "Empty"
     if len(words) > 1:
@@ -31,7 +31,7 @@ def qualified(text: str, kind: str) -> Named:
 
 
 def data_type(text: str) -> Type:
-    """The type of a field or parameter."""
+    """Type of a field or parameter."""
     array = _ARRAY.fullmatch(text)
     if array is not None:
         return Array(data_type(array[1]), int(array[2]) if array[2] else None)
@@ -44,7 +44,7 @@ def data_type(text: str) -> Type:
 
 
 def written_type(text: str) -> Type | None:
-    """The type that `str(type)` writes; None for a text that is no type."""
+    """Parse the result of `str(type)`; None if it is not a type."""
     array = _WRITTEN_ARRAY.fullmatch(text)
     if array is not None:
         element = written_type(array[1])

@@ -1,8 +1,9 @@
-"""What the portable profile made of constructs that SCXML does not have, taken back.
+"""Undo the lowering of the portable profile.
 
-A result is stored by the transitions on the end of its activity, or by one before them. An
-internal transition of a parallel state stands in the region that it leads into; where it belongs,
-one is left that does nothing. See exchange/scxml/portable.py and inward.py.
+A result is stored by the transitions for the outcome of its activity, or by one before them. An
+internal transition of a parallel state is in the region that contains its target; a transition
+without effects remains at its original place. See `codegen.exchange.scxml.portable` and
+`codegen.shared.parallel_transitions`.
 """
 
 from __future__ import annotations
@@ -14,14 +15,14 @@ from lark import Token, Tree
 from swarmdsl.base.records import replace
 from swarmdsl.execution.scxml.document import Node
 from swarmdsl.execution.scxml.ecmascript import Unreadable, parse
-from swarmdsl.importing.partial_states import Draft, Edge
+from swarmdsl.importing.partial_states import Edge, PartialState
 from swarmdsl.ir import StateKind
 
 
-def fold_lowered(top: Draft) -> None:
-    """Give each transition what it does in the model, in a document of the portable profile."""
+def undo_lowering(top: PartialState) -> None:
+    """Restore the transitions of a document of the portable profile."""
     for draft in top.walk():
-        activity = draft.said("activity")
+        activity = draft.payload_node("activity")
         if activity is not None:
             results = sum(node.name == "mapping" for node in activity.walk())
             _fold_results(draft, results)
@@ -29,7 +30,7 @@ def fold_lowered(top: Draft) -> None:
             _fold_inward(draft)
 
 
-def _fold_results(draft: Draft, results: int) -> None:
+def _fold_results(draft: PartialState, results: int) -> None:
     end, stored = f"do.{draft.id}.succeeded", f"gives.{draft.id}.succeeded"
     left = [edge for edge in draft.edges if not (edge.event == end and _raises(edge, stored))]
     if len(left) == len(draft.edges):
@@ -41,11 +42,11 @@ def _fold_results(draft: Draft, results: int) -> None:
 
 
 def _raises(edge: Edge, event: str) -> bool:
-    return any(node.name == "raise" and node.get("event") == event for node in edge.does[:1])
+    return any(node.name == "raise" and node.get("event") == event for node in edge.actions[:1])
 
 
 def _rest(node: Node, first: int) -> Node:
-    """The element without the first elements in it."""
+    """Copy of an element without its first children."""
     rest = Node(
         f"{node.namespace}}}{node.name}", node.attributes, node.parent, node.start, node.line
     )
@@ -53,7 +54,7 @@ def _rest(node: Node, first: int) -> Node:
     return rest
 
 
-def _fold_inward(draft: Draft) -> None:
+def _fold_inward(draft: PartialState) -> None:
     for index, edge in enumerate(draft.edges):
         if edge.target is not None or edge.node.children:
             continue
@@ -74,7 +75,7 @@ def _fold_inward(draft: Draft) -> None:
 
 
 def _guard(before: list[Edge], edge: Edge) -> Any:
-    """The condition with which it stands in a region: those before it there must not hold."""
+    """Condition of an inner transition: its own, and none of those before it."""
     guards = [
         Tree("sign", [Token("NOT", "!"), _condition(each.node) or parse("true")])
         for each in before
@@ -89,7 +90,7 @@ def _guard(before: list[Edge], edge: Edge) -> Any:
 
 
 def _condition(node: Node) -> Any:
-    """The tree of the condition; None where there is none."""
+    """Tree of a condition; None if there is none."""
     text = node.get("cond")
     try:
         return parse(text) if text else None

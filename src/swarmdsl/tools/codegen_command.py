@@ -20,7 +20,7 @@ from swarmdsl.importing.files import package_of, read_sources
 from swarmdsl.importing.names import type_names
 from swarmdsl.importing.origins import Origins
 from swarmdsl.importing.repair import read
-from swarmdsl.importing.text import checked, text_of
+from swarmdsl.importing.text import check_model, model_text
 from swarmdsl.ir import Environment, Member, Multiplicity, Role, Swarm, System
 from swarmdsl.lowering import lower
 from swarmdsl.output import WriteOptions, write
@@ -58,8 +58,8 @@ def codegen(
     if report.has_errors:
         return Result(report, files)
     system = import_scxml(documents, adfs, name, report, None, guesses)
-    text = text_of(_with_robot(system, simulation), scxml, report)
-    project = checked(text, Path(f"{name}.swarm"), report) if text is not None else None
+    text = model_text(_with_robot(system, simulation), scxml, report)
+    project = check_model(text, Path(f"{name}.swarm"), report) if text is not None else None
     if project is None:
         return Result(report, files)
     options = {"package": package, **({"simulation": "true"} if simulation else {})}
@@ -71,7 +71,8 @@ def codegen(
     made = emit(lower(project), requests, report)
     origins = Origins(documents, adfs)
     packages = _by_package(
-        {target: [origins.told(file) for file in files] for target, files in made.items()}, report
+        {target: [origins.relocate(file) for file in files] for target, files in made.items()},
+        report,
     )
     if report.has_errors:
         return Result(report, files)

@@ -1,6 +1,6 @@
-"""Imports into a model that is there already: what an import has is merged into it.
+"""Merge an import into an existing model.
 
-An import is text of the language too, so that two models are merged, declaration by declaration.
+The import is text of the language as well, so that two models are merged by declarations.
 """
 
 from __future__ import annotations
@@ -12,8 +12,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.text_edits import Edits
 from swarmdsl.importing.update.declarations import merge_component, merge_event, merge_function
 from swarmdsl.importing.update.interfaces import is_described, merge_interface
-from swarmdsl.importing.update.known import Key, Model, groups_before, of_group, read_model
-from swarmdsl.importing.update.merging import Guess, Merge, written
+from swarmdsl.importing.update.known import Key, Model, group_of, groups_before, read_model
+from swarmdsl.importing.update.merging import Guess, Merge, node_text
 from swarmdsl.ir import Array, Primitive, Type
 from swarmdsl.project.loader import File
 from swarmdsl.syntax.ast import (
@@ -37,11 +37,11 @@ def update(
     complete: bool = True,
     force: bool = False,
 ) -> Mapping[str, str]:
-    """The new texts of the files of a model that an import changes, by the names of their sources.
+    """Changed texts of the model's files by source name.
 
-    What the model has and the import does not say stays, and all comments. `complete` says whether
-    the format of the import has all of an interface, also that it has no fields, and bounds of
-    texts and arrays; `guesses` what it only made up.
+    Comments and everything that the import does not contain stay. `complete` is True if the import
+    format states interfaces completely, including empty ones and bounds of strings and arrays.
+    `guesses` are the assumed properties.
     """
     updater = _Updater(model, report, guesses, complete, force)
     for key, (_, new) in imported.declared.items():
@@ -67,7 +67,7 @@ class _Updater:
         self._merges: dict[File, Merge] = {}
 
     def declaration(self, key: Key, new: Declaration) -> None:
-        """Change a declaration of the model, or add it."""
+        """Change or add a declaration."""
         file, old = self._model.declared.get(key, (None, None))
         if file is None or old is None:
             if self._complete or not isinstance(new, Interface) or is_described(new):
@@ -76,13 +76,13 @@ class _Updater:
             self._merge(self._merge_of(file), old, new)
         elif self._differs(file, old, new):
             if isinstance(new, Interface):
-                reason = f"`{file.package}` describes it otherwise, and is not the model's own"
+                reason = f"`{file.package}` is a library and describes it differently"
                 self._report.report("left-out", None, what=f"`{key[1]}`", reason=reason)
             else:
                 self._add(key[0], new)
 
     def _differs(self, file: File, old: Declaration, new: Declaration) -> bool:
-        """Whether what a library has is not what is imported."""
+        """Return True if the import differs from the declaration in a library."""
         edits = Edits(file.source)
         found = Diagnostics()
         trial = Merge(edits, self._plain, self._guesses, found, force=True, is_trial=True)
@@ -109,24 +109,24 @@ class _Updater:
                 merge_interface(merge, old, new)
 
     def _add(self, group: str, new: Declaration) -> None:
-        """Add a declaration below the last of its group, or of those that usually stand before."""
+        """Add a declaration below the last of its group, or of the groups usually before."""
         file = self._model.file
         edits = self.edits.setdefault(file, Edits(file.source))
         model = file.model
-        declared = [(of_group(old), old) for old in model.declarations]
+        declared = [(group_of(old), old) for old in model.declarations]
         same = [old for each, old in declared if each == group]
         before = same or [old for each, old in declared if each in groups_before(group)]
         if before:
             last = max(before, key=lambda old: old.span.start)
             together = isinstance(last, Event) and isinstance(new, Event) and not new.doc
-            edits.below(last.span.end, written(new) if together else f"\n{written(new)}")
+            edits.below(last.span.end, node_text(new) if together else f"\n{node_text(new)}")
             return
         top = [*([model.package] if model.package is not None else []), *model.imports]
         end = top[-1].span.end if top else len(file.source.text)
-        edits.below(end, f"\n{written(new)}")
+        edits.below(end, f"\n{node_text(new)}")
 
     def _plain(self, type_: Type) -> Type:
-        """A type as the import can say it: enums are numbers, and there may be no bounds."""
+        """Type as the import format can express it: enums as numbers, bounds if possible."""
         if isinstance(type_, Array):
             size = type_.size if self._complete or not type_.bounded else None
             return Array(self._plain(type_.element), size, type_.bounded and self._complete)
@@ -137,14 +137,14 @@ class _Updater:
 
 
 def _merge_machine(merge: Merge, old: StateMachine, new: StateMachine) -> None:
-    """Leave a machine as it is: nobody knows what of it was written by hand."""
+    """Keep a machine, because manual edits in it cannot be recognized."""
     if _words(old.span.text) == _words(new.span.text):
         return
     if merge.force:
         merge.edits.replace(old.span, new.span.text)
         return
-    reason = "it is another one in what is imported"
-    way = "use `--force` to have that one"
+    reason = "the imported one differs"
+    way = "use `--force` to replace it"
     merge.kept(old.name.span, f"state machine `{old.name}`", reason, way)
 
 

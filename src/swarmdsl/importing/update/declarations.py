@@ -1,10 +1,10 @@
-"""What an update changes in the events, functions and components of a model."""
+"""Update events, functions and components."""
 
 from __future__ import annotations
 
 from swarmdsl.analysis.event_topics import topic_of
 from swarmdsl.base.naming import snake_case
-from swarmdsl.importing.update.merging import Merge, commented, of_class, written
+from swarmdsl.importing.update.merging import Merge, doc_comment, node_text, of_class
 from swarmdsl.importing.update.values import default_change
 from swarmdsl.syntax.ast import (
     Communication,
@@ -18,7 +18,7 @@ from swarmdsl.syntax.ast import (
 
 
 def merge_event(merge: Merge, old: Event, new: Event) -> None:
-    """Change an event, unless what goes with it was made up."""
+    """Update an event, except for a guessed topic."""
     merge.documentation(old, new)
     if (str(new.name), "topic") in merge.guesses:
         return
@@ -36,7 +36,7 @@ def merge_event(merge: Merge, old: Event, new: Event) -> None:
 
 
 def merge_function(merge: Merge, old: Function, new: Function) -> None:
-    """Change how a function is called, its topics and its params."""
+    """Update the communication, topics and params of a function."""
     merge.documentation(old, new)
     name = str(new.name)
     if (name, "category") not in merge.guesses and old.category != new.category:
@@ -69,7 +69,7 @@ def _merge_call(merge: Merge, old: Communication, new: Communication) -> None:
 
 
 def merge_component(merge: Merge, old: Component, new: Component) -> None:
-    """Change the kind of a component, its ports and its params."""
+    """Update the kind, ports and params of a component."""
     merge.documentation(old, new)
     if (str(new.name), "kind") not in merge.guesses and old.kind != new.kind:
         merge.word_at(old.span.start, new.kind)
@@ -84,12 +84,12 @@ def merge_component(merge: Merge, old: Component, new: Component) -> None:
     for port in of_class(new.items, Port):
         flow, *_ = _flows(port)
         if flow not in flows:
-            add(_named_otherwise(port, taken))
+            add(_with_free_name(port, taken))
         found = flows.get(flow)
         if found in own:
             merge.documentation(found, port)
             merge.type(found.type, port.type)
-        flows[flow] = None  # what comes again is the same
+        flows[flow] = None  # further ports with this topic are the same
     params = {str(p.name): p for base in inherited for p in of_class(base.items, Param)}
     _merge_params(merge, old, new, params)
 
@@ -119,7 +119,7 @@ def _merge_params(
 
 
 def _bases(component: Component) -> list[Component]:
-    """The components that one extends, the first of all first."""
+    """Base components, the root first."""
     chain: list[Component] = []
     base = component.base.target if component.base is not None else None
     while base is not None and base not in chain:
@@ -129,21 +129,21 @@ def _bases(component: Component) -> list[Component]:
 
 
 def _flows(port: Port) -> list[tuple[str, str]]:
-    """The directions of a port, each with its topic."""
+    """Directions of a port, each with its topic."""
     topic = str(port.topic) if port.topic is not None else snake_case(port.name)
     directions = ("in", "out") if port.direction == "inout" else (port.direction,)
     return [(direction, topic) for direction in directions]
 
 
-def _named_otherwise(port: Port, taken: set[str]) -> str:
-    """A port with a name that no other has; its topic stays."""
+def _with_free_name(port: Port, taken: set[str]) -> str:
+    """Text of a port with a free name and its original topic."""
     name, number = str(port.name), 1
     while name in taken:
         number += 1
         name = f"{port.name}{number}"
     taken.add(name)
     if name == port.name:
-        return written(port)
+        return node_text(port)
     ((_, topic), *_) = _flows(port)
     text = f'{port.direction} {name} : {port.type.span.text} on "{topic}"'
-    return f"{commented(port.doc)}\n{text}" if port.doc else text
+    return f"{doc_comment(port.doc)}\n{text}" if port.doc else text

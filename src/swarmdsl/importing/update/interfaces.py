@@ -1,11 +1,11 @@
-"""What an update changes in the messages, services and actions of a model."""
+"""Update messages, services and actions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from swarmdsl.importing.update.merging import Merge, written
+from swarmdsl.importing.update.merging import Merge, node_text
 from swarmdsl.syntax.ast import (
     ActionType,
     Constant,
@@ -16,14 +16,14 @@ from swarmdsl.syntax.ast import (
     StructType,
 )
 
-_REMOVE = "remove it, if the interface does not have it any more"
+_REMOVE = "remove it if the interface no longer has it"
 
 
 def merge_interface(merge: Merge, old: Interface, new: Interface) -> None:
-    """Add what the import knows of an interface, and change what it knows otherwise."""
+    """Add new fields and constants of an interface and update changed ones."""
     before, after = _parts(old), _parts(new)
     if not after.keys() <= before.keys():
-        reason = "it is something else in what is imported"
+        reason = "it has another kind in the import"
         merge.kept(old.name.span, f"`{old.name}`", reason)
         return
     merge.documentation(old, new)
@@ -38,19 +38,19 @@ def merge_interface(merge: Merge, old: Interface, new: Interface) -> None:
             begin, end = section
             _merge_fields(merge, before[part], fields, merge.last(constants, begin))
         elif fields:
-            text = "\n".join([f"{part} {{", *map(written, fields), "}"])
+            text = "\n".join([f"{part} {{", *map(node_text, fields), "}"])
             add = merge.inside(start) if end == start else partial(merge.edits.below, end)
             add(text)
 
 
 def is_described(interface: Interface) -> bool:
-    """Whether anything is said of what an interface carries."""
+    """Return True if the interface has fields or constants."""
     constants = isinstance(interface, MessageType) and interface.constants
     return bool(constants) or any(_parts(interface).values())
 
 
 def _parts(interface: Interface) -> Mapping[str, Sequence[Field]]:
-    """The fields of each part of an interface, by the word for it; a message has one."""
+    """Fields of each part of an interface by keyword; "" for those of a message."""
     match interface:
         case MessageType(fields=fields) | StructType(fields=fields):
             return {"": fields}
@@ -62,7 +62,7 @@ def _parts(interface: Interface) -> Mapping[str, Sequence[Field]]:
 
 
 def _section(merge: Merge, interface: Interface, part: str) -> tuple[int, int] | None:
-    """Where the part begins, before its brace, and where it ends; None where it is not there."""
+    """Range of a part from its keyword to its brace; None if it is missing."""
     start, end = interface.name.span.end, interface.span.end
     depth = 0
     begin: int | None = None
@@ -86,14 +86,14 @@ def _merge_fields(
     known, wanted = [_name_of(field) for field in old], [_name_of(field) for field in new]
     for field in old:
         if _name_of(field) not in wanted:
-            reason = "it is not in what is imported"
+            reason = "it is missing in the import"
             merge.kept(field.span, f"field `{field.name}`", reason, _REMOVE)
     common = [name for name in known if name in wanted]
     for name, other in zip(common, (name for name in wanted if name in known), strict=True):
         if name != other:
             field = old[known.index(name)]
-            reason = f"`{other}` stands there in what is imported"
-            merge.kept(field.span, f"the place of field `{name}`", reason)
+            reason = f"the import has `{other}` there"
+            merge.kept(field.span, f"the position of field `{name}`", reason)
             return
 
 

@@ -1,4 +1,4 @@
-"""A model as it is before an update: which declarations it has, and in which files."""
+"""The existing model of an update: its declarations and their files."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from swarmdsl.syntax.ast import (
 )
 
 Key = tuple[str, str]
-"""What a declaration is found by: its group and its name."""
+"""Group and name of a declaration."""
 
-# In the order in which they usually stand in a file.
+# In their usual order in a file.
 _GROUPS: Mapping[str, tuple[type, ...]] = {
     "interface": (MessageType, ServiceType, ActionType, StructType, EnumType, AliasType),
     "event": (Event,),
@@ -38,8 +38,8 @@ _GROUPS: Mapping[str, tuple[type, ...]] = {
 }
 
 
-class _Texts(Reader):
-    """Reads files, some of them from texts that are not on disk."""
+class _OverlayReader(Reader):
+    """Reader with overlay texts for some files."""
 
     def __init__(self, texts: Mapping[str, str]) -> None:
         self._texts = texts
@@ -53,9 +53,9 @@ class _Texts(Reader):
 
 @dataclass(eq=False)
 class Model:
-    """The files of a model, those that it imports from libraries and ROS too.
+    """Files of a model, including imported libraries and ROS interfaces.
 
-    `declared` are the declarations that an import can have: that in the first file counts.
+    `declared` are the declarations that an import can contain; the first file wins.
     """
 
     project: Project
@@ -63,7 +63,7 @@ class Model:
 
     @property
     def file(self) -> File:
-        """The file that was named, which imports all others."""
+        """The main file, which imports all others."""
         return self.project.files[0]
 
 
@@ -75,17 +75,16 @@ def read_model(
     *,
     names: Diagnostics | None = None,
 ) -> Model:
-    """Read a file and what it imports.
+    """Read a file and its imports.
 
-    `texts` are those of files, by path, that are read as if they had them. What is wrong with
-    names goes to a report of its own, if anybody asks for it.
+    `texts` replace the contents of files, by path. Name errors are reported to `names`, if given.
     """
-    project = load([path], report, libraries, _Texts(texts or {}))
+    project = load([path], report, libraries, _OverlayReader(texts or {}))
     if project.files:
         link(project, Diagnostics() if names is None else names)
     model = Model(project)
     for file, declaration in project.declarations():
-        group = of_group(declaration)
+        group = group_of(declaration)
         if group is not None:
             name = str(declaration.name)
             found = str(interface_name(file, name)) if group == "interface" else name
@@ -93,8 +92,8 @@ def read_model(
     return model
 
 
-def of_group(declaration: Declaration) -> str | None:
-    """The group of a declaration; None for one that no import has."""
+def group_of(declaration: Declaration) -> str | None:
+    """Group of a declaration; None if no import contains its kind."""
     for group, classes in _GROUPS.items():
         if isinstance(declaration, classes):
             return group
@@ -102,6 +101,6 @@ def of_group(declaration: Declaration) -> str | None:
 
 
 def groups_before(group: str) -> list[str]:
-    """The groups that usually stand before another one in a file."""
+    """Groups that are usually before another one in a file."""
     groups = list(_GROUPS)
     return groups[: groups.index(group)]

@@ -1,7 +1,7 @@
-"""What an update does with the items of a declaration that is in the model already.
+"""Merge the items of an existing declaration with those of an import.
 
-Declarations, and what is in them, are found by their names. What the import says is changed where
-it stands; what it has and the model has not is added; all else stays, and so do comments.
+Items are matched by name. Changed items are edited in place and new ones are added; everything
+else, including comments, stays.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from swarmdsl.syntax.ast import Constant, Documented, Param, TypeRef
 from swarmdsl.syntax.formatter.tokens import Tokens
 
 Guess = tuple[str, str]
-"""What an import has made up, and does not know: the name of a declaration, and what of it."""
+"""An assumed property: name of a declaration and of the property."""
 
 D = TypeVar("D", bound=Documented)
 
@@ -30,8 +30,8 @@ D = TypeVar("D", bound=Documented)
 class Merge:
     """Merges declarations of one file with those of an import.
 
-    `plain` is a type as the format of the import can say it. `force` takes over what was written
-    by hand too. A trial only asks whether there is something to change, beside documentation.
+    `plain` converts a type to what the import format can express. `force` also replaces manual
+    edits. A trial only tests for changes, ignoring documentation.
     """
 
     edits: Edits
@@ -43,33 +43,33 @@ class Merge:
 
     @cached_property
     def tokens(self) -> Tokens:
-        """The tokens of the file as it is."""
+        """Tokens of the unchanged file."""
         return Tokens(self.edits.source.text)
 
     @cached_property
     def folding(self) -> Folding:
-        """The values of expressions."""
+        """Values of constant expressions."""
         return Folding()
 
     def documentation(self, old: Documented, new: Documented) -> None:
-        """Say what is said of something, unless somebody has said something of it already."""
+        """Add documentation unless there is some."""
         if new.doc and not old.doc and not self.is_trial:
-            self.edits.above(old.span.start, commented(new.doc))
+            self.edits.above(old.span.start, doc_comment(new.doc))
 
     def type(self, old: TypeRef, new: TypeRef) -> None:
-        """Change a type."""
+        """Update a type."""
         if old.type is None or new.type is None:
             self.word(old.span, new.span)
         elif self.plain(old.type) != self.plain(new.type):
             self.edits.replace(old.span, new.span.text)
 
     def word(self, old: Span, new: Span) -> None:
-        """Change a word."""
+        """Update the text of a span."""
         if old.text != new.text:
             self.edits.replace(old, new.text)
 
     def word_at(self, at: int, text: str) -> None:
-        """Change the word that comes next after an offset."""
+        """Replace the next token after an offset."""
         (old,) = self.tokens.code(at)
         self.edits.replace(Span(self.edits.source, old.start, old.start + len(old.text)), text)
 
@@ -81,9 +81,9 @@ class Merge:
         change: Callable[[D, D], None],
         first: Callable[[str], None],
     ) -> None:
-        """Change the items that are there, and add each other one below that before it.
+        """Update existing items and add each new one below its predecessor.
 
-        `first` adds one where there is none yet.
+        `first` adds an item if there are none yet.
         """
         known = {key(item): item for item in reversed(old)}
         done: set[object] = set()
@@ -100,14 +100,14 @@ class Merge:
             else:
                 if add is None:
                     add = self.below(old[-1]) if old else first
-                add(written(item))
+                add(node_text(item))
 
     def below(self, item: Documented) -> Callable[[str], None]:
-        """How to add something below an item."""
+        """Function that adds text below an item."""
         return lambda text: self.edits.below(item.span.end, text)
 
     def inside(self, at: int) -> Callable[[str], None]:
-        """How to add something first in the block that begins next after an offset."""
+        """Function that adds text at the start of the next block after an offset."""
 
         def add(text: str) -> None:
             brace = next(token for token in self.tokens.code(at, 64) if token.text == "{")
@@ -116,22 +116,22 @@ class Merge:
         return add
 
     def last(self, items: Sequence[Documented], at: int) -> Callable[[str], None]:
-        """How to add something below the last item of the block that comes next after an offset."""
+        """Function that adds text below the last item of the next block after an offset."""
         return self.below(items[-1]) if items else self.inside(at)
 
     def kept(self, place: Span, what: str, reason: str, way: str | None = None) -> None:
-        """Report what stays, though the import has it otherwise."""
+        """Report a difference to the import that is not updated."""
         self.report.report("kept", place, what=what, reason=reason, help=way)
 
     def default(self, old: Param | Constant, new: Param | Constant) -> None:
-        """Change the type and value of a param or constant."""
+        """Update the type and value of a param or constant."""
         change = default_change(old, new, self.folding)
         if change is None:
             return
         if change.computed and not self.force:
             what = f"the value of `{old.name}`"
-            reason = f"it is computed here, and `{change.value}` in what is imported"
-            way = "change what it is computed from, or use `--force`"
+            reason = f"it is computed here, but `{change.value}` in the import"
+            way = "change the expression, or use `--force`"
             self.kept(change.place, what, reason, way)
             return
         if change.type is not None:
@@ -142,15 +142,15 @@ class Merge:
 
 
 def of_class(items: Iterable[object], class_: type[D]) -> list[D]:
-    """The items of a class."""
+    """Items of a class."""
     return [item for item in items if isinstance(item, class_)]
 
 
-def written(node: Documented) -> str:
-    """A node as it is written, with its documentation."""
-    return f"{commented(node.doc)}\n{node.span.text}" if node.doc else node.span.text
+def node_text(node: Documented) -> str:
+    """Text of a node with its doc comment."""
+    return f"{doc_comment(node.doc)}\n{node.span.text}" if node.doc else node.span.text
 
 
-def commented(doc: str) -> str:
-    """The lines of a documentation."""
+def doc_comment(doc: str) -> str:
+    """Doc comment with the given text."""
     return "\n".join(f"/// {line}".rstrip() for line in doc.split("\n"))

@@ -1,4 +1,4 @@
-"""A model on disk that an import goes into: what it is, and what its files become."""
+"""Read the existing model from disk and compute its changed files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from swarmdsl.syntax.ast import Function as Declared
 
 @dataclass(eq=False)
 class Existing:
-    """A model as it is on disk."""
+    """A model on disk."""
 
     path: Path
     settings: Settings
@@ -32,11 +32,11 @@ class Existing:
 
     @cached_property
     def system(self) -> System | None:
-        """What it means; None where it has errors."""
+        """The checked system; None if the model has errors."""
         return pipeline.check([self.path], self.settings).system
 
     def operations(self) -> set[Key]:
-        """The functions and services that are operations: they are declared with their owners."""
+        """Keys of functions and services that components declare as operations."""
         if self.system is None:
             return set()
         names = {name for component in self.system.components for name in component.operations}
@@ -48,7 +48,7 @@ class Existing:
         }
 
     def functions(self) -> dict[str, Function]:
-        """Those that are declared in it, by name; how they are called is not told."""
+        """Declared functions by name, with a placeholder for their communication."""
         call = Communication("action", "unknown", Named("std_msgs", "Empty"))
         return {
             str(declared.name): Function(str(declared.name), declared.category, call, (), ())
@@ -58,16 +58,18 @@ class Existing:
 
 
 def read_existing(path: Path, report: Diagnostics) -> Existing | None:
-    """The model in a file; None where there is none yet, or it cannot be read.
+    """Read the model in a file; None if it does not exist or cannot be read.
 
-    Only what cannot be read of it is reported: an import may bring what is missing. A device or
-    pipe is neither read, which might never end, nor written.
+    Only syntax errors are reported, because the import may bring missing names. Devices and pipes
+    are refused: reading them might not end.
     """
     if not os.path.lexists(path):
         return None
     if path.exists() and not (path.is_file() or path.is_dir()):
-        reason = "it is no regular file"
-        report.report("cannot-write", path=path, reason=reason, help="without -o it goes to stdout")
+        reason = "it is not a regular file"
+        report.report(
+            "cannot-write", path=path, reason=reason, help="omit `-o` to write to standard output"
+        )
         return None
     content = read_bytes(path, None, report)
     if content is None or not content.strip():
@@ -79,7 +81,7 @@ def read_existing(path: Path, report: Diagnostics) -> Existing | None:
     return None if report.has_errors else Existing(path, settings, model)
 
 
-def updated(
+def update_files(
     existing: Existing,
     text: str,
     guesses: Collection[Guess],
@@ -88,9 +90,9 @@ def updated(
     complete: bool,
     force: bool,
 ) -> list[Layout]:
-    """What becomes of the files that an import changes, whose text is that of a model.
+    """Files that an import changes, with their new contents.
 
-    What would be a mistake then, and is none now, is reported.
+    New errors in the resulting model are reported.
     """
     place = existing.path.with_name(f"{existing.path.name}.import")
     imported = read_model(place, Diagnostics(), texts={str(place): text})
@@ -100,14 +102,14 @@ def updated(
     layouts = [_layout(name, changed, report) for name, changed in texts.items()]
     made = [layout for layout in layouts if layout is not None]
     after = {layout.name: layout.after.decode().replace("\r\n", "\n") for layout in made}
-    new = _mistakes(existing, after) - _mistakes(existing, {}) if made else Counter()
+    new = _errors(existing, after) - _errors(existing, {}) if made else Counter()
     for code, message in new:
         report.report("no-model", path=existing.path.as_posix(), reason=f"{message} ({code})")
     return [layout for layout in made if layout.changed]
 
 
 def _layout(name: str, text: str, report: Diagnostics) -> Layout | None:
-    """A file with another text, which gets the canonical layout and keeps its line ends."""
+    """Changed file in canonical layout with its original line ends."""
     before = Path(name).read_bytes()
     windows = before.partition(b"\n")[0].endswith(b"\r")
     content = text.replace("\n", "\r\n") if windows else text
@@ -121,8 +123,8 @@ def _layout(name: str, text: str, report: Diagnostics) -> Layout | None:
     return Layout(name, before, made.after)
 
 
-def _mistakes(existing: Existing, texts: Mapping[str, str]) -> Counter[tuple[str, str]]:
-    """The errors in the model, with these texts of files in place of those on disk."""
+def _errors(existing: Existing, texts: Mapping[str, str]) -> Counter[tuple[str, str]]:
+    """Errors of the model with `texts` in place of files on disk."""
     report = Diagnostics()
     libraries = existing.settings.libraries
     model = read_model(existing.path, report, libraries, texts, names=report)

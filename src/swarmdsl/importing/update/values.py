@@ -1,4 +1,4 @@
-"""Values of params and constants: whether two are the same, and how to write one as another."""
+"""Compare values of params and constants and print them for a type."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ _NANOSECONDS = 1_000_000_000
 
 @dataclass(frozen=True)
 class DefaultChange:
-    """What is to be changed of a param.
+    """Change of a param.
 
-    `type` is the place of the type and the new one, `place` that of the value, empty where there
-    is none yet. `computed` says that the value is more than a number or text.
+    `type` is the span of the type and its replacement; `place` is the span of the value, empty if
+    there is none. `computed` is True if the value is an expression.
     """
 
     place: Span
@@ -31,10 +31,10 @@ class DefaultChange:
 def default_change(
     old: Param | Constant, new: Param | Constant, folding: Folding
 ) -> DefaultChange | None:
-    """What is to be changed to make an old param say what a new one says; None for nothing.
+    """Change that gives an old param the value of a new one; None if they are equal.
 
-    A number is a number: a type that was chosen for it stays as long as the value fits. A length
-    of time is in seconds where nothing says it, as it is in ROS.
+    A chosen number type stays as long as the value fits. A duration without unit is in seconds, as
+    in ROS.
     """
     tree = new.default.tree if isinstance(new, Param) and new.default else None
     if isinstance(new, Constant):
@@ -60,7 +60,7 @@ def default_change(
 
 
 def _holds(old: Type | None, new: Type | None, value: Folded | None) -> bool:
-    """Whether a type can stay what it is where another one is imported."""
+    """Return True if a type can stay although another one is imported."""
     if old == new or old is None:
         return True
     if is_text(old) and is_text(new):
@@ -76,7 +76,7 @@ def _holds(old: Type | None, new: Type | None, value: Folded | None) -> bool:
 
 
 def _text(value: Folded | None, type_: Type | None) -> str | None:
-    """A value as it is written for a type."""
+    """Text of a value for a type."""
     if value is None:
         return None
     if type_ == DURATION:

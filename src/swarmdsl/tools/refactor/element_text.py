@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from swarmdsl.base.errors import UsageError
 from swarmdsl.base.naming import snake_case
 from swarmdsl.base.records import dataclass
-from swarmdsl.importing.update.merging import commented
+from swarmdsl.importing.update.merging import doc_comment
 
 _PORT = re.compile(r"(\w+)\s*:\s*([^@]+?)\s*(?:@\s*(\S+))?")
 _PARAM = re.compile(r"(\w+)\s*:\s*([^=]+(?:<=[^=]*)?)\s*(?:=(?!=)\s*(.+))?")
@@ -40,7 +40,7 @@ def block(doc: str, head: str, lines: Iterable[str]) -> str:
     """Declaration with its doc comment."""
     body = "".join(f"  {line}\n" for line in lines)
     inside = f"{{\n{body}}}" if body else "{ }"
-    return f"{commented(doc)}\n{head} {inside}" if doc else f"{head} {inside}"
+    return f"{doc_comment(doc)}\n{head} {inside}" if doc else f"{head} {inside}"
 
 
 def params(arguments: Iterable[str]) -> Iterable[str]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from swarmdsl.base.errors import UsageError
 from swarmdsl.base.naming import snake_case
-from swarmdsl.importing.update.merging import commented
+from swarmdsl.importing.update.merging import doc_comment
 from swarmdsl.syntax.ast import Member, Swarm
 from swarmdsl.tools.refactor import element_text
 from swarmdsl.tools.refactor.add import (
@@ -119,7 +119,7 @@ CREATORS: Mapping[str, Callable[[Options], list[FindInsertion]]] = {
 
 
 def _doc(options: Options) -> str:
-    return f"{commented(options['doc'])}\n" if options["doc"] else ""
+    return f"{doc_comment(options['doc'])}\n" if options["doc"] else ""
 
 
 def _ports(options: Options) -> list[str]:
