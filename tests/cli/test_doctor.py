@@ -55,7 +55,7 @@ def test_without_a_purpose_nothing_is_demanded(capsys: pytest.CaptureFixture[str
 def test_ros_2_from_wheels(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(doctor, "_modules", lambda names: {})
+    monkeypatch.setattr(doctor, "_find_modules", lambda names: {})
     assert run(["doctor", "ros2"]) == 1
     # It is installed from here.
     root = Path(__file__).resolve().parents[2]
@@ -78,7 +78,7 @@ def test_modules_of_the_python_that_comes_first(only: Path) -> None:
     python.write_text(f'#!/bin/sh\nPYTHONPATH={only} exec {sys.executable} "$@"\n')
     python.chmod(0o755)
 
-    assert doctor._modules(["rclpy"])["rclpy"] == str(only / "rclpy.py")
+    assert doctor._find_modules(["rclpy"])["rclpy"] == str(only / "rclpy.py")
 
 
 @pytest.mark.usefixtures("only")

@@ -1,6 +1,7 @@
-"""`swarmc codegen`: from SCXML and ADF to ROS packages, as the code generator of CPSwarm is called.
+"""Generate ROS packages from SCXML and ADF files: `swarmc codegen`.
 
-A model is made of the two on the way, which nobody sees; targets make the packages of it.
+The command line is that of the CPSwarm code generator. The files are imported into an intermediate
+model that the user never sees, and targets generate the packages.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from swarmdsl.lowering import lower
 from swarmdsl.output import WriteOptions, write
 
 PACKAGE = "fsm_behaviour"
-"""What the package is called where nobody says otherwise, as it is there."""
+"""Default package name, as in the CPSwarm code generator."""
 
 _NO_LEVELS: Mapping[str, Level] = {}
 
@@ -42,12 +43,12 @@ def codegen(
     simulation: bool,
     how: WriteOptions,
 ) -> Result:
-    """Make the packages of a state machine below `out`; `described` is an ADF file.
+    """Generate the packages of a state machine below `out`.
 
-    States name functions of that whose skeletons they want (D5.4, section 5.3), in `language`.
-    In a simulation, functions are not written anew, so that there are none.
+    `described` is its ADF file. States name the functions that need skeletons in `language` (D5.4,
+    section 5.3). In a simulation, functions exist already, so no skeletons are generated.
 
-    A package that is there already is brought up to date, as `how` says.
+    An existing package is updated as `how` specifies.
     """
     report = Diagnostics(levels)
     name = package_of(scxml)
@@ -64,10 +65,14 @@ def codegen(
         return Result(report, files)
     options = {"package": package, **({"simulation": "true"} if simulation else {})}
     requests = [Request("smach", options)]
-    wanted = [] if simulation else _wanted(documents[0], system, guesses, report)
-    if wanted:
-        of_skeletons = {"language": language, "only": ",".join(wanted), "interfaces": "false"}
-        requests.append(Request("skeleton", of_skeletons))
+    skeletons = [] if simulation else _required_skeletons(documents[0], system, guesses, report)
+    if skeletons:
+        skeleton_options = {
+            "language": language,
+            "only": ",".join(skeletons),
+            "interfaces": "false",
+        }
+        requests.append(Request("skeleton", skeleton_options))
     made = emit(lower(project), requests, report)
     origins = Origins(documents, adfs)
     packages = _by_package(
@@ -80,11 +85,11 @@ def codegen(
     return Result(report, files, written=write(packages, out, report, how))
 
 
-def _wanted(
+def _required_skeletons(
     source: Source, system: System, guesses: set[tuple[str, str]], report: Diagnostics
 ) -> list[str]:
-    """The functions that states name in `<data id="adf">`, as far as an ADF file has them."""
-    # What is wrong with the file has been told when it was imported.
+    """Functions that states name in `<data id="adf">` and that the ADF file describes."""
+    # Errors of the file were reported by the import.
     document = read(source, Diagnostics())
     if document is None:
         return []
@@ -97,18 +102,18 @@ def _wanted(
         reason = "no ADF file describes it"
         if name in known:
             type_ = known[name].communication.type
-            # The package of the skeleton is where its interface must be described.
+            # An interface in the package of the skeleton must be described.
             if type_.package != snake_case(name) or system.interface(type_) is not None:
                 wanted.setdefault(name)
                 continue
-            reason = f"nothing says what is in its `{type_}`"
+            reason = f"its interface `{type_}` is not described"
         what = f"the skeleton of `{name}`"
         report.report("left-out", document.at(node), what=what, reason=reason)
     return list(wanted)
 
 
 def _with_robot(system: System, simulation: bool) -> System:
-    """The system with a robot that behaves so, and a world for it where it is simulated."""
+    """Add a robot with the machine as its behavior and, for a simulation, a world."""
     if not system.machines:
         return system
     names = type_names()
@@ -125,7 +130,7 @@ def _with_robot(system: System, simulation: bool) -> System:
 
 
 def _by_package(made: Output, report: Diagnostics) -> Output:
-    """The files by the package that they are in, where several targets may write."""
+    """Group files by package, because several targets may write to one."""
     packages: dict[str, dict[str, OutputFile]] = {}
     for files in made.values():
         for file in files:

@@ -1,8 +1,8 @@
-"""What of ROS, editors and other tools is on this machine, and how to get the rest.
+"""Find ROS, editors and other tools and explain how to install them.
 
-Nothing but swarmdsl is needed to check, build and simulate models. Nodes run on the Python of
-ROS, which often is that of the system, or that which comes first on the path: all are asked for
-modules, the one of swarmdsl first.
+swarmdsl alone is enough to check, build and simulate models. Nodes run on the Python of ROS, often
+that of the system or the first on the path, so all of them are searched for modules, that of
+swarmdsl first.
 """
 
 from __future__ import annotations
@@ -33,20 +33,20 @@ _ROS2 = "source /opt/ros/DISTRO/setup.bash; if it is missing then: apt install {
 
 @dataclass(frozen=True)
 class Tool:
-    """A command (`git`) or module of Python (`import rospy`), and how to get it."""
+    """A command (`git`) or Python module (`import rospy`), and how to install it."""
 
     name: str
     help: str
 
     @property
     def module(self) -> str:
-        """The module of Python that it is; empty for a command."""
+        """Name of the Python module; empty for a command."""
         return self.name.removeprefix("import ") if self.name.startswith("import ") else ""
 
 
 @dataclass(frozen=True)
 class Purpose:
-    """What somebody may want to do, and all that it needs."""
+    """A task and the tools that it needs."""
 
     name: str
     what: str
@@ -55,7 +55,7 @@ class Purpose:
 
 @dataclass(frozen=True)
 class Finding:
-    """A tool and where it is; None where it is not."""
+    """A tool and its path; None if it is missing."""
 
     tool: Tool
     place: str | None
@@ -98,9 +98,9 @@ PURPOSES = (
 
 
 def find() -> dict[Purpose, list[Finding]]:
-    """Look for all tools."""
+    """Search for all tools."""
     modules = [tool.module for purpose in PURPOSES for tool in purpose.tools if tool.module]
-    places = _modules(modules)
+    places = _find_modules(modules)
     return {
         purpose: [
             Finding(tool, places.get(tool.module) if tool.module else shutil.which(tool.name))
@@ -111,13 +111,13 @@ def find() -> dict[Purpose, list[Finding]]:
 
 
 def environment() -> Iterator[tuple[str, str]]:
-    """What a report of a problem should say: versions and places, by their names."""
+    """Yield versions and paths for a bug report, by name."""
     yield "swarmdsl", f"{__version__} in {Path(__file__).parent}"
     yield "Python", f"{platform.python_version()} in {sys.executable}"
     yield "system", platform.platform()
     if os.environ.get("ROS_DISTRO"):
         yield "ROS", os.environ["ROS_DISTRO"]
-    for name in _libraries():
+    for name in _required_packages():
         try:
             yield name, version(name)
         except PackageNotFoundError:
@@ -125,7 +125,7 @@ def environment() -> Iterator[tuple[str, str]]:
 
 
 def as_text(found: dict[Purpose, list[Finding]]) -> Iterator[str]:
-    """A line for each tool, below what it is for."""
+    """Yield a line for each tool, grouped by purpose."""
     width = max(len(tool.name) for purpose in found for tool in purpose.tools)
     for purpose, findings in found.items():
         yield f"{purpose.name}: to {purpose.what}"
@@ -138,9 +138,9 @@ def as_text(found: dict[Purpose, list[Finding]]) -> Iterator[str]:
 
 
 def wheels() -> Iterator[str]:
-    """How to use ROS 2 from wheels, with what nodes are built and run with, but no `ros2`.
+    """Yield how to use ROS 2 from wheels, which build and run nodes but lack `ros2`.
 
-    It is the checkout of swarmdsl that can install it.
+    Only a checkout of swarmdsl can install it.
     """
     folder = checkout()
     if folder is None:
@@ -153,19 +153,19 @@ def wheels() -> Iterator[str]:
 
 
 def checkout() -> Path | None:
-    """The checkout that swarmdsl was installed from, as pip keeps it (PEP 610), if it is there."""
+    """Existing checkout that swarmdsl was installed from, as pip records it (PEP 610)."""
     try:
         origin = json.loads(distribution("swarmdsl").read_text("direct_url.json") or "{}")
         url = urlsplit(origin["url"])
     except (PackageNotFoundError, OSError, ValueError, TypeError, KeyError, AttributeError):
         return None
     folder = Path(url2pathname(url.path))
-    there = url.scheme == "file" and (folder / "tests" / "ros2" / "environment.py").is_file()
-    return folder if there else None
+    exists = url.scheme == "file" and (folder / "tests" / "ros2" / "environment.py").is_file()
+    return folder if exists else None
 
 
 def as_json(found: dict[Purpose, list[Finding]]) -> str:
-    """The same and the environment for programs."""
+    """Tools and environment as JSON."""
     tools = {
         purpose.name: {finding.tool.name: finding.place for finding in findings}
         for purpose, findings in found.items()
@@ -173,11 +173,11 @@ def as_json(found: dict[Purpose, list[Finding]]) -> str:
     return json.dumps({"environment": dict(environment()), "tools": tools}, indent=2)
 
 
-def _libraries() -> list[str]:
-    """The names of the packages that swarmdsl needs."""
+def _required_packages() -> list[str]:
+    """Names of required packages."""
     try:
         needed = requires("swarmdsl") or []
-    except PackageNotFoundError:  # it runs from a folder, and is not installed
+    except PackageNotFoundError:  # it runs from a folder without installation
         return []
     return sorted({_name(each) for each in needed if "extra ==" not in each}, key=str.lower)
 
@@ -187,7 +187,7 @@ def _name(requirement: str) -> str:
     return requirement[:end]
 
 
-_LOOK = """
+_FIND_MODULES = """
 import importlib.util, json, sys
 found = {}
 for name in sys.argv[1:]:
@@ -201,12 +201,12 @@ print(json.dumps(found))
 """
 
 
-def _modules(names: list[str]) -> dict[str, str]:
-    """Where modules are in the Python of swarmdsl, in that of commands, or that of the system."""
+def _find_modules(names: list[str]) -> dict[str, str]:
+    """Locations of modules in the Pythons of swarmdsl, of the path, and of the system."""
     found: dict[str, str] = {}
     pythons = (shutil.which("python3", path=os.defpath), shutil.which("python3"), sys.executable)
     for python in dict.fromkeys(filter(None, pythons)):
-        command = [python, "-c", _LOOK, *names]
+        command = [python, "-c", _FIND_MODULES, *names]
         try:
             done = subprocess.run(command, capture_output=True, check=True, timeout=20)
             found |= json.loads(done.stdout)
