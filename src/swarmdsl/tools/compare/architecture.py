@@ -17,14 +17,13 @@ from swarmdsl.ir import (
     Member,
     Message,
     Optimization,
-    Param,
     Part,
     Port,
     Service,
     Swarm,
     System,
 )
-from swarmdsl.tools.compare.behaviour import machine_element
+from swarmdsl.tools.compare.behaviour import machine_element, param_elements
 from swarmdsl.tools.compare.elements import (
     Element,
     Ref,
@@ -131,18 +130,10 @@ def _function(function: Function) -> Element:
         )
         for port in function.ports
     )
-    children = (*ports, *params(function.params))
+    children = (*ports, *param_elements(function.params))
     ref = Ref("function", function.name)
     element = Element("function", (function.name,), values, children, ref, function.origin)
     return with_doc(element, function.doc, (("call", call.doc),))
-
-
-def params(declared: Iterable[Param]) -> Iterator[Element]:
-    """Yield the elements of parameters."""
-    for param in declared:
-        default = param.declared if param.declared is not None else param.default
-        values = properties(type=type_value(param.type), default=expression_value(default))
-        yield with_doc(Element("param", (param.name,), values, origin=param.origin), param.doc)
 
 
 def _ports(ports: Iterable[Port]) -> Iterator[Element]:
@@ -170,7 +161,7 @@ def _components(system: System) -> Iterator[Element]:
         )
         children = (
             *_ports(_own(each.ports, base.ports if base else ())),
-            *params(_own(each.params, base.params if base else ())),
+            *param_elements(_own(each.params, base.params if base else ())),
         )
         ref = Ref("component", each.name)
         yield with_doc(
@@ -198,7 +189,7 @@ def _members(system: System) -> Iterator[Element]:
         )
         children = (
             *_ports(_own(each.ports, base.ports if base else ())),
-            *params(_own(each.params, base.params if base else ())),
+            *param_elements(_own(each.params, base.params if base else ())),
             *(_part(part) for part in _own(each.parts, base.parts if base else ())),
             *(
                 with_doc(
@@ -249,7 +240,7 @@ def _others(system: System) -> Iterator[Element]:
         values = ((fitness.goal, expression_value(fitness.value)),)
         inputs = (_field(each, "input") for each in fitness.inputs)
         ref = Ref("fitness", fitness.name)
-        children = (*inputs, *params(fitness.params))
+        children = (*inputs, *param_elements(fitness.params))
         element = Element("fitness", (fitness.name,), values, children, ref, fitness.origin)
         yield with_doc(element, fitness.doc, fitness.docs)
 

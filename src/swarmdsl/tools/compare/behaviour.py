@@ -58,7 +58,7 @@ def machine_element(machine: StateMachine, system: System) -> Element:
     """Element of a state machine with its params, variables and states."""
     machines = {each.name: each for each in system.machines}
     builder = _Machine(machine.name, find_reuse(machine, machines))
-    data = [*_params(machine.params, machine.name)]
+    data = [*param_elements(machine.params, machine.name)]
     data += (
         with_doc(
             Element(
@@ -86,11 +86,12 @@ def machine_element(machine: StateMachine, system: System) -> Element:
     return with_doc(element, machine.doc, machine.docs)
 
 
-def _params(params: Iterable[Param], machine: str) -> Iterator[Element]:
+def param_elements(params: Iterable[Param], machine: str = "") -> Iterator[Element]:
+    """Yield the elements of params; expressions in `machine` can refer to them."""
     for param in params:
         default = param.declared if param.declared is not None else param.default
         values = properties(type=type_value(param.type), default=expression_value(default))
-        ref = Ref(variable_kind(machine), param.name)
+        ref = Ref(variable_kind(machine), param.name) if machine else None
         yield with_doc(Element("param", (param.name,), values, (), ref, param.origin), param.doc)
 
 

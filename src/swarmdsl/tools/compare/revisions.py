@@ -53,30 +53,30 @@ def is_revision(text: str, beside: Path) -> bool:
     return git.run_line("rev-parse", "--verify", "--quiet", f"{text}^{{commit}}") is not None
 
 
-def extract(wanted: Revision, folder: Path, report: Diagnostics) -> Path | None:
+def extract(revision: Revision, folder: Path, report: Diagnostics) -> Path | None:
     """Extract the models of a revision into a folder and return the path in it.
 
     The path refers to the file system, as in `git show REV:./PATH`; a file that no longer exists is
     found as well. If git has no such revision or path, report it and return None.
     """
-    git = _Git(Path(wanted.path), report)
+    git = _Git(Path(revision.path), report)
     root = git.run_line("rev-parse", "--show-toplevel")
     if root is None:
         return None
-    commit = git.run_line("rev-parse", "--verify", "--quiet", f"{wanted.revision}^{{commit}}")
+    commit = git.run_line("rev-parse", "--verify", "--quiet", f"{revision.revision}^{{commit}}")
     if commit is None:
-        git.fail(wanted.revision, "no such revision in git")
+        git.fail(revision.revision, "no such revision in git")
         return None
-    path, top = Path(wanted.path).resolve(), Path(root).resolve()
+    path, top = Path(revision.path).resolve(), Path(root).resolve()
     if not path.is_relative_to(top):
-        git.fail(str(wanted), f"a link leads out of the repository to `{path}`")
+        git.fail(str(revision), f"a link leads out of the repository to `{path}`")
         return None
     inner = path.relative_to(top)
     entries = git.run("ls-tree", "-r", "-z", "--full-tree", commit)
     files = dict(list_files(entries or b""))
     place = PurePosixPath(inner.as_posix())
     if not any(place == name or place in name.parents for name in files):
-        git.fail(str(wanted), "it contains no model")
+        git.fail(str(revision), "it contains no model")
         return None
     content = git.run("cat-file", "--batch", given="\n".join(files.values()).encode())
     if content is None:
@@ -106,8 +106,8 @@ class _Git:
             self.fail(str(self._path), "git is not installed")
         except subprocess.CalledProcessError as error:
             if error.stderr:
-                said = error.stderr.decode(errors="replace").strip().splitlines()[-1]
-                self.fail(str(self._path), said.removeprefix("fatal: "))
+                message = error.stderr.decode(errors="replace").strip().splitlines()[-1]
+                self.fail(str(self._path), message.removeprefix("fatal: "))
         return None
 
     def run_line(self, *arguments: str) -> str | None:
