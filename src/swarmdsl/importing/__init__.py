@@ -59,7 +59,7 @@ def import_scxml(
     known: System | None = None,
     guesses: set[tuple[str, str]] | None = None,
 ) -> System:
-    """Import SCXML documents as state machines; ADF files describe the called functions.
+    """Import SCXML documents as state machines; ADF files describe called functions.
 
     `known` is the model that the import is merged into; for `guesses` see `import_adf`.
     """

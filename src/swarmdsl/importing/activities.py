@@ -178,9 +178,9 @@ class Activities:
     def _left_out(self, call: Call, what: str, reason: str) -> None:
         self.report.report("left-out", self.document.at(call.node), what=what, reason=reason)
 
-    def _assumed(self, call: Call, what: str, assumed: str, way: str | None = None) -> None:
+    def _assumed(self, call: Call, what: str, assumed: str, hint: str | None = None) -> None:
         place = self.document.at(call.node)
-        self.report.report("assumed", place, what=what, assumed=assumed, help=way)
+        self.report.report("assumed", place, what=what, assumed=assumed, help=hint)
 
 
 def _part(described: Interface | None, names: tuple[str, str]) -> dict[str, Type] | None:

@@ -61,11 +61,11 @@ class ExecutableContent:
         A transition evaluates all guards before its effects, unlike SCXML. Conditions that read
         variables in `changed` are therefore not supported.
         """
-        ways: list[tuple[list[Expression], list[Node]]] = [([], [])]
+        paths: list[tuple[list[Expression], list[Node]]] = [([], [])]
         changed = set(changed)
         for node in nodes:
             if node.name != "if" or node.namespace != SCXML:
-                ways = [(guards, [*done, node]) for guards, done in ways]
+                paths = [(guards, [*done, node]) for guards, done in paths]
                 changed |= self.changed([node])
                 continue
             try:
@@ -73,18 +73,18 @@ class ExecutableContent:
                 read = set().union(*(reads(guard) for guard, _ in branches if guard is not None))
                 if read & changed:
                     raise UnsupportedError("its condition reads a variable that was just changed")
-                if len(ways) * len(branches) > _MAX_PATHS:
+                if len(paths) * len(branches) > _MAX_PATHS:
                     raise UnsupportedError("it would need too many transitions")
             except UnsupportedError as fault:
                 self.left_out(node, "`<if>`", fault.reason)
                 continue
-            ways = [
-                ([*guards, *conditions], [*done, *does])
-                for guards, done in ways
-                for conditions, does in _exclusive(branches)
+            paths = [
+                ([*guards, *conditions], [*done, *actions])
+                for guards, done in paths
+                for conditions, actions in _exclusive(branches)
             ]
             changed |= self.changed([node])
-        yield from ways
+        yield from paths
 
     def changed(self, nodes: Iterable[Node]) -> set[str]:
         """Variables that elements assign to."""
@@ -100,19 +100,19 @@ class ExecutableContent:
     ) -> Iterator[tuple[Expression | None, list[Node]]]:
         """Yield conditions and contents of an `<if>`; the last condition is None."""
         guard: Expression | None = self.data.condition(node, event)
-        does: list[Node] = []
+        actions: list[Node] = []
         for child in node.children:
             if child.name not in ("elseif", "else"):
                 if child.name == "if":
                     raise UnsupportedError("nested `<if>` is not supported")
-                does.append(child)
+                actions.append(child)
                 continue
-            yield guard, does
-            does = []
+            yield guard, actions
+            actions = []
             guard = None
             if child.name == "elseif":
                 guard = self.data.condition(child, event)
-        yield guard, does
+        yield guard, actions
         if guard is not None:
             yield None, []
 
@@ -129,8 +129,8 @@ class ExecutableContent:
         raise UnsupportedError(_UNSUPPORTED.get(node.name, "a model has no such effect"))
 
     def _send(self, node: Node, event: Type | None) -> Effect:
-        meant = self.events.known.get(node.get("event", ""))
-        if meant is None:
+        sent_event = self.events.known.get(node.get("event", ""))
+        if sent_event is None:
             raise UnsupportedError("its event is computed at run time")
         more = set(node.attributes) - _SENT
         if more:
@@ -144,15 +144,18 @@ class ExecutableContent:
         if not away and node.children:
             raise UnsupportedError("it carries data")
         if internal:
-            self.report.report("sent-later", self.document.at(node, "event"), event=meant.name)
-        return Send(meant.name, tuple(self._argument(each, meant, event) for each in node.children))
+            self.report.report("sent-later", self.document.at(node, "event"), event=sent_event.name)
+        return Send(
+            sent_event.name,
+            tuple(self._argument(each, sent_event, event) for each in node.children),
+        )
 
     def _argument(self, node: Node, sent: Event, event: Type | None) -> tuple[str, Expression]:
         name = node.get("name", "")
         if node.name != "param":
             raise UnsupportedError(f"it contains `<{node.name}>`")
-        wanted = self.data.expressions.field(sent.type, name)
-        return name, self.data.read(node, "expr", node.get("expr", ""), wanted, event)
+        expected = self.data.expressions.field(sent.type, name)
+        return name, self.data.read(node, "expr", node.get("expr", ""), expected, event)
 
     def left_out(self, node: Node, what: str, reason: str, attribute: str = "") -> None:
         """Report an element that a model cannot express."""
@@ -170,7 +173,7 @@ def _exclusive(
 ) -> Iterator[tuple[list[Expression], list[Node]]]:
     """Yield each branch with its condition and the negation of the conditions before."""
     refused: list[Expression] = []
-    for guard, does in branches:
-        yield [*refused, *([guard] if guard is not None else [])], does
+    for guard, actions in branches:
+        yield [*refused, *([guard] if guard is not None else [])], actions
         if guard is not None:
             refused.append(Unary("not", guard, BOOL))

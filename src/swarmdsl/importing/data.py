@@ -149,12 +149,17 @@ class MachineData:
         return self.read(node, "cond", text, BOOL, event) if text else None
 
     def read(
-        self, node: Node, attribute: str, text: str, wanted: Type | None, event: Type | None = None
+        self,
+        node: Node,
+        attribute: str,
+        text: str,
+        expected: Type | None,
+        event: Type | None = None,
     ) -> Expression:
         """Read an expression and report assumptions. Raises UnsupportedError."""
         known = set(self.types)
         try:
-            made = self.expressions.read(text, wanted, event)
+            made = self.expressions.read(text, expected, event)
         except UnsupportedError:
             for name in self.types.keys() - known:
                 del self.types[name]
@@ -185,11 +190,11 @@ class MachineData:
             type_ = self._field(type_, name)
         return type_
 
-    def _refer(self, name: str, wanted: Type) -> VariableRef | ParamRef:
+    def _refer(self, name: str, expected: Type) -> VariableRef | ParamRef:
         datum = self.described.data.get(name)
         if datum is not None and datum.param:
             return ParamRef(datum.name, datum.type)
-        return VariableRef(self.names.of(name), self.types.setdefault(name, wanted))
+        return VariableRef(self.names.of(name), self.types.setdefault(name, expected))
 
     def _field(self, type_: Type | None, name: str) -> Type | None:
         message = self.library.message(type_)

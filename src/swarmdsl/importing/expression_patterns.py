@@ -75,12 +75,12 @@ class TypeInference:
                 return self.of_operation(operator, self.of(left), self.of(right))
             case "call":
                 callee, *arguments = children
-                meant = operator_of(callee, arguments)
-                if meant in ("/", "%"):
-                    return self.of_operation(meant, *map(self.of, arguments))
+                operator_ = operator_of(callee, arguments)
+                if operator_ in ("/", "%"):
+                    return self.of_operation(operator_, *map(self.of, arguments))
                 if copied_value(tree) is not None:
                     return self.of(copied_value(tree))
-                return self.common(*arguments) if meant is None else FLOAT
+                return self.common(*arguments) if operator_ is None else FLOAT
         return None
 
     def of_operation(self, operator: str, left: Type | None, right: Type | None) -> Type | None:
@@ -95,13 +95,13 @@ class TypeInference:
         return next(iter(floats), left if left is not None else right)
 
 
-def number(text: str, wanted: Type | None) -> Literal:
+def number(text: str, expected: Type | None) -> Literal:
     """Literal of a number; an expected duration is in milliseconds."""
     if text[1:2] in ("x", "X"):
         value: int | float = int(text, 16)
     else:
         value = int(text) if text.isdigit() else float(text)
-    if wanted == DURATION:
+    if expected == DURATION:
         return Literal(round(value * 1_000_000), DURATION)
     return Literal(value, FLOAT if isinstance(value, float) else INT)
 

@@ -74,10 +74,10 @@ class Expressions:
         self.field = field
         self.inside = inside
 
-    def read(self, text: str, wanted: Type | None, event: Type | None = None) -> Expression:
+    def read(self, text: str, expected: Type | None, event: Type | None = None) -> Expression:
         """Convert an expression; `event` is the current message. Raises UnsupportedError."""
         try:
-            return _ExpressionReader(self, event).expression(parse(text), wanted)
+            return _ExpressionReader(self, event).expression(parse(text), expected)
         except Unreadable as error:
             reason = str(error)
         except UnsupportedError as error:
@@ -101,16 +101,16 @@ def path(text: str) -> tuple[str, ...]:
     return tuple(names)
 
 
-def constant(text: str, wanted: Type | None) -> Expression:
+def constant(text: str, expected: Type | None) -> Expression:
     """Convert a constant expression. Raises UnsupportedError."""
 
-    def refer(name: str, wanted: Type) -> VariableRef:
+    def refer(name: str, expected: Type) -> VariableRef:
         raise UnsupportedError(f"`{name}` is not a constant")
 
     def inside(state: str) -> Expression:
         raise UnsupportedError("it depends on the active states")
 
-    return Expressions({}, refer, lambda type_, field: None, inside).read(text, wanted)
+    return Expressions({}, refer, lambda type_, field: None, inside).read(text, expected)
 
 
 class _ExpressionReader:
@@ -121,34 +121,34 @@ class _ExpressionReader:
         self.event = event
         self.types = TypeInference(known.types, known.field, event)
 
-    def expression(self, tree: Any, wanted: Type | None) -> Expression:
+    def expression(self, tree: Any, expected: Type | None) -> Expression:
         children = tree.children
         match tree.data:
             case "number":
-                return number(str(children[0]), wanted)
+                return number(str(children[0]), expected)
             case "text":
                 return Literal(unquoted(children[0]), STRING)
             case "name":
-                return self._name(str(children[0]), wanted)
+                return self._name(str(children[0]), expected)
             case "member":
                 return self._member(tree)
             case "sign":
-                return self._sign(str(children[0]), children[1], wanted)
+                return self._sign(str(children[0]), children[1], expected)
             case "both" | "either" as word:
                 left, right = (self.expression(each, BOOL) for each in children)
                 return Binary("and" if word == "both" else "or", left, right, BOOL)
             case "operation":
-                return self._operation(tree, wanted)
+                return self._operation(tree, expected)
             case "call":
-                return self._call(tree, wanted)
+                return self._call(tree, expected)
         raise UnsupportedError("it has no equivalent in a model")
 
-    def _name(self, name: str, wanted: Type | None) -> Expression:
+    def _name(self, name: str, expected: Type | None) -> Expression:
         if name in ("true", "false"):
             return Literal(name == "true", BOOL)
         if name in _RESERVED:
             raise UnsupportedError(f"`{name}` is not a value")
-        return self.known.refer(name, wanted or BOOL)
+        return self.known.refer(name, expected or BOOL)
 
     def _member(self, tree: Any) -> Expression:
         base, name = tree.children[0], str(tree.children[1])
@@ -171,40 +171,42 @@ class _ExpressionReader:
             raise UnsupportedError(f"`{type_}` has no `{name}`")
         return FieldAccess(owner, name, self.known.field(type_, name))
 
-    def _sign(self, sign: str, operand: Any, wanted: Type | None) -> Expression:
+    def _sign(self, sign: str, operand: Any, expected: Type | None) -> Expression:
         if sign == "!":
             return Unary("not", self.expression(operand, BOOL), BOOL)
         if sign == "typeof":
             raise UnsupportedError("`typeof` is not supported")
-        value = self.expression(operand, wanted if wanted != BOOL else INT)
+        value = self.expression(operand, expected if expected != BOOL else INT)
         if sign == "+":
             return value
         if isinstance(value, Literal) and not isinstance(value.value, (bool, str)):
             return Literal(-value.value, value.type)
         return Unary("-", value, value.type)
 
-    def _operation(self, tree: Any, wanted: Type | None) -> Expression:
+    def _operation(self, tree: Any, expected: Type | None) -> Expression:
         left, sign, right = tree.children
         rest = remainder(tree)
         if rest is not None:
-            return self._arithmetic("%", *rest, wanted)
+            return self._arithmetic("%", *rest, expected)
         operator = OPERATORS.get(str(sign), str(sign))
         if operator == "%":
             raise UnsupportedError("`%` of a negative number differs in a model")
         if operator not in COMPARISONS:
-            return self._arithmetic(operator, left, right, wanted)
+            return self._arithmetic(operator, left, right, expected)
         hint = self.types.common(left, right) or INT
         return Binary(operator, self.expression(left, hint), self.expression(right, hint), BOOL)
 
-    def _arithmetic(self, operator: str, left: Any, right: Any, wanted: Type | None) -> Expression:
-        open_ = wanted in (None, BOOL)
-        is_number = not open_ and wanted != DURATION
-        plain = INT if open_ else wanted
+    def _arithmetic(
+        self, operator: str, left: Any, right: Any, expected: Type | None
+    ) -> Expression:
+        open_ = expected in (None, BOOL)
+        is_number = not open_ and expected != DURATION
+        plain = INT if open_ else expected
         first, second = self.types.of(left), self.types.of(right)
         if operator in ("+", "-"):
-            hint = self.types.common(left, right) if open_ else wanted
+            hint = self.types.common(left, right) if open_ else expected
             values = [self.expression(each, hint or plain) for each in (left, right)]
-        elif wanted == DURATION or (
+        elif expected == DURATION or (
             # A product with a duration is no number, but a quotient of durations can be a factor.
             DURATION in (first, second) and not (operator == "*" and is_number)
         ):
@@ -227,13 +229,13 @@ class _ExpressionReader:
         known = self.types.of_operation(operator, first, second)
         return Binary(operator, values[0], values[1], known or getattr(values[0], "type", None))
 
-    def _call(self, tree: Any, wanted: Type | None) -> Expression:
+    def _call(self, tree: Any, expected: Type | None) -> Expression:
         callee, *arguments = tree.children
-        meant = operator_of(callee, arguments)
-        if meant == "sqrt":
+        operator = operator_of(callee, arguments)
+        if operator == "sqrt":
             return Call("sqrt", (self.expression(arguments[0], FLOAT),), FLOAT)
-        if meant is not None:
-            return self._arithmetic(meant, arguments[0], arguments[1], wanted)
+        if operator is not None:
+            return self._arithmetic(operator, arguments[0], arguments[1], expected)
         if is_name(callee, "In") and [e.data in ("text", "name") for e in arguments] == [True]:
             # The null data model omits quotes around the id (SCXML B.1.2).
             return self.known.inside(unquoted(arguments[0].children[0]))
@@ -241,8 +243,8 @@ class _ExpressionReader:
             name = str(callee.children[1])
             least = _FUNCTIONS.get(name, 0)
             if least == 2 <= len(arguments) or least == 1 == len(arguments):
-                open_ = wanted in (None, BOOL)
-                hint = (self.types.common(*arguments) or INT) if open_ else wanted
+                open_ = expected in (None, BOOL)
+                hint = (self.types.common(*arguments) or INT) if open_ else expected
                 hint = FLOAT if name == "sqrt" else hint
                 return Call(name, tuple(self.expression(e, hint) for e in arguments), hint)
             if least:
@@ -250,7 +252,7 @@ class _ExpressionReader:
             raise UnsupportedError(f"a model has no `Math.{name}`")
         inner = copied_value(tree)
         if inner is not None:
-            return self.expression(inner, wanted)
+            return self.expression(inner, expected)
         raise UnsupportedError("only some functions of `Math` are supported")
 
 

@@ -171,8 +171,12 @@ class MachineBuilder:
     def _activity(self, draft: PartialState) -> Activity | None:
         if isinstance(draft.call, Call):
             return self.activities.activity(draft.call, self.data.names)
-        said = draft.payload_node("activity")
-        return self.activities.portable_activity(said, self.data) if said is not None else None
+        description = draft.payload_node("activity")
+        return (
+            self.activities.portable_activity(description, self.data)
+            if description is not None
+            else None
+        )
 
     def _default(self, draft: PartialState) -> tuple[Transition, ...]:
         """Default transition of a history."""
@@ -213,15 +217,15 @@ class MachineBuilder:
             if draft.kind is StateKind.COMPOSITE
             else draft.kind is StateKind.PARALLEL and edge.content is not None
         )
-        does = edge.actions if not copied else []
-        ways = list(
-            self.content.paths_through(does, event, self.changed_on_exit if target else set())
+        actions = edge.actions if not copied else []
+        paths = list(
+            self.content.paths_through(actions, event, self.changed_on_exit if target else set())
         )
-        for conditions, nodes in ways:
+        for conditions, nodes in paths:
             effects = self.content.effects(nodes, event)
             if target is None and not effects:
                 if not self._blocks_others(edges, draft):
-                    if len(ways) > 1:
+                    if len(paths) > 1:
                         continue
                     raise UnsupportedError("it has neither target nor effects")
                 effects = (Assignment(self.data.ignored, (), Literal(True, BOOL)),)

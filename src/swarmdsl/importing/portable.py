@@ -165,9 +165,9 @@ def doc_of(nodes: list[Node]) -> str:
 def docs_of(draft: PartialState) -> Docs:
     """Documentation of blocks in a state, by the keyword of the block."""
     first = draft.payload_node("first")
-    said = [(word, comment_of(nodes[0].parent)) for word, nodes in _blocks(draft)]
-    said.append(("initial", doc_of(first.children) if first is not None else ""))
-    return tuple((word, text) for word, text in said if text)
+    docs = [(word, comment_of(nodes[0].parent)) for word, nodes in _blocks(draft)]
+    docs.append(("initial", doc_of(first.children) if first is not None else ""))
+    return tuple((word, text) for word, text in docs if text)
 
 
 def _blocks(draft: PartialState) -> Iterator[tuple[str, list[Node]]]:

@@ -65,13 +65,13 @@ class _Resolver:
                 for effect in node.children:
                     reason = "an initial transition has no effects in a model"
                     self._leave_out(effect, f"`<{effect.name}>`", reason)
-        wanted = node.get(attribute, "").split()
-        if not wanted:
+        ids = node.get(attribute, "").split()
+        if not ids:
             return first
-        found = [self._inside(name, draft) for name in wanted]
+        found = [self._inside(name, draft) for name in ids]
         fault = ""
         if None in found:
-            fault = f"no inner state has the id `{wanted[found.index(None)]}`"
+            fault = f"no inner state has the id `{ids[found.index(None)]}`"
         else:
             one = _common_entry([each for each in found if each is not None])
             if one is not None:
@@ -86,12 +86,12 @@ class _Resolver:
 
     def resolved(self, edge: Edge, source: PartialState) -> Edge | None:
         """The edge with its target; None if it cannot be imported."""
-        wanted = edge.node.get("target", "").split()
-        if not wanted:
+        ids = edge.node.get("target", "").split()
+        if not ids:
             return edge
-        found = [self._nearest(name, edge, source) for name in wanted]
+        found = [self._nearest(name, edge, source) for name in ids]
         targets = [each for each in found if each is not None]
-        if len(targets) < len(wanted):
+        if len(targets) < len(ids):
             return None
         target = _common_entry(targets)
         if target is None or (len(targets) > 1 and not _exits_same_states(source, target, targets)):

@@ -58,13 +58,13 @@ def _fold_inward(draft: PartialState) -> None:
     for index, edge in enumerate(draft.edges):
         if edge.target is not None or edge.node.children:
             continue
-        wanted = _guard(draft.edges[:index], edge)
+        condition = _guard(draft.edges[:index], edge)
         inner = next(
             (
                 each
                 for region in draft.children
                 for each in region.edges
-                if each.event == edge.event and _condition(each.node) == wanted
+                if each.event == edge.event and _condition(each.node) == condition
             ),
             None,
         )

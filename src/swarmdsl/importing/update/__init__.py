@@ -144,8 +144,8 @@ def _merge_machine(merge: Merge, old: StateMachine, new: StateMachine) -> None:
         merge.edits.replace(old.span, new.span.text)
         return
     reason = "the imported one differs"
-    way = "use `--force` to replace it"
-    merge.kept(old.name.span, f"state machine `{old.name}`", reason, way)
+    hint = "use `--force` to replace it"
+    merge.kept(old.name.span, f"state machine `{old.name}`", reason, hint)
 
 
 def _words(text: str) -> list[str]:

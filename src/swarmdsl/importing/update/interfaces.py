@@ -83,13 +83,13 @@ def _merge_fields(
     merge.items(old, new, _name_of, lambda one, other: merge.type(one.type, other.type), first)
     if not new:
         return
-    known, wanted = [_name_of(field) for field in old], [_name_of(field) for field in new]
+    known, imported = [_name_of(field) for field in old], [_name_of(field) for field in new]
     for field in old:
-        if _name_of(field) not in wanted:
+        if _name_of(field) not in imported:
             reason = "it is missing in the import"
             merge.kept(field.span, f"field `{field.name}`", reason, _REMOVE)
-    common = [name for name in known if name in wanted]
-    for name, other in zip(common, (name for name in wanted if name in known), strict=True):
+    common = [name for name in known if name in imported]
+    for name, other in zip(common, (name for name in imported if name in known), strict=True):
         if name != other:
             field = old[known.index(name)]
             reason = f"the import has `{other}` there"

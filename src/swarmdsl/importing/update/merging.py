@@ -119,9 +119,9 @@ class Merge:
         """Function that adds text below the last item of the next block after an offset."""
         return self.below(items[-1]) if items else self.inside(at)
 
-    def kept(self, place: Span, what: str, reason: str, way: str | None = None) -> None:
+    def kept(self, place: Span, what: str, reason: str, hint: str | None = None) -> None:
         """Report a difference to the import that is not updated."""
-        self.report.report("kept", place, what=what, reason=reason, help=way)
+        self.report.report("kept", place, what=what, reason=reason, help=hint)
 
     def default(self, old: Param | Constant, new: Param | Constant) -> None:
         """Update the type and value of a param or constant."""
@@ -131,8 +131,8 @@ class Merge:
         if change.computed and not self.force:
             what = f"the value of `{old.name}`"
             reason = f"it is computed here, but `{change.value}` in the import"
-            way = "change the expression, or use `--force`"
-            self.kept(change.place, what, reason, way)
+            hint = "change the expression, or use `--force`"
+            self.kept(change.place, what, reason, hint)
             return
         if change.type is not None:
             self.edits.replace(*change.type)

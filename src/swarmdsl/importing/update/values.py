@@ -39,24 +39,24 @@ def default_change(
     tree = new.default.tree if isinstance(new, Param) and new.default else None
     if isinstance(new, Constant):
         tree = new.value.tree
-    wanted = folding.value(tree) if tree is not None else None
+    value = folding.value(tree) if tree is not None else None
     known = old.value if isinstance(old, Constant) else old.default
     before = folding.value(known.tree) if known is not None and known.tree is not None else None
     type_ = old.type.type
     changed = None
-    if not _holds(type_, new.type.type, wanted):
+    if not _holds(type_, new.type.type, value):
         changed, type_ = (old.type.span, new.type.span.text), new.type.type
-    if type_ == DURATION != new.type.type and wanted is not None:
-        assert not isinstance(wanted, str)
-        wanted = round(wanted * _NANOSECONDS)
-    if wanted == before and isinstance(wanted, bool) == isinstance(before, bool):
-        wanted = None
-    if changed is None and wanted is None:
+    if type_ == DURATION != new.type.type and value is not None:
+        assert not isinstance(value, str)
+        value = round(value * _NANOSECONDS)
+    if value == before and isinstance(value, bool) == isinstance(before, bool):
+        value = None
+    if changed is None and value is None:
         return None
     end = old.type.span.end
     place = known.span if known is not None else Span(old.type.span.source, end, end)
     computed = known is not None and not _is_literal(known.tree)
-    return DefaultChange(place, _text(wanted, type_), changed, computed and wanted is not None)
+    return DefaultChange(place, _text(value, type_), changed, computed and value is not None)
 
 
 def _holds(old: Type | None, new: Type | None, value: Folded | None) -> bool:

@@ -40,9 +40,9 @@ def merge_files(base: Path, ours: Path, theirs: Path, report: Diagnostics) -> Re
         _outline(path, content, report) if content is not None else None
         for path, content in zip(paths, contents, strict=True)
     ]
-    before, here, there = outlines
-    if before is not None and here is not None and there is not None:
-        merged = merge(before, here, there)
+    before, our_outline, their_outline = outlines
+    if before is not None and our_outline is not None and their_outline is not None:
+        merged = merge(before, our_outline, their_outline)
         return Result(_with_line_ends(contents[1] or b"", merged.text), merged.conflicts)
     if any(found.name in ("not-text", "file-not-found", "unreadable-file") for found in report):
         return None

@@ -46,9 +46,11 @@ def _merge_block(base: Item, ours: Item, theirs: Item) -> Merged:
 def _merge_items(
     base: Sequence[Item], ours: Sequence[Item], theirs: Sequence[Item]
 ) -> list[Merged]:
-    before, here, there = ({item.key: item for item in items} for items in (base, ours, theirs))
+    before, our_items, their_items = (
+        {item.key: item for item in items} for items in (base, ours, theirs)
+    )
     merged = (
-        _merge_item(before.get(key), here.get(key), there.get(key))
+        _merge_item(before.get(key), our_items.get(key), their_items.get(key))
         for key in _merged_order(keys(base), keys(ours), keys(theirs))
     )
     return [each for each in merged if each is not None]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from heapq import heapify, heappop, heappush
 
 Constraint = tuple[int, int, int, int]
-"""(tail, head, length, weight): head >= tail + length; each unit more costs weight."""
+"""(tail, head, length, weight): head >= tail + length; more costs weight per unit."""
 
 _MAX_STEPS = 500_000
 """Approximate step limit; the result may then not be optimal."""
@@ -271,8 +271,8 @@ class _Solver:
 
     def update(self, start: int, goal: int, cut: int, forward: bool) -> int:
         """Correct cut values from a node up to the common ancestor with `goal`."""
-        node, wanted = start, self.low[goal]
-        while not self.low[node] <= wanted <= self.last[node]:
+        node, target = start, self.low[goal]
+        while not self.low[node] <= target <= self.last[node]:
             edge = self.parent[node]
             away = self.tail[edge] == node
             self.cut[edge] += cut if away == forward else -cut
