@@ -93,3 +93,22 @@ LEFT_OUT = {
     consumer: {name for names in reasons.values() for name in names.split()}
     for consumer, reasons in _REASONS.items()
 }
+
+NOT_LOWERED = {
+    "AliasType.doc": "an alias is replaced by its type",
+    "AliasType.name": "an alias is replaced by its type",
+    "AliasType.type": "types are lowered from the resolved references",
+    "Branch.otherwise": "a branch without a guard",
+    "EnumType.underlying": "the resolved type is lowered",
+    "ImportFile.doc": "imports are resolved by the loader",
+    "ImportFile.path": "imports are resolved by the loader",
+    "ImportLibrary.doc": "imports are resolved by the loader",
+    "ImportLibrary.name": "imports are resolved by the loader",
+    "ImportRos.doc": "imports are resolved by the loader",
+    "ImportRos.path": "imports are resolved by the loader",
+    "Model.imports": "imports are resolved by the loader",
+    "TypeRef.array": "the resolved type is lowered",
+    "TypeRef.bound": "the resolved type is lowered",
+    "TypeRef.name": "the resolved type is lowered",
+}
+"""Fields of the syntax tree that are not read by lowering, with the reason."""

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterator
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Set
 from enum import Enum
 from typing import Any
 
@@ -46,9 +47,10 @@ def _walk_value(value: Any, rebuild: Rebuild) -> Iterator[tuple[Any, Rebuild]]:
 
 def systems(system: System) -> Iterator[tuple[str, str, Callable[[], System]]]:
     """Yield each field as `Class.field`, the kind of its node, and a function that changes it."""
+    used = values_in_use(system)
     for node, rebuild in walk(system, lambda new: new):
         for name in fields(node):
-            for value in other_values(getattr(node, name)):
+            for value in other_values(getattr(node, name), used[type(node), name]):
                 yield (
                     f"{type(node).__name__}.{name}",
                     str(getattr(node, "kind", "")),
@@ -58,7 +60,17 @@ def systems(system: System) -> Iterator[tuple[str, str, Callable[[], System]]]:
                 )
 
 
-def other_values(value: Any) -> Iterator[Any]:
+def values_in_use(system: System) -> dict[tuple[type, str], set[str]]:
+    """The values that each field of strings has in a system: a reference needs one that exists."""
+    used: dict[tuple[type, str], set[str]] = defaultdict(set)
+    for node, _ in walk(system, lambda new: new):
+        for name in fields(node):
+            if name != "doc" and isinstance(value := getattr(node, name), str):
+                used[type(node), name].add(value)
+    return used
+
+
+def other_values(value: Any, used: Set[str] = frozenset()) -> Iterator[Any]:
     """Values of the same type that differ from `value`."""
     match value:
         case bool():
@@ -68,8 +80,8 @@ def other_values(value: Any) -> Iterator[Any]:
         case int() | float():
             yield value + 1
         case str():
-            # One that names something else of the model may be the only valid one.
             yield f"{value}x"
+            yield from sorted(used - {value})[:3]
         case tuple() if value:
             yield value[:-1]
         case Literal():
