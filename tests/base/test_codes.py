@@ -1,7 +1,7 @@
-"""Every diagnostic code is explained, shown by a test, and used.
+"""Every diagnostic code has a page, a test and a use.
 
-In a page, the first `swarm` block of a section is a whole file, those marked `file=NAME` stand
-beside it. A block marked `target=NAME` is a valid model that is built for that target.
+In a page, the first `swarm` block of a section is a whole file, and blocks marked `file=NAME` are
+next to it. A block marked `target=NAME` is a valid model that is built for that target.
 """
 
 from __future__ import annotations

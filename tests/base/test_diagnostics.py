@@ -1,7 +1,7 @@
-"""What the compiler says about wrong models, as a person reads it.
+"""Diagnostics of wrong models, as text.
 
-A case is a file `SWnnnn_what.swarm`, or a folder of that name with several files; the text
-beside it is what is said. `pytest --bless` writes the texts anew: read them before you commit.
+A case is a file `SWnnnn_what.swarm`, or a folder of that name with several files; its diagnostics
+are in the `.txt` file next to it. `pytest --bless` rewrites these: read them before you commit.
 """
 
 from __future__ import annotations

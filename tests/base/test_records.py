@@ -1,4 +1,4 @@
-"""Our data classes do what those of Python do."""
+"""Records behave like data classes of Python."""
 
 import copy
 import dataclasses
@@ -94,7 +94,7 @@ def made():
 
 
 def known(value):
-    """All that can be told of an instance."""
+    """Return all observable properties of an instance."""
     return (
         repr(value),
         pprint.pformat(value),

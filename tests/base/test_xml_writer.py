@@ -1,4 +1,4 @@
-"""What is written without lxml is what lxml would write, and what it reads again."""
+"""The output equals that of lxml, and lxml reads it back."""
 
 from hypothesis import given
 from hypothesis import strategies as st

@@ -4,7 +4,7 @@ import pytest
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 from ..docs.pages import blocks
 
@@ -13,11 +13,11 @@ SHOWN = [block for block in blocks("swarm") if str(block.page) == "docs/formatti
 
 @pytest.mark.parametrize("block", SHOWN, ids=str)
 def test_blocks_are_formatted(block):
-    assert formatted(Source("block", block.text), Diagnostics()) == block.text
+    assert format_source(Source("block", block.text), Diagnostics()) == block.text
 
 
 def test_broken_lines():
-    """What is shown of long lines is what becomes of them."""
+    """Long lines in the handbook are wrapped as shown."""
     (lines,) = (
         block.text
         for block in blocks("text")
@@ -27,4 +27,4 @@ def test_broken_lines():
     text = f"statemachine M {{\n  state S {{\n{inside}  }}\n}}\n"
     flat = text.replace("\n      gives", " gives").replace("(\n        auct", "(auct")
     assert flat != text
-    assert formatted(Source("block", flat), Diagnostics()) == text
+    assert format_source(Source("block", flat), Diagnostics()) == text

@@ -1,4 +1,4 @@
-"""Whatever a file looks like: formatting keeps its content, and does not change twice."""
+"""Formatting any file keeps its content, and is idempotent."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.syntax.formatter import formatted
-from swarmdsl.syntax.formatter.tokens import Kind, essence, tokenize
+from swarmdsl.syntax.formatter import format_source
+from swarmdsl.syntax.formatter.tokens import Kind, content_of, tokenize
 
 from ..docs.pages import blocks
 
@@ -30,12 +30,12 @@ FILES = [
 
 
 def parsed(text: str) -> bool:
-    return formatted(Source("model", text), Diagnostics()) is not None
+    return format_source(Source("model", text), Diagnostics()) is not None
 
 
 def layout(text: str) -> str:
     report = Diagnostics()
-    result = formatted(Source("model", text), report)
+    result = format_source(Source("model", text), report)
     assert result is not None, [found.message for found in report]
     return result
 
@@ -65,7 +65,7 @@ def without_space(text: str) -> str:
 
 def check_layout(text: str) -> str:
     result = layout(text)
-    assert essence(tokenize(result)) == essence(tokenize(text))
+    assert content_of(tokenize(result)) == content_of(tokenize(text))
     assert without_space(result) == without_space(text)
     assert layout(result) == result
     assert result.endswith("\n") or not result

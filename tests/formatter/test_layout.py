@@ -1,4 +1,4 @@
-"""What the layout looks like, by example."""
+"""Layout, by example."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ import pytest
 import swarmdsl.syntax.formatter as swarm_format
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.formatter import MeaningChangedError, formatted
+from swarmdsl.syntax.formatter import MeaningChangedError, format_source
 from swarmdsl.syntax.formatter.tokens import Kind, tokenize
 
 HERE = Path(__file__).parent
 
 
 def layout(text: str) -> str | None:
-    return formatted(Source("model", text), Diagnostics())
+    return format_source(Source("model", text), Diagnostics())
 
 
 def machine(*lines: str) -> str:
@@ -172,12 +172,12 @@ def test_tokens_are_the_whole_text():
     assert [token.kind for token in tokens][:4] == [
         Kind.WORD,
         Kind.BLOCK_COMMENT,
-        Kind.TEXT,
+        Kind.STRING,
         Kind.NUMBER,
     ]
 
 
 def test_a_layout_that_changes_the_content_is_refused(monkeypatch):
-    monkeypatch.setattr(swarm_format, "as_text", lambda _lines: "event A : C\n")
+    monkeypatch.setattr(swarm_format, "render_lines", lambda _lines: "event A : C\n")
     with pytest.raises(MeaningChangedError):
         layout("event A : B")

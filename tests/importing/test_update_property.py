@@ -31,7 +31,7 @@ from swarmdsl.ir import (
     Service,
     System,
 )
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 from swarmdsl.syntax.formatter.tokens import tokenize
 from swarmdsl.syntax.types import FLOAT, INT, STRING
 
@@ -197,7 +197,7 @@ def test_an_update_keeps_all_else(data: st.DataObject) -> None:
     report = Diagnostics()
     after = update(model, imported, report, force=True)["model.swarm"]
 
-    made = formatted(Source("model.swarm", after), found := Diagnostics())
+    made = format_source(Source("model.swarm", after), found := Diagnostics())
     assert made is not None, [each.message for each in found]
     comment = re.compile(r"\bc\d+\b")
     assert sorted(comment.findall(made)) == sorted(comment.findall(before))

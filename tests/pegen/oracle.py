@@ -1,4 +1,4 @@
-"""What stock textX and Lark make of a text: what the parsers of swarmdsl are held against."""
+"""Trees by stock textX and Lark, to compare with the parsers of swarmdsl."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ class Expected:
 
 @dataclass
 class Refused:
-    """Where textX stops, and the rules and texts of the terminals that could come there."""
+    """Failure of textX: its offset and the expected terminals."""
 
     at: int
     expected: set[tuple[str, str]]
 
 
 def parse(text: str) -> Expected | Refused:
-    """What textX and Lark make of a text."""
+    """Parse a text with textX and Lark."""
     source = Source("model.swarm", text)
     usual = sys.getrecursionlimit()
     sys.setrecursionlimit(20_000)  # textX takes some thirty frames a level
@@ -109,7 +109,7 @@ class _Conversion:
 
 
 def expression_tree(span: Span) -> ExpressionTree | None:
-    """What Lark makes of the text of an expression; None where it is wrong."""
+    """Parse an expression with Lark; None if it is wrong."""
     try:
         tree = expressions().parse(span.text)
     except UnexpectedInput:
@@ -178,7 +178,7 @@ def _build(tree: Tree[Token], source: Source, base: int) -> ExpressionTree:
 
 
 def differences(one: Any, other: Any, where: str = "model") -> Iterator[str]:
-    """Where two models are not the same: classes, attributes, places."""
+    """Yield the differences of two models: classes, attributes, spans."""
     if type(one) is not type(other):
         yield f"{where}: {one!r} and {other!r}"
     elif isinstance(one, (list, tuple)) and not isinstance(one, Span):

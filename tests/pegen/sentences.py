@@ -42,7 +42,7 @@ class Sentences:
         return "".join(text + self._dice.choice(_GAPS) for text in self._texts(Use(rule), 0))
 
     def _is_new(self, expression: Expression) -> bool:
-        """Whether there is a rule in it that had no part yet."""
+        """Return True if a rule in it has had no part yet."""
         uses = {part.rule for part in inside(expression) if isinstance(part, Use)}
         return any(not self._reachable[rule] <= self.produced for rule in uses)
 
@@ -91,7 +91,7 @@ def reachable(grammar: Grammar, start: str) -> set[str]:
 
 
 def _heights(grammar: Grammar) -> dict[str, int]:
-    """How deep rules go at least."""
+    """Return the minimal depth of each rule."""
     heights = dict.fromkeys(grammar.rules, _NEVER)
     while True:
         found = {

@@ -38,7 +38,7 @@ PLACES = (
 
 
 def check_same(text: str) -> bool:
-    """Parse a text with expressions both ways and compare; return whether all is right."""
+    """Parse a text with expressions both ways and compare; return True if it has no errors."""
     made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
     expected = oracle.parse(text)
     assert (made is None) == isinstance(expected, oracle.Refused), text

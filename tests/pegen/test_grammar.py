@@ -1,4 +1,4 @@
-"""Any grammar: a parser for it does what a PEG means, or there is none, and why is said."""
+"""A parser for any grammar follows the PEG, or the generator rejects the grammar."""
 
 from __future__ import annotations
 

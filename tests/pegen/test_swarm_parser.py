@@ -37,7 +37,7 @@ _START = re.compile(r"^(?=[a-z])", re.MULTILINE)
 
 @cache
 def models() -> list[str]:
-    """All models there are: examples, those of tests, those in the documentation."""
+    """Return all models: examples, tests, documentation."""
     paths = [path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.swarm"))]
     if "SWARMDSL_CORPUS" in os.environ:
         paths += sorted(Path(os.environ["SWARMDSL_CORPUS"]).rglob("*.swarm"))
@@ -55,7 +55,7 @@ def pieces(texts: Iterable[str]) -> list[str]:
 
 
 def check_same(text: str) -> bool:
-    """Parse a text both ways and compare; return whether it is a model."""
+    """Parse a text both ways and compare; return True if it is a model."""
     try:
         made = generated.parse(Source("model.swarm", text), {}, NESTING_LIMIT)
     except TooDeepError:

@@ -1,4 +1,4 @@
-"""Texts are cut into the tokens that a parser would meet one after the other."""
+"""The lexer yields the tokens that a parser would match one by one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from swarmdsl.syntax.parser.generated import LEXER, parse
 
 
 def cut(text: str) -> list[tuple[str, int]]:
-    """The tokens before the end of a text, each with the place where it begins."""
+    """Return the tokens of a text, each with its offset."""
     tokens, ends = LEXER.tokenize(text)
     assert tokens[-2:] == ["", ""]
     assert len(ends) == len(tokens)

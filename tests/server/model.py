@@ -2,7 +2,7 @@
 
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 MODEL = """\
 /// Robots that go round. 🤖
@@ -40,7 +40,7 @@ function go_round : abstraction { action "go" : patrol_msgs/GoRound }
 }
 """
 # As formatted by `swarmc fmt`.
-LAID_OUT = formatted(Source("patrol.swarm", MODEL), Diagnostics())
+LAID_OUT = format_source(Source("patrol.swarm", MODEL), Diagnostics())
 assert LAID_OUT != MODEL
 ROVER = """\
 package rover

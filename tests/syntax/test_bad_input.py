@@ -1,4 +1,4 @@
-"""Whatever is in a file, or is no file: a diagnostic at its place, and soon."""
+"""Bad input of any kind gives a diagnostic at its place, and quickly."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
-"""What is said about models as people break them while they type, and what is left of them.
+"""Diagnostics of models with typical mistakes, and the rest of their trees.
 
-A case is a file in `broken/`; beside it stands what is said about it, as a person reads it,
-and an outline of what is still in the tree. `pytest --bless` writes these texts anew: read
-them before you commit.
+A case is a file in `broken/`; the `.txt` file next to it has its diagnostics and an outline of the
+tree. `pytest --bless` rewrites these: read them before you commit.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ from swarmdsl.syntax.ast import (
     Package,
     walk,
 )
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 from swarmdsl.syntax.parse import parse
 
 from ..docs.pages import blocks
@@ -46,7 +46,7 @@ ELSEWHERE = (Package, ImportFile, ImportLibrary, ImportRos, AliasType)
 
 
 def documented(text: str) -> list[Documented] | None:
-    """What can be documented, in the order of the text; None where that does not parse."""
+    """Return the documentable nodes in document order; None if the text does not parse."""
     report = Diagnostics()
     parsed = parse(Source("model", text), report)
     assert "unattached-doc-comment" not in {found.name for found in report}
@@ -85,12 +85,12 @@ def test_everything_has_documentation(name: str) -> None:
         pytest.skip("about a syntax error")
     text = with_docs(MODELS[name], nodes)
     expected = [f"Number {number}." for number in range(len(nodes))]
-    layout = formatted(Source("model", text), Diagnostics())
+    layout = format_source(Source("model", text), Diagnostics())
 
     assert last_lines(documented(text)) == expected
     assert layout is not None
     assert last_lines(documented(layout)) == expected
-    assert formatted(Source("model", layout), Diagnostics()) == layout
+    assert format_source(Source("model", layout), Diagnostics()) == layout
 
 
 @pytest.mark.parametrize("folder", FOLDERS, ids=lambda folder: str(folder.relative_to(ROOT)))
@@ -166,7 +166,7 @@ def test_a_behavior_is_inherited_with_what_is_said_of_it(
 
 
 def texts(node: Any) -> Iterator[str]:
-    """All texts of the IR, documentation among them."""
+    """Return all strings of the IR, documentation included."""
     if isinstance(node, str):
         yield node
     elif isinstance(node, tuple):

@@ -22,7 +22,7 @@ from swarmdsl.codegen.emit import Request, emit
 from swarmdsl.codegen.swarm_printer.system import UnprintableError, print_system
 from swarmdsl.driver import pipeline
 from swarmdsl.ir import System
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 ROOT = Path(__file__).resolve().parents[2]
 MODELS = sorted(
@@ -103,7 +103,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def emitted(system: System) -> int:
-    """How many files all targets make of a system; one that cannot express it makes none."""
+    """Return the number of files that all targets generate; none where one cannot express it."""
     made = 0
     for request in REQUESTS:
         report = Diagnostics()
@@ -113,7 +113,7 @@ def emitted(system: System) -> int:
 
 
 def printable(system: System) -> bool:
-    """Whether a system has a text."""
+    """Return True if a system can be printed."""
     try:
         return bool(print_system(system))
     except UnprintableError:
@@ -129,7 +129,7 @@ def test_mutants(
 ) -> None:
     dice = random.Random(seed)
     mutants = pytestconfig.getoption("--mutants") // SEEDS
-    wrong = unprintable = laid_out = files = 0
+    wrong = unprintable = formatted = files = 0
     slowest = 0.0
     for _ in range(mutants):
         model = dice.choice(MODELS)
@@ -142,7 +142,7 @@ def test_mutants(
         result = pipeline.check([path])
         slowest = max(slowest, perf_counter() - start)
         path.write_text(original, encoding="utf-8")
-        laid_out += formatted(Source(str(path), text), Diagnostics()) is not None
+        formatted += format_source(Source(str(path), text), Diagnostics()) is not None
         if result.system is not None:
             files += emitted(result.system)
             unprintable += not printable(result.system)
@@ -158,7 +158,7 @@ def test_mutants(
     record_property("wrong", wrong)
     record_property("files", files)
     record_property("unprintable", unprintable)
-    record_property("formatted", laid_out)
+    record_property("formatted", formatted)
     record_property("slowest", slowest)
 
 

@@ -1,4 +1,4 @@
-"""Comments, texts and brackets, before anything is parsed."""
+"""Scan of comments, strings and brackets before parsing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the compiler says about broken text, in one table to read: `recovery.txt`."""
+"""Diagnostics of broken text in one table: `recovery.txt`."""
 
 from __future__ import annotations
 

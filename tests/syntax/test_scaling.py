@@ -23,7 +23,7 @@ FEW = 60
 
 
 def each(pattern: str) -> Callable[[int], str]:
-    """A file of that many declarations; `<i>` stands for their numbers, `<j>` for the next."""
+    """Return a file with many declarations; `<i>` is the number of each, `<j>` that of the next."""
     return lambda count: HEAD + repeated(pattern, count)
 
 
@@ -162,7 +162,7 @@ BROKEN: dict[str, tuple[Callable[[Source, Diagnostics], object], Callable[[int],
 
 
 def work(action: Callable[[], object]) -> int:
-    """How many functions are called."""
+    """Return the number of function calls."""
     calls = 0
 
     def count(_frame: FrameType, event: str, _argument: object) -> None:
@@ -179,7 +179,7 @@ def work(action: Callable[[], object]) -> int:
 
 
 def is_proportional(works: list[int]) -> bool:
-    """Whether four times the model is twice as much more than twice the model is."""
+    """Return True if cost grows linearly: from twice to four times as from once to twice."""
     once, twice, four_times = works
     return four_times - twice < 2.4 * (twice - once)
 

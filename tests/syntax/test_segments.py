@@ -23,7 +23,7 @@ def cut(text: str) -> list[str]:
 
 
 def said(text: str) -> tuple[list[tuple[object, ...]], list[tuple[str, int, int]]]:
-    """What is reported of a text that is parsed piece by piece, and the nodes in it."""
+    """Return the diagnostics and nodes of a text that is parsed by segments."""
     found: list[tuple[object, ...]] = []
     nodes: list[tuple[str, int, int]] = []
     for start, end in split_declarations(text):

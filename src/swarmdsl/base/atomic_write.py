@@ -1,4 +1,4 @@
-"""Replaces many files on disk together: all are written first and then moved in place."""
+"""Replace many files together: write all of them first, then move them in place."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from types import TracebackType
 
 
 class Staging:
-    """Files written beside their place, under a name of their own.
+    """Files written next to their final place, under unique names.
 
-    Leaving the context removes what was not moved in place, and the folders made for it.
-    The `filename` of an OSError is the file that was to be written.
+    Leaving the context removes those not moved in place, and folders made for them. The `filename`
+    of an OSError is the final path.
     """
 
     def __init__(self) -> None:
@@ -30,7 +30,7 @@ class Staging:
     def add(
         self, path: Path, content: bytes, executable: bool = False, mode: int | None = None
     ) -> None:
-        """Write the content of a file beside its place; `mode` replaces the usual permissions."""
+        """Write the content of a file next to its place; `mode` replaces the usual permissions."""
         with _blamed_on(path):
             self.make_folder(path.parent)
             with suppress(FileNotFoundError):
@@ -49,7 +49,7 @@ class Staging:
                 beside.chmod(mode)
 
     def move_in_place(self) -> Iterator[Path]:
-        """Replace the files one by one, in the order they were added; yield each one done."""
+        """Replace the files one by one, in the order they were added; yield each path."""
         for path, beside in list(self._staged.items()):
             with _blamed_on(path):
                 # `os.replace` is the one move that is atomic on every system.
@@ -58,7 +58,7 @@ class Staging:
             yield path
 
     def beside(self, path: Path) -> Path:
-        """Where the content of a file is until it is moved in place."""
+        """Return the path of a file's content until it is moved in place."""
         if path not in self._staged:
             self._given += 1
             self._staged[path] = path.with_name(f".swarmc-{self._mark}-{self._given}.tmp")

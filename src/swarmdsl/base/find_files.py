@@ -1,4 +1,4 @@
-"""The files below a folder."""
+"""Search of folders."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from pathlib import Path
 
 
 def files_below(folder: Path, ending: str) -> list[Path]:
-    """The files below a folder whose names end so, in a stable order.
+    """Return the files below a folder with an ending, sorted.
 
-    Folders whose names begin with a dot are passed over: environments and caches, with files of
-    others. So are those that vanish or cannot be read, as a build beside it makes and removes
-    them. Links to folders are not followed.
+    Folders whose names begin with a dot, such as environments and caches, are skipped, and so are
+    files and folders that vanish or cannot be read while another program changes them. Links to
+    folders are not followed.
     """
     found = []
     for place, folders, names in os.walk(folder):

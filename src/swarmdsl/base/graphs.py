@@ -1,4 +1,4 @@
-"""Cycles and order in graphs of any size, without recursion."""
+"""Cycles and topological order of graphs, without recursion."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Names in the style of a target and of ROS, and which names a target can take."""
+"""Naming styles, and valid names of Python and ROS."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z0-9]+|[0-9]+")
 
 
 def incoming_topic(topic: str, swarm: bool) -> str:
-    """The topic on which an event that is sent on `topic` is heard."""
+    """Return the topic on which an event sent on `topic` arrives."""
     return f"bridge/events/{topic}" if swarm else topic
 
 
@@ -27,17 +27,17 @@ def camel_case(name: str) -> str:
 
 
 def is_python_name(name: str) -> bool:
-    """Whether Python takes it as an identifier."""
+    """Return True for a Python identifier that is no keyword."""
     return name.isidentifier() and not keyword.iskeyword(name)
 
 
 def is_ros_package_name(name: str) -> bool:
-    """Whether it is a package name by REP 144: lower case, digits and `_`, a letter first."""
+    """Return True for a package name by REP 144: lower case, digits and `_`, first a letter."""
     return re.fullmatch(r"[a-z][a-z0-9_]*", name) is not None and not name.endswith("_")
 
 
 def fresh(name: str, taken: Iterable[str]) -> str:
-    """The name, with a number behind it where it is taken."""
+    """Append a number to a name if it is taken."""
     known = taken if isinstance(taken, Set) else set(taken)
     number, made = 1, name
     while made in known:

@@ -1,11 +1,9 @@
-"""Data classes that cost little to define.
+"""Data classes that are cheap to define.
 
-Python writes and compiles the methods of a data class when it is defined, which takes half
-a millisecond: for all classes longer than to check a model. Here methods are closures, and
-`__init__`, which has to be quick where there are many instances, is compiled when there are
-some; most classes have few. Type checkers see `dataclasses.dataclass`, of which this is the
-part that is used, and all that `dataclasses` does with instances, `replace` and `fields` for
-instance, it does with these.
+Python compiles the methods of a data class at its definition, which takes half a millisecond: for
+all classes together longer than to check a model. Here methods are closures, except for `__init__`,
+which is compiled after some instances. Type checkers see `dataclasses.dataclass`, of which this is
+a subset; functions of `dataclasses`, such as `replace` and `fields`, accept these classes.
 """
 
 from __future__ import annotations
@@ -44,7 +42,7 @@ else:
 
 
 class _Field(dict[str, Any]):
-    """What is said of a field: the arguments of `dataclasses.field`."""
+    """Arguments of `dataclasses.field`."""
 
 
 _NOTHING = _Field()
@@ -52,12 +50,12 @@ _set = object.__setattr__
 
 
 def is_dataclass(cls: type) -> bool:
-    """Whether it is a data class, made here or by Python."""
+    """Return True for a data class, from here or from Python."""
     return "__parts__" in vars(cls) or hasattr(cls, "__dataclass_fields__")
 
 
 def fields_of(cls: type[Any]) -> Mapping[str, Mapping[str, Any]]:
-    """The fields of a data class by name, with the arguments of `dataclasses.field`."""
+    """Return the fields of a data class by name, with the arguments of `dataclasses.field`."""
     if "__parts__" in vars(cls):
         own: dict[str, _Field] = cls.__parts__
         return own
@@ -65,7 +63,7 @@ def fields_of(cls: type[Any]) -> Mapping[str, Mapping[str, Any]]:
 
 
 def annotations_of(cls: type) -> Mapping[str, str]:
-    """What is said of the types of the fields of a data class, by name, as it is written."""
+    """Return the annotations of the fields of a data class by name, as written."""
     annotations: dict[str, str] = {}
     for base in reversed(cls.__mro__):
         annotations |= vars(base).get("__annotations__", {})
@@ -113,7 +111,7 @@ _FEW = 50
 
 @cache
 def _params(eq: bool, frozen: bool) -> SimpleNamespace:
-    """What is asked by what prints values."""
+    """Return parameters that pretty-printers read."""
     return SimpleNamespace(
         init=True, repr=True, eq=eq, order=False, unsafe_hash=False, frozen=frozen
     )
@@ -136,7 +134,7 @@ def _named(about: _Field) -> bool:
 
 
 def _first_init(frozen: bool) -> Callable[..., None]:
-    """What sets the fields of the first few instances; then, or where a call is wrong, `_init`."""
+    """Return the `__init__` of the first few instances; later, and for wrong calls, `_init`."""
     left = _FEW
     shape: _Shape | None = None
 
@@ -171,7 +169,7 @@ def _first_init(frozen: bool) -> Callable[..., None]:
 
 
 class _Shape:
-    """What a class can be called with, and what its fields are otherwise."""
+    """Parameters of a class, and defaults of its other fields."""
 
     def __init__(self, owner: type[Any]) -> None:
         self.owner = owner
@@ -190,7 +188,7 @@ class _Shape:
 
 
 def _init(cls: type[Any], frozen: bool) -> Callable[..., None]:
-    """What sets the fields of a new instance, made as Python makes it."""
+    """Return a compiled `__init__`, as Python makes it."""
     parts: dict[str, _Field] = cls.__parts__
     anew = object()
     known: dict[str, Any] = {"anew": anew, "setattr": object.__setattr__}

@@ -1,4 +1,4 @@
-"""Which paths may be written below the output folder, and which of them are the same file."""
+"""Paths below the output folder."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ _FORBIDDEN = re.compile(r"[\x00-\x1f\x7f\\:]")
 
 
 def stays_inside(path: str) -> bool:
-    """Whether it is a relative path with `/` that cannot lead out of the output folder."""
+    """Return True for a relative path with `/` that stays in the output folder."""
     parts = path.split("/")
     return not _FORBIDDEN.search(path) and all(part not in ("", ".", "..") for part in parts)
 
 
 def clash_key(path: str) -> str:
-    """The same for two paths that some file systems take for one (case, Unicode form)."""
+    """Return a key that is equal for paths that a file system may not tell apart: case, Unicode."""
     return unicodedata.normalize("NFC", unicodedata.normalize("NFC", path).casefold())

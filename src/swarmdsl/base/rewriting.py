@@ -1,4 +1,4 @@
-"""Rewritten files: edits of spans that leave every other byte as it is."""
+"""Edits of files that leave every other byte as it is."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Change = tuple[int, int, str]
 
 @dataclass(frozen=True)
 class Layout:
-    """The content of a file, as it is and as it should be."""
+    """Content of a file before and after edits."""
 
     name: str
     before: bytes
@@ -25,16 +25,16 @@ class Layout:
 
     @property
     def changed(self) -> bool:
-        """Whether it is not as it should be."""
+        """Return True if the edits change the file."""
         return self.before != self.after
 
     def diff(self) -> str:
-        """What would change, as a unified diff."""
+        """Return the edits as a unified diff."""
         return unified_diff(self.before, self.after, self.name, self.name)
 
 
 def rewritten(name: str, content: bytes, changes: Iterable[Change]) -> Layout:
-    """A file of UTF-8 with changes; new lines end as its first one does."""
+    """Apply changes to a UTF-8 file; new lines end as its first one does."""
     raw = content.decode("utf-8")
     first = _LINE_END.search(raw)
     end = first[0] if first is not None else "\n"
@@ -48,7 +48,7 @@ def rewritten(name: str, content: bytes, changes: Iterable[Change]) -> Layout:
 
 
 def _starts(raw: str) -> list[int]:
-    """For each character of the text as it is read, and its end, where that is in the file."""
+    """Return the offset in the file of each character of the decoded text, and of its end."""
     found = []
     at = 1 if raw.startswith(_MARK) else 0
     while at < len(raw):

@@ -1,6 +1,6 @@
 """Source files and places in them."""
 
-# The annotations here are values: typing would compile texts one by one.
+# No `from __future__ import annotations`: typing would compile string annotations one by one.
 from bisect import bisect_right
 from functools import cached_property
 from pathlib import Path
@@ -17,10 +17,9 @@ _FEW = 16
 
 @dataclass(eq=False)
 class Source:
-    """One file's text, or an argument of the command line.
+    """Text of a file, or an argument of the command line.
 
-    `name` is how the file is shown to a person (the path as it was given);
-    `path` is where it lies, None for text that came from elsewhere.
+    `name` is the path as the user gave it; `path` is the file, None for other text.
     """
 
     name: str
@@ -55,9 +54,9 @@ class Source:
 
 @dataclass(eq=False)
 class Piece(Source):
-    """A part of a file's text that is read on its own, and the place in the file where it begins.
+    """Segment of a file that is parsed on its own, with its offset in the file.
 
-    Places in it stay what they are when the text before it changes; only `whole` and `base` do.
+    Spans in it remain valid when the text before it changes; only `whole` and `base` change.
     """
 
     whole: Source = field(kw_only=True)
@@ -94,7 +93,7 @@ class Span(NamedTuple):
 
     @property
     def on_command_line(self) -> bool:
-        """Whether it stands in no file."""
+        """Return True if it is in no file."""
         return self.source.name == COMMAND_LINE
 
     @property

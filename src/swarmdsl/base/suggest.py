@@ -1,4 +1,4 @@
-"""What a person may have meant by a word that does not exist."""
+"""Suggestions for misspelled words."""
 
 from __future__ import annotations
 

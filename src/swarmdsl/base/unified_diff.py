@@ -1,4 +1,4 @@
-"""Differences of two texts, as `diff -u` and `git diff` show them."""
+"""Unified diffs, as of `diff -u` and `git diff`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import io
 
 
 def unified_diff(before: bytes, after: bytes, name_before: str, name_after: str) -> str:
-    """What changes, as a unified diff; empty where nothing does.
+    """Return a unified diff; empty if nothing differs.
 
-    What is not text is shown with marks of replacement.
+    Invalid UTF-8 is shown with replacement characters.
     """
     lines = difflib.unified_diff(_lines(before), _lines(after), name_before, name_after)
     return "".join(

@@ -1,6 +1,7 @@
-"""Small documents of XML as text, without lxml, which takes longer to import than to check a model.
+"""Writer of small XML documents, without lxml, whose import takes longer than a check.
 
-It is for what is only written; what is read, looked up or compared is for lxml.
+`xml.etree.ElementTree` writes `<a />` for `<a/>`, keeps carriage returns in text, and lets
+characters through that XML does not allow; the output would differ from that of lxml.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ _IN_ATTRIBUTE = {**_IN_TEXT, **str.maketrans({'"': "&quot;", "\n": "&#10;", "\t"
 
 
 class Element:
-    """An element with its attributes, and either a text or other elements and comments in it."""
+    """Element with attributes, and with either text or other elements and comments."""
 
     def __init__(
         self, tag: str, attributes: Mapping[str, str] | None = None, text: str | None = None
@@ -29,31 +30,31 @@ class Element:
     def add(
         self, tag: str, attributes: Mapping[str, str] | None = None, text: str | None = None
     ) -> Element:
-        """A new element inside, after what is there."""
+        """Append a new element."""
         made = Element(tag, attributes, text)
         self.inside.append(made)
         return made
 
     def comment(self, text: str) -> None:
-        """A new comment inside, if there is anything to say."""
+        """Append a comment, unless it is empty."""
         if text:
             self.inside.append(f"<!-- {comment_text(text)} -->")
 
 
 def document(root: Element, declaration: str = '<?xml version="1.0" encoding="UTF-8"?>') -> str:
-    """The file: declaration, two spaces a level, a newline at the end."""
+    """Return the file: declaration, two spaces a level, a newline at the end."""
     return "".join(f"{line}\n" for line in (declaration, *_lines(root)))
 
 
 def legal(text: str) -> str:
-    """The text with what XML cannot hold replaced."""
+    """Replace characters that XML does not allow."""
     if text.isprintable():
         return text
     return re.sub(_ILLEGAL, "\N{REPLACEMENT CHARACTER}", text)
 
 
 def comment_text(text: str) -> str:
-    """The text as a comment can hold it, in which XML allows no `--` and no `-` at the end."""
+    """Return a text that a comment can hold: without `--` and without `-` at the end."""
     return re.sub("-(?=-)", "- ", legal(text))
 
 

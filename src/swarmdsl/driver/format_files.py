@@ -13,7 +13,7 @@ from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.rewriting import Layout
 from swarmdsl.project.loader import expanded
 from swarmdsl.project.read_source import decoded, read_bytes
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 STDIN = "<stdin>"
 _LINE_END = re.compile(rb"\r\n|\n|\r")
@@ -25,7 +25,7 @@ def layout_of(name: str, content: bytes, report: Diagnostics) -> Layout | None:
     All line ends become like the first one; a byte order mark is removed.
     """
     source = decoded(Path(name), content, None, report)
-    text = formatted(source, report) if source is not None else None
+    text = format_source(source, report) if source is not None else None
     if text is None:
         return None
     after = text.encode()

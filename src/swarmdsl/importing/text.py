@@ -11,7 +11,7 @@ from swarmdsl.codegen.swarm_printer.system import UnprintableError, print_system
 from swarmdsl.importing.update import read_model
 from swarmdsl.ir import System
 from swarmdsl.project.loader import Project
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 
 def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
@@ -25,7 +25,7 @@ def model_text(system: System, path: Path, report: Diagnostics) -> str | None:
     except UnprintableError as fault:
         report.report("no-model", path=path.as_posix(), reason=str(fault))
         return None
-    return formatted(Source(f"{system.name}.swarm", plain), report) or plain
+    return format_source(Source(f"{system.name}.swarm", plain), report) or plain
 
 
 def _has_content(system: System) -> bool:

@@ -32,7 +32,7 @@ from swarmdsl.syntax.ast import (
     Param,
     TopLevel,
     Variable,
-    changed,
+    invalidate,
     nodes_of,
 )
 from swarmdsl.syntax.types import Named
@@ -102,7 +102,7 @@ class ValueLinker:
             used = base
             if length:
                 used = NameUse(fields[length - 1].span, names[length])
-                changed(owner)
+                invalidate(owner)
             used.target = self._declared(used.name, used.span)
             if length == len(fields):
                 return used

@@ -1,7 +1,7 @@
-"""What the compiler has to say about a model, as values.
+"""Diagnostics and their collector.
 
-A mistake of the user is a `Diagnostic` in a `Diagnostics` collector, never an
-exception: every phase reports and goes on.
+A mistake of the user is a `Diagnostic` in a `Diagnostics` collector, never an exception: every
+phase reports and continues.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ if TYPE_CHECKING:
 
 
 class Severity(Enum):
-    """How bad it is; only errors stop a build."""
+    """Severity; only errors stop a build."""
 
     ERROR = "error"
     WARNING = "warning"
 
 
 class Level(Enum):
-    """What becomes of a warning: it is silenced, is reported as one, or is an error."""
+    """Lint level of a warning: ignored, reported, or an error."""
 
     ALLOW = "allow"
     WARN = "warn"
@@ -47,7 +47,7 @@ _NO_LEVELS: Mapping[str, Level] = {}
 
 @dataclass(frozen=True, slots=True)
 class Label:
-    """A place and what to say about it."""
+    """Span with a message."""
 
     span: Span
     message: str = ""
@@ -55,11 +55,11 @@ class Label:
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One finding.
+    """Diagnostic.
 
-    `code` and `name` identify its kind (`SW0201`, `unresolved-name`), `message` is the
-    headline, `primary` the place (None when it concerns no place in a file, a missing
-    one for instance), `related` other places that explain it, `help` a way out.
+    `code` and `name` identify its kind (`SW0201`, `unresolved-name`), `message` is the headline,
+    `primary` the place (None if it concerns no place in a file, e.g. a missing file), `related`
+    other places that explain it, `help` a hint.
     """
 
     code: str
@@ -73,7 +73,7 @@ class Diagnostic:
 
 
 def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
-    """The same finding with other places."""
+    """Return a diagnostic with mapped spans."""
     primary = found.primary
     return replace(
         found,
@@ -83,9 +83,9 @@ def placed(found: Diagnostic, place: Callable[[Span], Span]) -> Diagnostic:
 
 
 class Diagnostics:
-    """Collects what the phases report, without duplicates.
+    """Collector of diagnostics, without duplicates.
 
-    `levels` says by name, or for ALL_WARNINGS, what becomes of warnings.
+    `levels` are the levels of warnings by name, or for ALL_WARNINGS.
     """
 
     # In an editor there are many, most of them empty.
@@ -108,9 +108,9 @@ class Diagnostics:
         help: str | None = None,  # noqa: A002 - the word a person reads in the output
         **fields: object,
     ) -> None:
-        """Add the diagnostic called `name` in the catalogue, its message filled with `fields`.
+        """Add the diagnostic `name` of the catalogue; `fields` fill in its message.
 
-        Raises KeyError for a name or a field the catalogue does not know: a bug in swarmdsl.
+        Raises KeyError for an unknown name or field: a bug in swarmdsl.
         """
         entry = _catalogued(name)
         found = Diagnostic(
@@ -126,7 +126,7 @@ class Diagnostics:
         self._add(found)
 
     def include(self, others: Iterable[Diagnostic]) -> None:
-        """Add what was collected elsewhere."""
+        """Add diagnostics of another collector."""
         for found in others:
             self._add(found)
 
@@ -143,7 +143,7 @@ class Diagnostics:
         self._counts[found.name] = self.count_of(found.name) + 1
 
     def wants(self, silent: str) -> bool:
-        """Whether somebody asks for a silent warning, by its name: else nobody need look for it."""
+        """Return True if a warning that is off by default is enabled."""
         return self._levels.get(silent, Level.ALLOW) is not Level.ALLOW
 
     def _level(self, name: str) -> Level:
@@ -152,28 +152,28 @@ class Diagnostics:
         return self._levels.get(name, others)
 
     def wants_hint(self, name: str) -> bool:
-        """Whether to look for what may be meant instead of something that does not exist.
+        """Return True if a hint should be searched for an unresolved name.
 
-        Each look goes through all that exists. Whoever gets more than fifty such reports of
-        one name in the catalogue looks for a single cause, an import that is missing for instance.
+        Each search visits all candidates. After fifty reports of one kind there is likely a single
+        cause, such as a missing import.
         """
         return self.count_of(name) < MOST_HINTS
 
     def count_of(self, name: str) -> int:
-        """How often something of this name in the catalogue was reported."""
+        """Return the number of reports with this name."""
         return self._counts.get(name, 0)
 
     @property
     def has_errors(self) -> bool:
-        """Whether anything found stops the build."""
+        """Return True if a diagnostic stops the build."""
         return any(found.severity is Severity.ERROR for found in self._found)
 
     def count(self, severity: Severity) -> int:
-        """How many findings have this severity."""
+        """Return the number of diagnostics of a severity."""
         return sum(found.severity is severity for found in self._found)
 
     def __iter__(self) -> Iterator[Diagnostic]:
-        """The findings by file and place; those without a place come first."""
+        """Iterate over the diagnostics by file and offset; those without a place come first."""
         return iter(sorted(self._found, key=_position))
 
     def __len__(self) -> int:
@@ -195,7 +195,7 @@ def _position(found: Diagnostic) -> tuple[str, int, int, str, str]:
 
 
 def listed(words: list[str], conjunction: str = "or") -> str:
-    """Words as a person lists them: "`a`, `b` or `c`"."""
+    """Join quoted words: "`a`, `b` or `c`"."""
     quoted = [f"`{word}`" for word in words]
     if len(quoted) < 2:
         return "".join(quoted)

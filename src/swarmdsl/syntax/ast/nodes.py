@@ -11,7 +11,7 @@ from swarmdsl.syntax.types import Type
 
 
 class Word(str):
-    """A string with its place: a name as written, or the content of a quoted string."""
+    """String with its span: a name, or the content of a string literal."""
 
     __slots__ = ("span",)
     span: Span
@@ -25,23 +25,23 @@ class Word(str):
 
 @dataclass(slots=True, eq=False)
 class Node:
-    """A piece of the model; `span` covers all of it, without its documentation."""
+    """Element of the model; `span` covers all of it, without its documentation."""
 
     span: Span
 
 
 @dataclass(slots=True, eq=False)
 class Documented(Node):
-    """A node that a `///` comment before it documents: whatever stands on a line of its own."""
+    """Node on a line of its own, which a `///` comment before it can document."""
 
     doc: str = field(default="", init=False)
 
 
 @dataclass(slots=True, eq=False)
 class TopLevel(Documented):
-    """A declaration of a file.
+    """Top-level declaration of a file.
 
-    `by_class` are it and all inside it by their classes, once somebody asked.
+    `by_class` caches the nodes in it by their classes.
     """
 
     by_class: Mapping[type[Node], Sequence[Any]] | None = field(
@@ -54,7 +54,7 @@ N = TypeVar("N", bound=Node)
 
 @dataclass(slots=True, eq=False)
 class Ref(Generic[N]):
-    """A name that refers to a node of class `kind`; `target` is None until it is linked."""
+    """Reference to a node of class `kind` by name; `target` is None until it is linked."""
 
     name: str
     kind: str
@@ -64,7 +64,7 @@ class Ref(Generic[N]):
 
 @dataclass(slots=True, eq=False)
 class TypeRef(Node):
-    """A type by name; `type` is None until it is linked, and after, if there is none.
+    """Type by name; `type` is None until it is linked, and for unknown types.
 
     `bound` (`<=10`) and `array` (`[]`, `[16]`, `[<=5]`) are as written, or empty.
     """

@@ -9,14 +9,14 @@ from swarmdsl.syntax.types import Named
 
 @dataclass(slots=True, eq=False)
 class Expression(Node):
-    """An expression of the small language in expression.lark; `tree` is None if it is wrong."""
+    """Expression as in expression.lark; `tree` is None if it has an error."""
 
     tree: ExpressionTree | None = field(default=None, init=False)
 
 
 @dataclass(slots=True, eq=False)
 class Value(Node):
-    """A number, text or truth value; `unit` as written, or empty."""
+    """Number, string or boolean; `unit` as written, or empty."""
 
     value: bool | int | float | str
     unit: str = ""
@@ -24,7 +24,7 @@ class Value(Node):
 
 @dataclass(slots=True, eq=False)
 class NameUse(Node):
-    """The name of a value, or of an enum before one of its; `event` is a name of its own."""
+    """Name of a value, or of an enum before one of its values; `event` is a name too."""
 
     name: str
     target: Variable | Param | Constant | EnumType | FitnessInput | None = field(

@@ -1,4 +1,4 @@
-"""Walks over the tree."""
+"""Traversal of the syntax tree."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _WORD = re.compile(r"\w+")
 
 
 class _Parts(dict[type[Node], tuple[tuple[str, bool], ...]]):
-    """The attributes that hold parts of a node, and whether they hold many, last ones first."""
+    """Attributes that hold child nodes, with True for lists; the last one first."""
 
     # A model has few kinds of nodes.
     def __missing__(self, cls: type[Node]) -> tuple[tuple[str, bool], ...]:
@@ -62,7 +62,7 @@ def _holds_parts(annotation: str) -> bool:
 
 
 class _References(dict[type[Node], tuple[str, ...]]):
-    """The attributes that hold references."""
+    """Attributes that hold references."""
 
     def __missing__(self, cls: type[Node]) -> tuple[str, ...]:
         annotations = annotations_of(cls)
@@ -77,7 +77,7 @@ N = TypeVar("N", bound=Node)
 
 
 def children(node: Node) -> Iterator[Node]:
-    """The nodes directly inside a node, in document order."""
+    """Yield the child nodes of a node, in document order."""
     for attribute, many in reversed(_PARTS[type(node)]):
         value = getattr(node, attribute)
         if many:
@@ -87,7 +87,7 @@ def children(node: Node) -> Iterator[Node]:
 
 
 def walk(node: Node) -> Iterator[Node]:
-    """A node and all inside it, in document order."""
+    """Yield a node and its descendants, in document order."""
     ahead = [node]
     while ahead:
         node = ahead.pop()
@@ -101,7 +101,7 @@ def walk(node: Node) -> Iterator[Node]:
 
 
 def depth(node: Node) -> int:
-    """How many nodes stand in each other, at most."""
+    """Return the depth of a tree, counted in nodes."""
     levels, level = 0, [node]
     while level:
         levels += 1
@@ -110,10 +110,9 @@ def depth(node: Node) -> int:
 
 
 def by_class(owner: TopLevel) -> Mapping[type[Node], Sequence[Any]]:
-    """All nodes of a declaration by their classes, those of each in document order.
+    """Return the nodes of a declaration by class, each in document order.
 
-    Every phase asks for them, and a declaration hardly changes once it is parsed: they are
-    looked for once.
+    The result is cached: every phase needs it, and a parsed declaration hardly changes.
     """
     if owner.by_class is None:
         found: dict[type[Node], list[Any]] = defaultdict(list)
@@ -124,13 +123,13 @@ def by_class(owner: TopLevel) -> Mapping[type[Node], Sequence[Any]]:
 
 
 def nodes_of(owner: TopLevel, kind: type[N]) -> Sequence[N]:
-    """The nodes of one class in a declaration, in document order."""
+    """Return the nodes of one class in a declaration, in document order."""
     known = owner.by_class if owner.by_class is not None else by_class(owner)
     return known.get(kind, ())
 
 
 def references(owner: TopLevel) -> Iterator[tuple[Node, Ref[Any]]]:
-    """The references in a declaration, each with the node that holds it."""
+    """Yield the references in a declaration, each with its node."""
     for kind, found in by_class(owner).items():
         for attribute in _REFERENCES[kind]:
             for node in found:
@@ -139,6 +138,6 @@ def references(owner: TopLevel) -> Iterator[tuple[Node, Ref[Any]]]:
                     yield node, ref
 
 
-def changed(owner: TopLevel) -> None:
-    """Forget what is in a declaration: a node of it was replaced."""
+def invalidate(owner: TopLevel) -> None:
+    """Drop the cache of a declaration, after one of its nodes was replaced."""
     owner.by_class = None

@@ -122,7 +122,7 @@ _HINTS = (
         "`{`",
         "write the items of a state in braces after its name",
     ),
-    # what stands where
+    # declarations
     (
         r"^ *@const\b",
         "",

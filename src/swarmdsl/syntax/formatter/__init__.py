@@ -1,34 +1,34 @@
-"""The canonical layout of .swarm files."""
+"""Formatter: the canonical layout of .swarm files."""
 
 from __future__ import annotations
 
 from swarmdsl.base.diagnostics.collector import Diagnostics, Severity
 from swarmdsl.base.source import Source
-from swarmdsl.syntax.formatter.items import itemized
-from swarmdsl.syntax.formatter.layout import laid_out
-from swarmdsl.syntax.formatter.lines import as_text
-from swarmdsl.syntax.formatter.marks import mark
-from swarmdsl.syntax.formatter.tokens import Tokens, essence, tokenize
+from swarmdsl.syntax.formatter.items import group_items
+from swarmdsl.syntax.formatter.layout import lay_out
+from swarmdsl.syntax.formatter.lines import render_lines
+from swarmdsl.syntax.formatter.marks import find_marks
+from swarmdsl.syntax.formatter.tokens import Tokens, content_of, tokenize
 from swarmdsl.syntax.parse import parse
 
 
 class MeaningChangedError(Exception):
-    """Formatting would change more than the layout: a bug in swarmdsl."""
+    """Raised if formatting would change more than the layout, a bug in swarmdsl."""
 
 
-def formatted(source: Source, report: Diagnostics) -> str | None:
-    """The text of a file in its canonical layout; None when it has errors, which are reported."""
+def format_source(source: Source, report: Diagnostics) -> str | None:
+    """Format a file; None if it has errors, which are reported."""
     found = Diagnostics()
     parsed = parse(source, found)
     report.include(one for one in found if one.severity is Severity.ERROR)
     if found.has_errors:
         return None
     tokens = Tokens(source.text)
-    marks = mark(parsed.model, tokens)
-    text = as_text(laid_out(itemized(tokens.all, marks), marks))
-    if essence(tokenize(text)) != essence(tokens.all):
+    marks = find_marks(parsed.model, tokens)
+    text = render_lines(lay_out(group_items(tokens.all, marks), marks))
+    if content_of(tokenize(text)) != content_of(tokens.all):
         raise MeaningChangedError(f"the layout of {source.name} would change its content")
     return text
 
 
-__all__ = ["MeaningChangedError", "formatted"]
+__all__ = ["MeaningChangedError", "format_source"]

@@ -1,4 +1,4 @@
-"""Aligns what neighbouring lines of a kind have in common, and the comments behind lines."""
+"""Align columns of similar neighbouring lines, and trailing comments."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ _SAME_GROUP: dict[type[Node], type[Node]] = {ParamRange: CountRange}
 
 
 def set_cells(line: Line, node: Node | None, tokens: Sequence[Token], starts: list[int]) -> None:
-    """Note which columns a line has that is all of an item."""
+    """Find the columns of a line that holds a whole item."""
     if node is None:
         line.group, columns = "section", _SECTION
     else:
@@ -72,7 +72,7 @@ def set_cells(line: Line, node: Node | None, tokens: Sequence[Token], starts: li
     if isinstance(node, (Transition, Branch)) and (
         node.effects or (isinstance(node, Transition) and node.guard is not None)
     ):
-        return  # too much stands before the arrow
+        return  # too long before the arrow
     named = node.topic if isinstance(node, FunctionPort) else getattr(node, "name", None)
     name_start = named.span.start if isinstance(named, Word) else None
     depth = 0
@@ -88,18 +88,18 @@ def set_cells(line: Line, node: Node | None, tokens: Sequence[Token], starts: li
 
 
 def align(lines: Sequence[Line]) -> None:
-    """Pad the texts of lines that belong together, then place the comments behind them."""
+    """Align the columns of groups of lines, then their trailing comments."""
     for run in _runs(lines):
         for column in dict.fromkeys(column for line in run for column in line.cells):
             _align_column(run, column)
     for run in _commented_runs(lines):
         widest = max(line.width for line in run)
         for line in run:
-            line.behind = " " * (widest - line.width) + line.behind
+            line.trailing = " " * (widest - line.width) + line.trailing
 
 
 def _runs(lines: Iterable[Line]) -> Iterator[list[Line]]:
-    """Lines of a group that follow each other; comments between them do not matter."""
+    """Yield groups of consecutive lines of a kind; comments between them do not count."""
     run: list[Line] = []
     for line in lines:
         if run and (line.blank_above or line.indent != run[0].indent):
@@ -117,13 +117,13 @@ def _runs(lines: Iterable[Line]) -> Iterator[list[Line]]:
 
 
 def _commented_runs(lines: Iterable[Line]) -> Iterator[list[Line]]:
-    """Lines with comments behind them that follow each other."""
+    """Yield groups of consecutive lines with trailing comments."""
     run: list[Line] = []
     for line in lines:
-        if run and (line.blank_above or not line.behind or line.indent != run[0].indent):
+        if run and (line.blank_above or not line.trailing or line.indent != run[0].indent):
             yield run
             run = []
-        if line.behind:
+        if line.trailing:
             run.append(line)
     if run:
         yield run
@@ -145,6 +145,6 @@ def _align_column(run: list[Line], column: str) -> None:
 
 
 def _cell_width(line: Line, column: str) -> int:
-    """The width of what stands before a column, from the column before it on."""
+    """Return the width of the text between the previous column and this one."""
     at = line.cells[column]
     return at - max((start for start in line.cells.values() if start < at), default=0)

@@ -1,4 +1,4 @@
-"""Tokens to items: what stands on lines of its own, with the comments around it."""
+"""Group tokens into items, which go on lines of their own, with their comments."""
 
 from __future__ import annotations
 
@@ -10,44 +10,44 @@ from swarmdsl.syntax.formatter.tokens import Token
 
 @dataclass(slots=True)
 class Item:
-    """A declaration, a statement or the like.
+    """Declaration, statement or the like.
 
-    `above` are the comments on lines of their own before it, a list a line; `head` are its
-    tokens, without those of its body; `behind` are the comments on its last line. `node` is
-    None for the sections of services and actions, and for what follows the last item.
+    `above` are the lines of comments before it; `head` are its tokens without its body; `trailing`
+    are the comments on its last line. `node` is None for the sections of services and actions, and
+    for the end of a body.
     """
 
     above: list[list[Token]]
     node: Node | None = None
     head: list[Token] = field(default_factory=list)
     body: Body | None = None
-    behind: list[Token] = field(default_factory=list)
+    trailing: list[Token] = field(default_factory=list)
 
 
 @dataclass(slots=True)
 class Body:
-    """What stands between braces, or in the file.
+    """Body in braces, or the file.
 
-    `tokens` are all of it with its braces, `behind` the comments behind the opening brace,
-    `below` those on lines of their own before the closing one.
+    `tokens` are all its tokens with the braces, `trailing` the comments after the opening brace,
+    `below` the lines of comments before the closing one.
     """
 
     tokens: list[Token] = field(default_factory=list)
-    behind: list[Token] = field(default_factory=list)
+    trailing: list[Token] = field(default_factory=list)
     items: list[Item] = field(default_factory=list)
     below: list[list[Token]] = field(default_factory=list)
 
     @property
     def on_one_line(self) -> bool:
-        """Whether it was written on one line."""
+        """Return True if the source has it on one line."""
         return not any(
             (index and token.newlines) or "\n" in token.text
             for index, token in enumerate(self.tokens)
         )
 
 
-def itemized(tokens: list[Token], marks: Marks) -> Body:
-    """The items of a file."""
+def group_items(tokens: list[Token], marks: Marks) -> Body:
+    """Group the tokens of a file into items."""
     body, end = _Reader(tokens, marks).body(0)
     assert end == len(tokens)
     return body
@@ -59,24 +59,26 @@ class _Reader:
         self._marks = marks
 
     def body(self, at: int) -> tuple[Body, int]:
-        """The body whose first token (behind the brace) is at `at`, and where it ends."""
+        """Read the body whose first token after the brace is at `at`; return its end too."""
         tokens = self._tokens
         body = Body()
-        behind = body.behind
+        trailing = body.trailing
         while True:
-            at, above, leading = self._comments(at, behind)
+            at, above, leading = self._comments(at, trailing)
             if at == len(tokens) or tokens[at].text == "}":
                 body.below = above
                 return body, at
             item = Item(above, self._marks.items.get(tokens[at].start), leading)
             at = self._item(item, at)
             body.items.append(item)
-            behind = item.behind
+            trailing = item.trailing
 
-    def _comments(self, at: int, behind: list[Token]) -> tuple[int, list[list[Token]], list[Token]]:
-        """Share out the comments from `at` on: behind what was before, or above what comes.
+    def _comments(
+        self, at: int, trailing: list[Token]
+    ) -> tuple[int, list[list[Token]], list[Token]]:
+        """Assign the comments from `at` on: trailing the item before, or above the next one.
 
-        The third are comments on the line on which the next item begins.
+        The third result are comments at the start of the line of the next item.
         """
         tokens = self._tokens
         lines: list[list[Token]] = []
@@ -92,11 +94,11 @@ class _Reader:
         if lines and not ends and not tokens[at].newlines:
             leading = lines.pop()
         if lines and first > 0 and not tokens[first].newlines:
-            behind += lines.pop(0)
+            trailing += lines.pop(0)
         return at, lines, leading
 
     def _item(self, item: Item, at: int) -> int:
-        """Read an item up to where the next one begins, which is returned."""
+        """Read an item; return the index of the next one."""
         tokens, items = self._tokens, self._marks.items
         first = at
         while at < len(tokens):
@@ -109,7 +111,7 @@ class _Reader:
                 return end + 1
             item.head.append(token)
             at += 1
-        # The comments at its end stand before what comes next.
+        # Comments at the end belong to the next item.
         while item.head[-1].is_comment:
             item.head.pop()
             at -= 1

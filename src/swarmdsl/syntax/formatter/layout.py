@@ -1,4 +1,4 @@
-"""The items of a file to lines: bodies, indentation, blank lines."""
+"""Lay out items on lines: bodies, indentation, blank lines."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from swarmdsl.syntax.formatter.columns import align, set_cells
 from swarmdsl.syntax.formatter.items import Body, Item
 from swarmdsl.syntax.formatter.lines import INDENT, WIDTH, Line
 from swarmdsl.syntax.formatter.marks import Marks
-from swarmdsl.syntax.formatter.spacing import joined
+from swarmdsl.syntax.formatter.spacing import join_tokens
 from swarmdsl.syntax.formatter.tokens import Token
-from swarmdsl.syntax.formatter.wrapping import wrapped
+from swarmdsl.syntax.formatter.wrapping import wrap
 
 _IMPORTS = (ImportFile, ImportRos, ImportLibrary)
 
 
-def laid_out(file: Body, marks: Marks) -> list[Line]:
-    """The lines of a file."""
+def lay_out(file: Body, marks: Marks) -> list[Line]:
+    """Lay out a file."""
     lines: list[Line] = []
     before: tuple[Node | None, int] | None = None
     for item in file.items:
@@ -37,7 +37,7 @@ def laid_out(file: Body, marks: Marks) -> list[Line]:
 
 
 def _belong_together(one: tuple[Node | None, int], other: tuple[Node | None, int]) -> bool:
-    """Whether two neighbours need no blank line between them: one line each, of one kind."""
+    """Return True if no blank line separates two neighbours: one line each, of one kind."""
     (node, height), (next_node, next_height) = one, other
     both_imports = isinstance(node, _IMPORTS) and isinstance(next_node, _IMPORTS)
     return height == next_height == 1 and (both_imports or type(node) is type(next_node))
@@ -47,7 +47,7 @@ def _comment_lines(comments: list[list[Token]], indent: int) -> list[Line]:
     return [
         Line(
             indent,
-            " ".join(_reindented(comment.text, indent) for comment in line),
+            " ".join(_reindent(comment.text, indent) for comment in line),
             blank_above=line[0].newlines > 1,
             is_comment=True,
         )
@@ -55,8 +55,8 @@ def _comment_lines(comments: list[list[Token]], indent: int) -> list[Line]:
     ]
 
 
-def _reindented(comment: str, indent: int) -> str:
-    """A comment whose lines all begin with `*`, these below each other; others as they are."""
+def _reindent(comment: str, indent: int) -> str:
+    """Align the `*` at the start of each line of a block comment."""
     first, *others = (line.rstrip() for line in comment.split("\n"))
     if all(line.lstrip().startswith("*") for line in others):
         others = [f"{' ' * indent} {line.lstrip()}" for line in others]
@@ -66,20 +66,20 @@ def _reindented(comment: str, indent: int) -> str:
 def _item_lines(item: Item, indent: int, marks: Marks) -> list[Line]:
     body = item.body
     if body is None:
-        lines = wrapped(item.head, indent, marks)
+        lines = wrap(item.head, indent, marks)
         if len(lines) == 1:
             _set_cells(lines[0], item, item.head, marks)
     else:
         whole = [*item.head, *body.tokens]
         if _stays_on_one_line(body) and _fits(whole, indent, marks):
-            lines = wrapped(whole, indent, marks)
+            lines = wrap(whole, indent, marks)
             _set_cells(lines[0], item, whole, marks)
         else:
-            lines = wrapped([*item.head, body.tokens[0]], indent, marks)
-            lines[-1].behind += _behind(body.behind)
+            lines = wrap([*item.head, body.tokens[0]], indent, marks)
+            lines[-1].trailing += _trailing(body.trailing)
             lines += _body_lines(body, indent + INDENT, marks)
             lines.append(Line(indent, "}"))
-    lines[-1].behind += _behind(item.behind)
+    lines[-1].trailing += _trailing(item.trailing)
     lines[0].blank_above = item.head[0].newlines > 1
     return lines
 
@@ -96,7 +96,7 @@ def _body_lines(body: Body, indent: int, marks: Marks) -> list[Line]:
 
 
 def _stays_on_one_line(body: Body) -> bool:
-    """Whether a body that fits on a line is one: when empty, or with one item, or values."""
+    """Return True for a body that may stay on one line: empty, with one item, or of values."""
     if len(body.tokens) == 2:
         return True
     values = all(isinstance(item.node, (PartValue, EnumValue)) for item in body.items)
@@ -106,16 +106,16 @@ def _stays_on_one_line(body: Body) -> bool:
 
 
 def _fits(tokens: list[Token], indent: int, marks: Marks) -> bool:
-    lines = wrapped(tokens, indent, marks)
+    lines = wrap(tokens, indent, marks)
     return len(lines) == 1 and indent + len(lines[0].text) <= WIDTH
 
 
-def _behind(comments: list[Token]) -> str:
+def _trailing(comments: list[Token]) -> str:
     text = " ".join(comment.text for comment in comments)
     return f"  {text}" if text else ""
 
 
 def _set_cells(line: Line, item: Item, tokens: list[Token], marks: Marks) -> None:
     if "\n" not in line.text:
-        _, starts = joined(tokens, marks.tight)
+        _, starts = join_tokens(tokens, marks.tight)
         set_cells(line, item.node, tokens, starts)

@@ -1,4 +1,4 @@
-"""Lines of the result, before they are aligned, and their text in the end."""
+"""Lines of the output, before alignment."""
 
 from __future__ import annotations
 
@@ -12,16 +12,15 @@ INDENT = 2
 
 @dataclass(slots=True)
 class Line:
-    """A line without its indentation and the comments behind it.
+    """Line without its indentation and trailing comment.
 
-    Where `text` is a block comment or has one in it, it may be several lines. `group` says
-    with which neighbours its `cells` are aligned: offsets in the text by the name of the
-    column that begins there. Lines without group are aligned with none.
+    A `text` with a block comment may have several lines. `cells` are offsets of columns in the
+    text, by name; they are aligned with those of neighbours of the same `group`, if it has one.
     """
 
     indent: int
     text: str
-    behind: str = ""
+    trailing: str = ""
     blank_above: bool = False
     is_comment: bool = False
     group: str | None = None
@@ -29,16 +28,16 @@ class Line:
 
     @property
     def width(self) -> int:
-        """The width of the text, of the last line of it where it has several."""
+        """Width of the last line of the text."""
         return len(self.text) - (self.text.rfind("\n") + 1)
 
 
-def as_text(lines: Iterable[Line]) -> str:
-    """The text of a file with these lines."""
+def render_lines(lines: Iterable[Line]) -> str:
+    """Render lines as the text of a file."""
     written = []
     for line in lines:
         if line.blank_above:
             written.append("\n")
-        text = f"{' ' * line.indent}{line.text}{line.behind}".rstrip()
+        text = f"{' ' * line.indent}{line.text}{line.trailing}".rstrip()
         written.append(f"{text}\n")
     return "".join(written)

@@ -1,4 +1,4 @@
-"""What the syntax tree says about tokens that their texts do not say."""
+"""Marks of tokens that only the syntax tree tells."""
 
 from __future__ import annotations
 
@@ -29,10 +29,9 @@ from swarmdsl.syntax.formatter.tokens import Tokens, tokenize
 
 @dataclass(frozen=True)
 class Marks:
-    """Tokens by their offsets: those that begin an item, and those with special spacing.
+    """Tokens by their offsets: starts of items, and tokens with special spacing.
 
-    Before a `tight` one stands no space; a line is broken before a `clause` rather than
-    anywhere else.
+    There is no space before a `tight` token; lines break before a `clause` first.
     """
 
     items: dict[int, Node] = field(default_factory=dict)
@@ -40,8 +39,8 @@ class Marks:
     clauses: set[int] = field(default_factory=set)
 
 
-def mark(model: Model, tokens: Tokens) -> Marks:
-    """Find the marks of a file, given its syntax tree and its tokens."""
+def find_marks(model: Model, tokens: Tokens) -> Marks:
+    """Find the marks of a file by its syntax tree."""
     marks = Marks()
     for node in walk(model):
         start = node.span.start
@@ -83,13 +82,13 @@ def mark(model: Model, tokens: Tokens) -> Marks:
 
 
 def _join(marks: Marks, tokens: Tokens, start: int, text: str) -> None:
-    """Join the tokens from an offset on that make up the text."""
+    """Mark the tokens of a text from an offset on as tight."""
     parts = tokens.code(start, len(tokenize(text)))
     marks.tight.update(part.start for part in parts[1:])
 
 
 def _mark_list(marks: Marks, tokens: Tokens, start: int, name: str) -> None:
-    """Join the name to the list in parentheses behind it, if there is one."""
-    behind = tokens.code(start, len(tokenize(name)) + 1)[-1]
-    if behind.text == "(":
-        marks.tight.add(behind.start)
+    """Mark the `(` after a name as tight, if there is one."""
+    trailing = tokens.code(start, len(tokenize(name)) + 1)[-1]
+    if trailing.text == "(":
+        marks.tight.add(trailing.start)

@@ -1,4 +1,4 @@
-"""Tokens to the text of a line: which of them stand together."""
+"""Spaces between the tokens of a line."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ _NOTHING_BEFORE = _CLOSERS | {"."}
 _NOTHING_AFTER = frozenset({"(", "[", "."})
 
 
-def joined(tokens: Sequence[Token], tight: AbstractSet[int]) -> tuple[str, list[int]]:
-    """The tokens as one line, and where in it each of them begins."""
+def join_tokens(tokens: Sequence[Token], tight: AbstractSet[int]) -> tuple[str, list[int]]:
+    """Join tokens to a line; return the offset of each too."""
     pieces: list[str] = []
     starts: list[int] = []
     width = 0
     before: Token | None = None
     for token in tokens:
-        if before is not None and _spaced(before, token, tight):
+        if before is not None and _has_space_between(before, token, tight):
             pieces.append(" ")
             width += 1
         starts.append(width)
@@ -32,7 +32,7 @@ def joined(tokens: Sequence[Token], tight: AbstractSet[int]) -> tuple[str, list[
     return "".join(pieces), starts
 
 
-def _spaced(before: Token, token: Token, tight: AbstractSet[int]) -> bool:
+def _has_space_between(before: Token, token: Token, tight: AbstractSet[int]) -> bool:
     if token.is_comment:
         return before.text not in ("(", "[")
     if before.is_comment:

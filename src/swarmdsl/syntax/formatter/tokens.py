@@ -1,4 +1,4 @@
-"""Text to tokens: every character that is not white space is in exactly one of them."""
+"""Tokens with comments: each character except white space is in one token."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from swarmdsl.base.records import dataclass
 
 
 class Kind(Enum):
-    """What a token is."""
+    """Kind of a token."""
 
     WORD = auto()
     NUMBER = auto()
-    TEXT = auto()
+    STRING = auto()
     SYMBOL = auto()
     LINE_COMMENT = auto()
     BLOCK_COMMENT = auto()
@@ -22,7 +22,7 @@ class Kind(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Token:
-    """A piece of the text; `newlines` counts the line ends between it and the one before."""
+    """Token; `newlines` counts the line breaks before it."""
 
     kind: Kind
     text: str
@@ -31,7 +31,7 @@ class Token:
 
     @property
     def is_comment(self) -> bool:
-        """Whether the grammar skips it."""
+        """Return True for a comment."""
         return self.kind in _COMMENTS
 
 
@@ -40,7 +40,7 @@ _COMMENTS = (Kind.LINE_COMMENT, Kind.BLOCK_COMMENT)
 _TOKEN = re.compile(
     r"(?P<WORD>[A-Za-z_][A-Za-z0-9_]*)"
     r"|(?P<NUMBER>\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)"
-    r'|(?P<TEXT>"(?:[^"\\\n]|\\[^\n])*")'
+    r'|(?P<STRING>"(?:[^"\\\n]|\\[^\n])*")'
     r"|(?P<LINE_COMMENT>//[^\n]*)"
     r"|(?P<BLOCK_COMMENT>/\*(?:[^*]|\*(?!/))*\*/)"
     r"|(?P<SYMBOL>->|=>|==|!=|<=|>=|\.\.|[^\s])"
@@ -48,7 +48,7 @@ _TOKEN = re.compile(
 
 
 def tokenize(text: str) -> list[Token]:
-    """The tokens of a text; a character that the language does not have is a symbol."""
+    """Tokenize a text; an unknown character is a symbol."""
     tokens = []
     end = 0
     for found in _TOKEN.finditer(text):
@@ -61,10 +61,10 @@ def tokenize(text: str) -> list[Token]:
     return tokens
 
 
-def essence(tokens: list[Token]) -> list[tuple[str, bool]]:
-    """What formatting must not change: the texts, and which comments document something.
+def content_of(tokens: list[Token]) -> list[tuple[str, bool]]:
+    """Return what formatting must keep: the tokens, and which comments document something.
 
-    The lines of a block comment may be indented anew; `///` counts only at the start of a line.
+    Lines of block comments may be re-indented; `///` documents only at the start of a line.
     """
     return [
         (
@@ -80,7 +80,7 @@ def essence(tokens: list[Token]) -> list[tuple[str, bool]]:
 
 
 class Tokens:
-    """The tokens of a text, found by their place; comments are passed over on demand."""
+    """Tokens of a text by offset, with or without comments."""
 
     def __init__(self, text: str) -> None:
         self.all = tokenize(text)
@@ -88,10 +88,10 @@ class Tokens:
         self._starts = [token.start for token in self._code]
 
     def code(self, start: int, count: int = 1) -> list[Token]:
-        """The first `count` tokens from an offset on that are no comments."""
+        """Return the first `count` tokens from an offset on, without comments."""
         at = bisect_left(self._starts, start)
         return self._code[at : at + count]
 
     def before(self, start: int) -> Token:
-        """The last token before an offset that is no comment."""
+        """Return the last token before an offset that is no comment."""
         return self._code[bisect_left(self._starts, start) - 1]

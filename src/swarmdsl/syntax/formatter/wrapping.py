@@ -1,4 +1,4 @@
-"""The tokens of an item to lines: one where they fit, else broken where it reads best."""
+"""Wrap the tokens of an item to lines, at the best places to break."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from collections.abc import Iterator
 
 from swarmdsl.syntax.formatter.lines import INDENT, WIDTH, Line
 from swarmdsl.syntax.formatter.marks import Marks
-from swarmdsl.syntax.formatter.spacing import joined
+from swarmdsl.syntax.formatter.spacing import join_tokens
 from swarmdsl.syntax.formatter.tokens import Kind, Token
 
 # How early a place is chosen for a break: before a clause, then after the commas of the
 # outermost list, before `and` and `or` there, and so on inwards (two levels a bracket).
 _CLAUSE, _LIST, _OPERATION = range(3)
-_FORCED = 1000  # by a comment, wherever it stands
+_FORCED = 1000  # by a comment
 
 
-def wrapped(tokens: list[Token], indent: int, marks: Marks) -> list[Line]:
-    """The lines of an item's tokens; those after the first are indented further."""
-    text, _ = joined(tokens, marks.tight)
+def wrap(tokens: list[Token], indent: int, marks: Marks) -> list[Line]:
+    """Wrap the tokens of an item; continuation lines are indented further."""
+    text, _ = join_tokens(tokens, marks.tight)
     commented = any(token.kind is Kind.LINE_COMMENT for token in tokens)
     if not commented and indent + len(text) <= WIDTH:
         return [Line(indent, text)]
@@ -33,7 +33,7 @@ class _Wrapper:
         self._find_breaks(marks)
 
     def _find_breaks(self, marks: Marks) -> None:
-        """Note before which tokens a line may end, and before which it must."""
+        """Find the tokens before which a line may break, and must break."""
         tokens = self._tokens
         depth = 0
         for index, token in enumerate(tokens):
@@ -45,11 +45,11 @@ class _Wrapper:
                 depth += 1
                 is_list = token.start in marks.tight or tokens[index - 1].text == "gives"
                 if token.text == "(" and is_list:
-                    self._levels[self._behind_comments(index + 1)] = 2 * depth + _LIST
+                    self._levels[self._after_comments(index + 1)] = 2 * depth + _LIST
             elif token.text in (")", "]"):
                 depth -= 1
             elif token.text == ",":
-                self._levels[self._behind_comments(index + 1)] = 2 * depth + _LIST
+                self._levels[self._after_comments(index + 1)] = 2 * depth + _LIST
             elif token.kind is Kind.LINE_COMMENT:
                 if token.newlines and index:
                     self._forced.add(index)
@@ -57,15 +57,15 @@ class _Wrapper:
         for index in self._forced:
             self._levels.setdefault(index, _FORCED)
 
-    def _behind_comments(self, index: int) -> int:
-        """The index behind the comments that end the line at `index`, if there are such."""
+    def _after_comments(self, index: int) -> int:
+        """Return the index after the trailing comments at `index`, or `index` if there are none."""
         tokens, at = self._tokens, index
         while at < len(tokens) and tokens[at].is_comment and not tokens[at].newlines:
             at += 1
         return at if at < len(tokens) and tokens[at].newlines else index
 
     def lines(self, first: int, end: int, indent: int) -> Iterator[Line]:
-        """The lines of a piece."""
+        """Yield the lines of a range of tokens."""
         tokens = self._tokens
         while first < end and tokens[first].kind is Kind.LINE_COMMENT:
             yield Line(indent, tokens[first].text, is_comment=True)
@@ -77,9 +77,9 @@ class _Wrapper:
             last -= 1
         level = self._level(first, last, indent)
         if level is None:
-            text, _ = joined(tokens[first:last], self._tight)
-            behind = "".join(f"  {comment.text}" for comment in tokens[last:end])
-            yield Line(indent, text, behind)
+            text, _ = join_tokens(tokens[first:last], self._tight)
+            trailing = "".join(f"  {comment.text}" for comment in tokens[last:end])
+            yield Line(indent, text, trailing)
             return
         further = indent + (INDENT if level in (_CLAUSE, _LIST, _FORCED) else 2 * INDENT)
         starts = [at for at in range(first + 1, last) if self._levels.get(at) == level]
@@ -87,10 +87,10 @@ class _Wrapper:
             yield from self.lines(start, stop, indent if start == first else further)
 
     def _level(self, first: int, last: int, indent: int) -> int | None:
-        """Where to break a piece, None where it need not or cannot be broken."""
+        """Return the level at which to break a range; None to keep it on one line."""
         inside = {at: self._levels[at] for at in range(first + 1, last) if at in self._levels}
         code = [token for token in self._tokens[first:last] if token.kind is not Kind.LINE_COMMENT]
-        text, _ = joined(code, self._tight)
+        text, _ = join_tokens(code, self._tight)
         if indent + len(text) > WIDTH:
             return min(inside.values(), default=None)
         forced = [inside[at] for at in inside if at in self._forced]

@@ -51,7 +51,7 @@ FIRST = {
 }
 # Keywords of sections of a file: of its header, its declarations, its optimizations.
 TOP_LEVEL = frozenset(['action', 'actuator', 'const', 'controller', 'endless', 'enum', 'environment', 'event', 'fitness', 'function', 'import', 'member', 'message', 'optimize', 'package', 'sensor', 'service', 'statemachine', 'struct', 'swarm', 'type', 'virtual'])
-# Keywords of items in blocks: each begins a statement wherever it stands.
+# Keywords of items in blocks that begin a statement anywhere on a line.
 STATEMENTS = frozenset(['after', 'behavior', 'choice', 'communication', 'connect', 'deep', 'do', 'entry', 'exit', 'final', 'history', 'initial', 'internal', 'monitor', 'on', 'operation', 'parallel', 'param', 'region', 'state', 'var'])
 # Keywords before the keyword of a statement, by the keywords that can follow them.
 MODIFIERS = {

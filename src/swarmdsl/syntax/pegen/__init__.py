@@ -1,5 +1,6 @@
-"""Makes `swarm_parser.py` from the textX grammar, and explains what does not follow it.
+"""Parser generator: makes the parser, tables of keywords and editor files from the grammar.
 
-`grammar` reads the grammar, `analysis` finds what can begin where, `emission` writes the
-parser and `program` the instructions that `machine` follows.
+`grammar` reads the textX grammar, `analysis` computes FIRST sets, `emit_functions` writes the
+parser, `program` the instructions for `parser.failure_finder`, `keywords` and `editors` the rest;
+`outputs` puts it all together for `make parser`.
 """

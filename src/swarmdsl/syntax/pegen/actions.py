@@ -1,4 +1,4 @@
-"""What the rules of a grammar become."""
+"""Semantic actions of a grammar."""
 
 from __future__ import annotations
 
@@ -9,13 +9,12 @@ from swarmdsl.base.records import dataclass
 
 @dataclass(frozen=True)
 class Target:
-    """What the rules become.
+    """Semantic actions: the result of each rule.
 
-    `nodes` are the classes of nodes, with an expression for each field but the place: what an
-    attribute of the rule was found to be has its name and a `_`. A rule in `words` becomes a
-    `Word`, by an expression for its text. The functions in `written` are not generated: they
-    parse rules of that name. `begin` is what `parse` does first, `result` what it returns with
-    the model.
+    `nodes` are the classes of nodes, with an expression for each field but the span: the value of
+    an attribute is its name with a `_`. A rule in `words` becomes a `Word`, by an expression for
+    its string. The functions in `written` parse rules of that name by hand. `begin` is the start of
+    `parse`, `result` what it returns next to the model.
     """
 
     nodes: Mapping[str, Mapping[str, str]]

@@ -1,4 +1,4 @@
-"""What can begin where in a grammar, and whether a parser can be made for it."""
+"""FIRST sets of a grammar, and checks that a parser can be generated."""
 
 from __future__ import annotations
 
@@ -34,17 +34,17 @@ _LETTERS = frozenset(ascii_letters + "_")
 
 @dataclass(frozen=True, slots=True)
 class First:
-    """The tokens that something can begin with.
+    """FIRST set.
 
-    A token is an ASCII word, an ASCII mark, or the empty text for all else. Those in
-    `tokens` can begin it; if `but` is not None, so can any word that is not in it.
+    A token is an ASCII word, an ASCII symbol, or the empty string for all else. The set has
+    `tokens` and, if `but` is not None, all words that are not in `but`.
     """
 
     tokens: frozenset[str] = frozenset()
     but: frozenset[str] | None = None
 
     def __or__(self, other: First) -> First:
-        """What either can begin with."""
+        """Return the union."""
         if self.but is None or other.but is None:
             but = other.but if self.but is None else self.but
         else:
@@ -52,13 +52,13 @@ class First:
         return First(self.tokens | other.tokens, but)
 
     def has(self, token: str) -> bool:
-        """Whether it can begin with a token."""
+        """Return True if a token is in the set."""
         return token in self.tokens or (
             self.but is not None and token.isidentifier() and token not in self.but
         )
 
     def overlaps(self, other: First) -> bool:
-        """Whether there is a token that both can begin with."""
+        """Return True if the sets have a common token."""
         return (
             (self.but is not None and other.but is not None)
             or any(map(other.has, self.tokens))
@@ -67,7 +67,7 @@ class First:
 
 
 class Analysis:
-    """What is known of a grammar; raises UnsupportedError if no parser can be made for it."""
+    """Analysis of a grammar; raises UnsupportedError if no parser can be generated."""
 
     def __init__(self, grammar: Grammar) -> None:
         self.grammar = grammar
@@ -92,11 +92,11 @@ class Analysis:
         return frozenset(rule.name for rule in rules if _nullable(rule.body, self._empty))
 
     def nullable(self, expression: Expression) -> bool:
-        """Whether nothing is a match too."""
+        """Return True if an expression can match the empty string."""
         return _nullable(expression, self._empty)
 
     def first(self, expression: Expression) -> First:
-        """The tokens that an expression can begin with, unless it matches nothing."""
+        """Return the FIRST set of an expression, without the empty string."""
         match expression:
             case Terminal():
                 return _first_of_terminal(expression)
@@ -112,14 +112,14 @@ class Analysis:
                 return self.first(part)
 
     def _heads(self, sequence: tuple[Expression, ...]) -> Iterator[Expression]:
-        """The parts that can come first."""
+        """Yield the parts of a sequence that can come first."""
         for part in sequence:
             yield part
             if not self.nullable(part):
                 return
 
     def _leading(self, expression: Expression, found: set[str]) -> set[str]:
-        """The rules that an expression can begin with, added to those found."""
+        """Add the rules that an expression can begin with to those found."""
         match expression:
             case Use(rule):
                 if rule not in found:
@@ -134,7 +134,7 @@ class Analysis:
         return found
 
     def _refuse_surprises(self, rule: str, expression: Expression) -> None:
-        """Refuse where Arpeggio takes a match of nothing for something else."""
+        """Reject expressions in which Arpeggio treats an empty match specially."""
         match expression:
             case Terminal(literal='"'):
                 raise UnsupportedError(rule, "a quotation mark can only begin a text")
@@ -178,13 +178,13 @@ def _first_of_terminal(terminal: Terminal) -> First:
     return First(frozenset(tokens), frozenset() if characters & _LETTERS else None)
 
 
-# Stands for all characters that are not ASCII.
+# Represents all characters that are not ASCII.
 _OTHERS = "\N{SNOWMAN}"
 _ALL = frozenset(map(chr, range(128))) | {_OTHERS}
 
 
 def _first_characters(items: Any) -> tuple[frozenset[str], bool]:
-    """What a regular expression can begin with, or more; and whether it can match nothing."""
+    """Return a superset of the first characters of a regex, and True if it can match nothing."""
     found: frozenset[str] = frozenset()
     for operator, argument in items:
         characters, empty = _of_item(str(operator), argument)
@@ -214,7 +214,7 @@ def _of_item(operator: str, argument: Any) -> tuple[frozenset[str], bool]:
 
 
 def _set(members: Any) -> Any:
-    """Whether a character is in a set such as `[^0-9]`; perhaps, if it is not ASCII."""
+    """Return a predicate for a set such as `[^0-9]`; if unsure, it is true outside of ASCII."""
     negated = str(members[0][0]) == "NEGATE"
 
     def has(character: str) -> bool:

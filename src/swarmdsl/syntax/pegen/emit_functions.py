@@ -1,12 +1,10 @@
-"""The Python source of a recursive-descent parser for a grammar.
+"""Emit the functions of a recursive-descent parser.
 
-The text is cut into tokens at once, which is much faster than to match each one where it may
-stand: `tokens` are their texts, and `ends` says where the one before each ends. Each rule of
-nodes becomes a function, nested in `parse` so that they share where they are: `at` is the
-number of the next token, `token` its text. Regular expressions that are no tokens match the
-text itself, and end where a token does. What the next token cannot begin is not tried; for
-the rest alternatives are tried in order, and what an attempt has changed is taken back, which
-is what a PEG means.
+All tokens are found before parsing: `tokens` are their strings, `ends` the end offset of the token
+before each. Each rule of nodes becomes a function nested in `parse`; these share `at`, the index
+of the next token, and `token`, its string. Regular expressions that are no tokens match the text
+and must end with a token. Alternatives that the next token cannot begin are skipped; others are
+tried in order, and a failed attempt is undone, as in any PEG.
 """
 
 from __future__ import annotations
@@ -37,7 +35,7 @@ _START = "ends[at + 1] - len(token)"
 
 @dataclass
 class Emission:
-    """A parser in the making: the lines of its functions."""
+    """Emitter of the functions of a parser."""
 
     look: Lookahead
     target: Target
@@ -47,7 +45,7 @@ class Emission:
     _rule: Rule | None = None
 
     def rule(self, rule: Rule) -> None:
-        """Write the function of a rule of nodes."""
+        """Emit the function of a rule of nodes."""
         self._rule, self._names = rule, 0
         recursive = rule.name in self.look.analysis.recursive
         self._line(f"def r_{rule.name}():")
@@ -71,7 +69,7 @@ class Emission:
         self._line("")
 
     def ordered_attempts(self) -> None:
-        """Write the functions that try several rules."""
+        """Emit the functions that try several rules in order."""
         for rules, name in self.look.attempts.items():
             self._line(f"def {name}():")
             with self._block():
@@ -84,8 +82,8 @@ class Emission:
                 self._line(f"return r_{rules[-1]}()")
             self._line("")
 
-    # ---- expressions: each method writes code that goes on behind what has matched, and
-    # runs `fail` otherwise. `known` says that the next token has been looked at.
+    # ---- expressions: each method emits code that continues after a match, or else runs `fail`.
+    # `known` is True if the next token has been tested.
 
     def _expression(self, expression: Expression, fail: str, *, known: bool = False) -> None:
         match expression:
@@ -164,7 +162,7 @@ class Emission:
             self._optional(Repetition(part, 1, separator))
 
     def _more(self, part: Expression, separator: Terminal | None) -> None:
-        """Any number of parts, each with a separator before it."""
+        """Emit a loop over parts, each with a separator before it."""
         begin = separator or part
         if isinstance(begin, Assign) and self.look.is_choice(begin.part):
             self._line("while True:")  # which of them it may be is seen at one look
@@ -187,7 +185,7 @@ class Emission:
                 self._line(f"{assign.attribute}_ = {value}")
 
     def _value(self, assign: Assign, fail: str, *, known: bool) -> str:
-        """Code for a value; the result is the expression that has it."""
+        """Emit code for a value; return the expression for it."""
         part = assign.part
         rule = self.look.analysis.grammar.rules[part.rule] if isinstance(part, Use) else None
         if rule is not None and rule.name in self.target.written:
@@ -224,14 +222,14 @@ class Emission:
         return "value"
 
     def _start_of(self, body: Expression) -> str:
-        """Where the next token begins, with which a rule of that body does."""
+        """Return an expression for the start of a rule's first token."""
         first = self.look.analysis.first(body)
         lengths = set(map(len, first.tokens))
         known = first.but is None and "" not in first.tokens and len(lengths) == 1
         return f"ends[at + 1] - {min(lengths)}" if known else _START
 
     def _placed(self, part: Expression, fail: str, *, known: bool) -> tuple[str, str]:
-        """Code that takes a text; the results are expressions for it and for where it begins."""
+        """Emit code that takes a string; return expressions for it and for its start."""
         if self.look.is_token(part):
             text = self._text(part, fail, known=known)
             return text, f"ends[at] - len({text})"
@@ -239,7 +237,7 @@ class Emission:
         return self._text(part, fail, known=known), "first"
 
     def _text(self, part: Expression, fail: str, *, known: bool = False) -> str:
-        """Code that takes a text; the result is the expression that has it."""
+        """Emit code that takes a string; return the expression for it."""
         match part:
             case Use(rule):
                 return self._text(self.look.analysis.grammar.rules[rule].body, fail, known=known)
@@ -259,7 +257,7 @@ class Emission:
                     raise self._unsupported("a text may be nothing at all")
                 match = self._match(regex)
                 self._line(f"if {match} is None: {fail}")
-                self._go_on_behind(match, fail)
+                self._skip_match(match, fail)
                 return f"{match}[0]"
         if not self.look.is_token(part):
             raise self._unsupported("a text is too complicated")
@@ -273,7 +271,7 @@ class Emission:
         return taken
 
     def _joined(self, parts: tuple[Expression, ...], fail: str, *, known: bool) -> str:
-        """Code for the parts of a text, which may have blanks between them."""
+        """Emit code for the parts of a string, which may have blanks between them."""
         text = self._new("text")
         self._line(f"{text} = {self._text(parts[0], fail, known=known)}")
         for part in parts[1:]:
@@ -288,24 +286,24 @@ class Emission:
                 self._line(f"if {match}[0]:")
                 with self._block():
                     self._line(f"{text} += {match}[0]")
-                    self._go_on_behind(match, fail)
+                    self._skip_match(match, fail)
         return text
 
     def _match(self, regex: str) -> str:
-        """Code that matches a regular expression; the result is the variable for it."""
+        """Emit code that matches a regular expression; return the variable of the match."""
         match = self._new("match")
         self._line(f"{match} = {self.look.regex(regex)}(text, {_START})")
         return match
 
-    def _go_on_behind(self, match: str, fail: str) -> None:
-        """Code that passes over the tokens of a match, which ends with one of them."""
+    def _skip_match(self, match: str, fail: str) -> None:
+        """Emit code that skips the tokens of a match, which must end with a token."""
         self._line(f"end = {match}.end()")
         self._line("while ends[at] < end: at += 1")
         self._line(f"if ends[at] > end: {fail}")
         self._line("token = tokens[at]")
 
     def _make(self, variable: str, node: str, fields: Mapping[str, str]) -> None:
-        """Make a node; its class would take a third longer for it."""
+        """Emit code that makes a node; calling its class would take a third longer."""
         self._line(f"{variable} = new_node({node})")
         for name, value in fields.items():
             self._line(f"{variable}.{name} = {value}")
@@ -313,7 +311,7 @@ class Emission:
     # ---- lines
 
     def _save(self, part: Expression) -> str:
-        """Keep the state before an attempt; the result is the code that takes it back."""
+        """Emit code that saves the state before an attempt; return the code that restores it."""
         before = self._new("before")
         self._line(f"{before} = at")
         undo = f"at = {before}; token = tokens[at]"
@@ -356,7 +354,7 @@ class Emission:
 
 
 def _symbols(marks: str) -> str:
-    """Whether the next tokens are these marks, with nothing between them."""
+    """Return a test for adjacent symbols, such as an arrow."""
     return f"token == {marks[0]!r}" + "".join(
         f" and tokens[at + {n}] == {mark!r} and ends[at + {n + 1}] == ends[at + {n}] + 1"
         for n, mark in enumerate(marks[1:], 1)

@@ -1,7 +1,7 @@
-"""A textX grammar as plain data: parsing expressions, and what its rules make.
+"""Read a textX grammar as parsing expressions.
 
-textX keeps a grammar as a model of Arpeggio, a PEG (B. Ford, Parsing Expression Grammars,
-2004). What is not needed for a language with words, spaces and comments is refused.
+textX represents a grammar as a model of Arpeggio, a PEG (B. Ford, Parsing Expression Grammars,
+2004). Features that a language with words, spaces and comments does not need are rejected.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ WORD = r"[A-Za-z_][A-Za-z0-9_]*\b"
 _NAME = re.compile(r"(?:\(\?!\(\?:([a-z|]+)\)\\b\))?" + re.escape(WORD))
 _ASCII_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*").fullmatch
 _ASSIGNMENT = "__asgn"
-# Modifiers of rules and repetitions, and the values they have where nobody gives them.
+# Modifiers of rules and repetitions, and their default values.
 _MODIFIERS = {
     **dict.fromkeys(("ws", "skipws"), (None,)),
     **dict.fromkeys(("eolterm", "suppress", "ignore_case"), (None, False)),
@@ -29,7 +29,7 @@ _MODIFIERS = {
 
 
 class UnsupportedError(Exception):
-    """A grammar uses what no parser can be made for."""
+    """Raised for a grammar for which no parser can be generated."""
 
     def __init__(self, rule: str, what: str) -> None:
         super().__init__(f"grammar rule {rule}: {what}")
@@ -37,7 +37,7 @@ class UnsupportedError(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Terminal:
-    """A regular expression; `literal` is the text where it is one, `name` that of its rule."""
+    """Regular expression; `literal` is its string if it is one, `name` the name of its rule."""
 
     regex: str
     literal: str = ""
@@ -45,57 +45,57 @@ class Terminal:
 
     @property
     def is_word(self) -> bool:
-        """Whether it is a keyword."""
+        """Return True for a keyword."""
         return self.regex == self.literal + r"\b"
 
     @property
     def is_symbol(self) -> bool:
-        """Whether it is one ASCII character that is no part of words."""
+        """Return True for a single ASCII symbol."""
         return self.literal in SYMBOLS
 
     @property
     def is_symbols(self) -> bool:
-        """Whether it is several of them, such as an arrow."""
+        """Return True for several adjacent symbols, such as an arrow."""
         return len(self.literal) > 1 and SYMBOLS.issuperset(self.literal)
 
     @property
     def reserved(self) -> frozenset[str] | None:
-        """The words that are no names, if it is a name; None if it is something else."""
+        """Reserved words if it is an identifier, else None."""
         found = _NAME.fullmatch(self.regex)
         return frozenset((found[1] or "").split("|")) - {""} if found else None
 
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """What another rule describes."""
+    """Use of another rule."""
 
     rule: str
 
 
 @dataclass(frozen=True, slots=True)
 class Sequence:
-    """One after the other."""
+    """Sequence of expressions."""
 
     parts: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """The first of several that fits."""
+    """Ordered choice."""
 
     parts: tuple[Expression, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Optional:
-    """Something that may be missing."""
+    """Optional expression."""
 
     part: Expression
 
 
 @dataclass(frozen=True, slots=True)
 class Repetition:
-    """As many as there are, at least `least` (0 or 1)."""
+    """Repetition, at least `least` times (0 or 1)."""
 
     part: Expression
     least: int
@@ -104,9 +104,9 @@ class Repetition:
 
 @dataclass(frozen=True, slots=True)
 class Assign:
-    """What becomes an attribute: the value, one of many, or (`flag`) that it is there.
+    """Assignment to an attribute: a value, one of many, or a flag.
 
-    `refers` is the class of what a name refers to.
+    `refers` is the class that a name refers to.
     """
 
     attribute: str
@@ -120,9 +120,9 @@ Expression = Terminal | Use | Sequence | Choice | Optional | Repetition | Assign
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """A rule: of a `node`, of a `choice` between nodes, or of a `text`.
+    """Rule for a `node`, a `choice` between nodes, or a `text`.
 
-    An attribute is missing as None, or as the empty text where its value is a `word`.
+    A missing attribute is None, or the empty string if its value is a `word`.
     """
 
     name: str
@@ -133,10 +133,10 @@ class Rule:
 
 @dataclass(frozen=True, slots=True)
 class Grammar:
-    """Rules by name, the first one that of a file.
+    """Rules by name.
 
-    `spaces` are characters; `blank` are spaces and comments; `no_comment` is the same, and
-    quicker where there is none.
+    `spaces` are characters; `blank` matches spaces and comments; `no_comment` is equivalent, and
+    faster without comments.
     """
 
     rules: dict[str, Rule]
@@ -183,7 +183,7 @@ class _Reader:
         self._name: str = cls.__name__
 
     def rule(self) -> Rule:
-        """The rule of the class."""
+        """Read the rule of the class."""
         cls, body = self._cls, self._cls._tx_peg_rule
         if body.rule_name != self._name:
             raise self._unsupported(f"it is {body.rule_name} by another name")
@@ -263,7 +263,7 @@ class _Reader:
 
 
 def parts(expression: Expression) -> tuple[Expression, ...]:
-    """What an expression is made of."""
+    """Return the direct parts of an expression."""
     match expression:
         case Sequence(parts) | Choice(parts):
             return parts
@@ -275,7 +275,7 @@ def parts(expression: Expression) -> tuple[Expression, ...]:
 
 
 def inside(expression: Expression) -> Iterator[Expression]:
-    """An expression and all it is made of."""
+    """Yield an expression and all parts in it."""
     yield expression
     for part in parts(expression):
         yield from inside(part)

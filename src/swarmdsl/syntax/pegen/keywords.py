@@ -42,7 +42,7 @@ CONTEXTUAL = {contextual}
 FIRST = {first}
 # Keywords of sections of a file: of its header, its declarations, its optimizations.
 TOP_LEVEL = frozenset({top_level})
-# Keywords of items in blocks: each begins a statement wherever it stands.
+# Keywords of items in blocks that begin a statement anywhere on a line.
 STATEMENTS = frozenset({statements})
 # Keywords before the keyword of a statement, by the keywords that can follow them.
 MODIFIERS = {modifiers}
@@ -207,7 +207,7 @@ class Keywords:
                     yield head.literal, following
 
     def _clauses(self) -> Iterator[tuple[str, frozenset[str]]]:
-        """Reserved words that begin an optional part that something stands before."""
+        """Yield reserved words that begin an optional clause, with the statements that have it."""
         found: dict[str, frozenset[str]] = defaultdict(frozenset)
         for rule in self._grammar.rules.values():
             for sequence in inside(rule.body):

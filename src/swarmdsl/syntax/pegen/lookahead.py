@@ -1,4 +1,4 @@
-"""What a generated parser asks of the next token, and the constants it needs for that."""
+"""Tests of the next token in a generated parser, and their constants."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ def {name}(text, at):
 
 @dataclass
 class Lookahead:
-    """The constants: regular expressions, sets of tokens, and tables from tokens to functions.
+    """Constants of a parser: regular expressions, sets of tokens, tables of functions by token.
 
-    `nodes` are the rules that have functions; `attempts` are functions for several of them.
+    `nodes` are the rules that have functions; `attempts` are functions for several rules.
     """
 
     analysis: Analysis
@@ -47,7 +47,7 @@ class Lookahead:
     _sets: dict[frozenset[str], str] = field(default_factory=dict)
 
     def constants(self) -> list[str]:
-        """The lines that define the regular expressions and sets."""
+        """Return the lines that define the regular expressions and sets."""
         grammar = self.analysis.grammar
         return [
             f"BLANK = {grammar.blank!r}",
@@ -58,7 +58,7 @@ class Lookahead:
         ]
 
     def _tokens(self) -> str:
-        """A regular expression for the next token, with the blanks before it."""
+        """Return a regular expression for the next token, with the blanks before it."""
         grammar = self.analysis.grammar
         terminals = (
             part
@@ -71,7 +71,7 @@ class Lookahead:
         return rf"{grammar.no_comment}(?:{tokens}|\Z)"
 
     def is_token(self, part: Expression) -> bool:
-        """Whether the next token alone decides that it matches, and is the match."""
+        """Return True if the expression matches exactly one token."""
         match part:
             case Terminal():
                 return part.is_word or part.is_symbol or part.reserved is not None
@@ -83,15 +83,15 @@ class Lookahead:
         return False
 
     def is_sure(self, part: Expression) -> bool:
-        """Whether it cannot fail when it can begin."""
+        """Return True if an expression matches whenever the next token can begin it."""
         if isinstance(part, Assign):
             return part.refers is None and self.is_token(part.part)
         return self.is_token(part)
 
     def test(self, first: First) -> str:
-        """Whether something can begin with the next token.
+        """Return a test whether the next token is in a FIRST set.
 
-        Words and a few marks are not less than `A`; all else is, which makes this quick.
+        Words and a few symbols are not less than `A`, all other tokens are: that test is fast.
         """
         words_and_marks = first.tokens - {""}
         if first.but is not None:
@@ -115,24 +115,24 @@ class Lookahead:
         return self._sets.setdefault(members, f"SET{len(self._sets)}")
 
     def regex(self, regex: str) -> str:
-        """The function that matches a regular expression."""
+        """Return the name of the function that matches a regular expression."""
         return self._regexes.setdefault(regex, f"REGEX{len(self._regexes)}")
 
     def is_choice(self, part: Expression) -> bool:
-        """Whether it is a choice between rules, which a table decides."""
+        """Return True for a choice between rules, which a table decides."""
         return isinstance(part, Use) and self.analysis.grammar.rules[part.rule].kind == "choice"
 
     def is_asked_before(self, rule: str) -> bool:
-        """Whether the function of a rule is called only where the rule can begin.
+        """Return True if callers test the first token of a rule before they call its function.
 
-        Those of all others look at the first token themselves: what calls them may not have.
+        Functions of other rules test it themselves.
         """
         first = self.analysis.first(Use(rule))
         asked = rule != self.analysis.grammar.start and not self.analysis.nullable(Use(rule))
         return asked and first.but is None and "" not in first.tokens
 
     def table(self, rule: Rule) -> tuple[str, bool]:
-        """The look-up of the function for the next token, and whether there always is one."""
+        """Return the table look-up for the next token, and True if it always finds a function."""
         table = f"{rule.name}_RULES"
         leaves = list(self._leaves(rule))
         firsts = {leaf: self.analysis.first(Use(leaf)) for leaf in leaves}
@@ -152,7 +152,7 @@ class Lookahead:
         return f"{table}.get(token)", False
 
     def _leaves(self, rule: Rule) -> Iterator[str]:
-        """The rules that a rule chooses from in the end."""
+        """Yield the node rules of a choice, nested choices included."""
         assert isinstance(rule.body, Choice)
         for part in rule.body.parts:
             assert isinstance(part, Use)
@@ -165,7 +165,7 @@ class Lookahead:
                 raise UnsupportedError(rule.name, f"{inner.name} does not make a node")
 
     def _attempt(self, rules: tuple[str, ...]) -> str:
-        """The function that tries rules in order."""
+        """Return the name of the function that tries rules in order."""
         if len(rules) == 1:
             return f"r_{rules[0]}"
         return self.attempts.setdefault(rules, "try_" + "_".join(rules))

@@ -1,4 +1,4 @@
-"""What a generated parser consists of: constants, the function `parse`, and the program."""
+"""Assemble a generated parser: constants, the function `parse`, the program."""
 
 from __future__ import annotations
 
@@ -55,9 +55,9 @@ _FUNCTION = re.compile(r" {4}def (\w+)\(")
 
 
 def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
-    """The source of the definitions, and the classes of nodes that it needs.
+    """Return the source of the definitions, and the classes of nodes it uses.
 
-    It also needs `re`, `Lexer`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
+    It also uses `re`, `Lexer`, `Span`, `Word`, `Ref` and `TooDeepError`. Raises UnsupportedError.
     """
     look = Lookahead(Analysis(grammar), target.nodes)
     emission = Emission(look, target)
@@ -85,7 +85,7 @@ def definitions(grammar: Grammar, target: Target) -> tuple[str, list[str]]:
 
 
 def _functions(lines: Iterable[str]) -> Iterator[str]:
-    """The names of the functions that are defined in lines of source."""
+    """Yield the names of the functions defined in lines of source."""
     for line in lines:
         if found := _FUNCTION.match(line):
             yield found[1]

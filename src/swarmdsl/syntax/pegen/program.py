@@ -1,4 +1,4 @@
-"""The instructions that `machine` follows, for a grammar."""
+"""Compile a grammar to instructions for `parser.failure_finder`."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Program:
             self.instructions[commit] = (failure_finder.COMMIT, self._here)
 
     def _write_optional(self, parts: Iterable[Expression], again: int | None = None) -> None:
-        """What may be missing; where it is there, go on at `again`, or else behind it."""
+        """Emit an optional part; after it, continue at `again`, or else after it."""
         choice = self._append(failure_finder.CHOICE)
         for part in parts:
             self._write(part)
@@ -97,7 +97,7 @@ class Program:
 
 
 def _used(grammar: Grammar) -> list[str]:
-    """The rules that a file can need, in the order in which they are met."""
+    """Return the reachable rules, in order of their first use."""
     found = [grammar.start]
     for name in found:  # which grows meanwhile
         for part in inside(grammar.rules[name].body):

@@ -1,4 +1,4 @@
-"""The parser of the language: what its rules become, and what it imports for that."""
+"""Semantic actions of the language, and the source of its parser."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from swarmdsl.syntax.pegen.module import definitions
 
 
 def _values(node: type[Node]) -> dict[str, str]:
-    """Expressions for the fields of a node: what was parsed, its documentation, or the default."""
+    """Return expressions for the fields of a node: parsed, its documentation, or defaults."""
     parsed = {part.name: f"{part.name}_" for part in fields(node) if part.init}
     others = {part.name: repr(part.default) for part in fields(node) if not part.init}
     if issubclass(node, Documented):

@@ -27,7 +27,7 @@ from swarmdsl.syntax.ast import (
     Transition,
     Vertex,
 )
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 from swarmdsl.syntax.parse import parse
 from swarmdsl.tools.refactor import insertion_point
 from swarmdsl.tools.refactor.names import NamedElement, all_elements, find_elements, suggest_path
@@ -94,7 +94,7 @@ def _align(file: File, change: Change) -> Change:
     """Align a change with the columns around it, unless other lines would change."""
     start, end, text = change
     before, after = file.source.text[:start], file.source.text[end:]
-    text_after = formatted(Source(file.source.name, before + text + after), Diagnostics())
+    text_after = format_source(Source(file.source.name, before + text + after), Diagnostics())
     if text_after is None or len(text_after) < len(before) + len(after):
         return change
     if text_after.startswith(before) and text_after.endswith(after):

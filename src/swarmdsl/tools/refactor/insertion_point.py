@@ -33,7 +33,7 @@ from swarmdsl.syntax.ast import (
     Swarm,
     Vertex,
 )
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 # Usual order of declarations in a file.
 _ORDER: Sequence[tuple[type, ...]] = (
@@ -70,9 +70,9 @@ def best_file(files: Sequence[File], kind: type) -> File:
 
 def declaration(file: File, kind: type, text: str) -> Change:
     """Insert a declaration below the last of its kind or of a kind usually before it."""
-    laid_out = formatted(Source("new", text), Diagnostics())
-    assert laid_out is not None  # it was parsed without errors
-    lines = laid_out.strip("\n")
+    formatted = format_source(Source("new", text), Diagnostics())
+    assert formatted is not None  # it was parsed without errors
+    lines = formatted.strip("\n")
     declared: Sequence[Declaration] = file.model.declarations
     before = [each for each in declared if rank(type(each)) <= rank(kind)]
     same = [each for each in before if rank(type(each)) == rank(kind)]
@@ -106,9 +106,9 @@ def state(file: File, container: Container, name: str, text: str) -> Change:
     """
     indent = _indent(file, container.span.absolute.start) + "  "
     wrapped = f"statemachine M {{\n  initial S\n\n{text}\n}}\n"
-    laid_out = formatted(Source("new", wrapped), Diagnostics())
-    assert laid_out is not None  # it was parsed without errors
-    inner = textwrap.dedent(laid_out.partition("\n\n")[2].rpartition("\n}")[0])
+    formatted = format_source(Source("new", wrapped), Diagnostics())
+    assert formatted is not None  # it was parsed without errors
+    inner = textwrap.dedent(formatted.partition("\n\n")[2].rpartition("\n}")[0])
     vertices = [each for each in container.items if isinstance(each, Vertex)]
     finals = [each for each in vertices if isinstance(each, FinalState)]
     states = [each for each in vertices if each not in finals]

@@ -8,7 +8,7 @@ from pathlib import Path
 from swarmdsl.base.diagnostics.collector import Diagnostics
 from swarmdsl.base.source import Source
 from swarmdsl.codegen.templates import Templates
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 from swarmdsl.tools.scaffold.plan import Plan
 
 _FOLDER = Path(__file__).resolve().parent / "template"
@@ -36,6 +36,6 @@ def project_files(plan: Plan) -> Iterator[tuple[str, str]]:
 
 
 def _formatted(path: str, text: str) -> str:
-    result = formatted(Source(path, text), Diagnostics())
+    result = format_source(Source(path, text), Diagnostics())
     assert result is not None, path  # the names were checked
     return result

@@ -1,4 +1,4 @@
-"""The line of a source around a span, and where under it the marks go, in terminal cells."""
+"""Excerpt of a source line, with marks under a span, in terminal cells."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _NEAR = 4
 
 
 class Excerpt(NamedTuple):
-    """A line to show; the marks are `length` cells from cell `indent` on."""
+    """Line of an excerpt; its marks are `length` cells from cell `indent` on."""
 
     text: str
     indent: int
@@ -23,10 +23,9 @@ class Excerpt(NamedTuple):
 
 
 def excerpt(span: Span, width: int = WIDTH) -> Excerpt:
-    """The line where the span starts, cut to `width` cells around it.
+    """Return the line of the start of a span, cut to `width` cells around it.
 
-    A span of several lines is marked to the end of its first one, an empty span with
-    one cell.
+    Marks of a longer span end with its first line; an empty span has one cell.
     """
     line, column = span.source.line_column(span.start)
     text = span.source.line_text(line)
@@ -52,7 +51,7 @@ def _shown(character: str) -> str:
 
 
 def cell_len(text: str) -> int:
-    """How many cells of a terminal a text takes."""
+    """Return the width of a text in terminal cells."""
     if text.isascii():
         return len(text)
     # Imported here because it is slow and most models do without.
@@ -62,7 +61,7 @@ def cell_len(text: str) -> int:
 
 
 def _first_cells(text: str, cells: int) -> str:
-    """As much of the start of a text as fits, with an ellipsis for the rest."""
+    """Truncate a text to a width, with an ellipsis."""
     if cell_len(text) <= cells:
         return text
     kept, used = [], 1

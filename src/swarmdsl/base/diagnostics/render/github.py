@@ -1,4 +1,4 @@
-"""Workflow commands of GitHub Actions, which shows them beside the lines of a change."""
+"""Workflow commands of GitHub Actions, which shows them next to changed lines."""
 
 from __future__ import annotations
 

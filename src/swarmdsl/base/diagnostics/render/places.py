@@ -1,4 +1,4 @@
-"""Paths as other tools expect them: from the folder where swarmc was started."""
+"""Paths in reports, relative to the current folder."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from urllib.parse import quote
 
 
 def relative_path(name: str) -> str:
-    """The path from the current folder with `/`, or the whole one where it leads out of it."""
+    """Return the path relative to the current folder with `/`, or absolute if it is outside."""
     path = os.path.normpath(name)
     if os.path.isabs(path):  # noqa: PTH117 - the name of a source need not be a good path
         inside = os.path.relpath(path)
@@ -17,7 +17,7 @@ def relative_path(name: str) -> str:
 
 
 def uri(name: str) -> str:
-    """The same as a URI reference, absolute only for an absolute path."""
+    """Return the path as URI reference, absolute only for an absolute path."""
     path = relative_path(name)
     if os.path.isabs(path):  # noqa: PTH117 - as above
         return Path(path).as_uri()

@@ -1,4 +1,4 @@
-"""Text of a model made safe to show: nothing in it can steer a terminal."""
+"""Text safe for terminals, without control characters."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _STAND_IN = "\N{REPLACEMENT CHARACTER}"
 
 
 def printable(text: str) -> str:
-    """The text in one line, with a stand-in for each character that cannot be shown."""
+    """Replace unprintable characters and line breaks."""
     if text.isprintable():
         return text
     return "".join(

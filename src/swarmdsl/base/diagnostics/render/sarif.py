@@ -1,4 +1,4 @@
-"""SARIF 2.1.0, which code scanning and editors read: one document for all diagnostics."""
+"""SARIF 2.1.0, for code scanning and editors: one document for all diagnostics."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _rule(name: str) -> dict[str, Any]:
 
 
 def _meaning(page: str) -> str:
-    """What a page says first, in one line."""
+    """Return the first section of a page, in one line."""
     _, _, rest = page.partition("## What it means\n")
     return " ".join(rest.partition("\n## ")[0].split())
 

@@ -1,4 +1,4 @@
-"""Diagnostics for people: the line, the place under it, what to know and what to do."""
+"""Diagnostics as text for people, with excerpts."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ def render(found: Iterable[Diagnostic], stream: TextIO) -> None:
     if not (stream.isatty() or os.environ.get("FORCE_COLOR")):
         stream.writelines(f"{''.join(text for text, _ in pieces)}\n" for pieces in drawn)
         return
-    # Imported here because it is slow and nobody else needs colours.
+    # Imported here because it is slow and only needed for colours.
     from rich.console import Console
     from rich.text import Text
 
     console = Console(file=stream, highlight=False, soft_wrap=True)
     for pieces in drawn:
-        # A Text is printed as it is: what looks like markup in a model stays text.
+        # A Text is printed literally, without interpreting markup.
         console.print(Text.assemble(*pieces))
 
 
@@ -62,7 +62,7 @@ def _remarks(diagnostic: Diagnostic) -> list[tuple[str, str]]:
 
 
 def place(label: Label, gutter: int, mark: str, style: str, message: str) -> Iterator[Piece]:
-    """A place: where it is, its line, and marks under it; `gutter` is the width of line numbers."""
+    """Render a place: path, line, and marks; `gutter` is the width of line numbers."""
     # Imported here because most runs have no place to show.
     from swarmdsl.base.diagnostics.render.excerpt import excerpt
 

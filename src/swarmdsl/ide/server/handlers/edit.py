@@ -20,7 +20,7 @@ from swarmdsl.ide.server.session import Place, Session
 from swarmdsl.ide.server.signatures import signature
 from swarmdsl.ide.server.snippets import snippets
 from swarmdsl.ide.server.symbol_kinds import COMPLETION_KINDS
-from swarmdsl.syntax.formatter import formatted
+from swarmdsl.syntax.formatter import format_source
 
 
 def _completion(session: Session, params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
@@ -102,7 +102,7 @@ def _layout(
     if found is None:
         return []
     source = found[1].source
-    text = formatted(source, Diagnostics())
+    text = format_source(source, Diagnostics())
     if text is None:
         return []
     whole = Span(source, 0, len(source.text))
