@@ -73,7 +73,7 @@ def test_what_was_edited_and_is_no_longer_made_is_put_aside(swarmc, good, tmp_pa
     assert f"help: it is in `{aside}`" in ran.out
     assert aside.read_text() == "mine"
     good.write_text(good.read_text().replace("Flashing", "Blinking"))
-    assert f"note: `{aside}` is `{edited}` now" in swarmc(*arguments).err
+    assert f"note: `{aside}` is now `{edited}`" in swarmc(*arguments).err
     assert edited.read_text() == "mine"
 
 

@@ -642,7 +642,7 @@ def test_a_loop_of_eventless_transitions_is_an_error() -> None:
     machine = Machine("m", (State("a", transitions=(on("e", "b"),)), around), limit=500)
     instance = started(machine)
 
-    with pytest.raises(LoopError, match=r"goes round in `b`, `c`$") as caught:
+    with pytest.raises(LoopError, match=r"loops through `b`, `c`$") as caught:
         instance.receive(Event("e"))
     assert caught.value.states == ["b", "c"]
     assert not instance.running
@@ -698,11 +698,11 @@ def test_an_instance_is_started_once() -> None:
 @pytest.mark.parametrize(
     ("states", "message"),
     [
-        ((State("a"), State("a")), "two states are called `a`"),
-        ((State("a", transitions=(on("e", "b"),)),), "there is no state `b`"),
+        ((State("a"), State("a")), "duplicate state `a`"),
+        ((State("a", transitions=(on("e", "b"),)),), "unknown state `b`"),
         ((State("a", states=(State("b"),), initial=("c",)), State("c")), "`c` is not in `a`"),
         ((State("a", transitions=(on("e", "a", "b"),)), State("b")), "cannot be active together"),
-        ((State("a", states=(State("h", Kind.HISTORY), State("b"))),), "`h` needs one transition"),
+        ((State("a", states=(State("h", Kind.HISTORY), State("b"))),), "must have one transition"),
     ],
 )
 def test_tables_that_are_no_machine(states: tuple[State, ...], message: str) -> None:

@@ -338,7 +338,7 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format("<transition/>"),
         "illegal-structure",
-        "a transition without event, condition and target is always taken again",
+        "a transition without event, condition and target is an endless loop",
         "transition",
     ),
     (
@@ -380,7 +380,7 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format('<onentry><send event="e" delay="soon"/></onentry>'),
         "bad-value",
-        "`delay` must be a number with `s` or `ms` behind it",
+        "`delay` must be a number followed by `s` or `ms`",
         "soon",
     ),
     (
@@ -410,13 +410,13 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         STATE.format("<onentry><script>1</script></onentry>"),
         "not-understood",
-        "`script` is not supported: scripts are not run",
+        "`script` is not supported: scripts are not supported",
         "script",
     ),
     (
         STATE.format('<invoke type="x"/>'),
         "not-understood",
-        "`invoke` is not supported: activities outside of the machine are not started from SCXML",
+        "`invoke` is not supported: activities outside of the machine are not supported in SCXML",
         "invoke",
     ),
     (
@@ -449,7 +449,7 @@ WRONG: list[tuple[str, str, str, str]] = [
         "element `<raise>` is not allowed in `<scxml>`",
         "raise",
     ),
-    (STATE.format("words"), "illegal-structure", "there is no text in `<state>`", "state"),
+    (STATE.format("words"), "illegal-structure", "`<state>` must not contain text", "state"),
     (
         '<state id="a" initial="b"><state id="c"/></state><state id="b"/>',
         "illegal-structure",
@@ -459,7 +459,7 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         '<state id="a"><history id="h"/><state id="c"/></state>',
         "illegal-structure",
-        "`<history>` has one transition",
+        "`<history>` must have exactly one transition",
         "history",
     ),
     (
@@ -471,13 +471,13 @@ WRONG: list[tuple[str, str, str, str]] = [
     (
         '<state id="a"><initial><transition target="c" event="e"/></initial><state id="c"/></state>',
         "illegal-structure",
-        "the transition of `<initial>` is always taken",
+        "the transition of `<initial>` must not have an event or condition",
         "e",
     ),
     (
         '<state id="a" initial="c"><initial><transition target="c"/></initial><state id="c"/></state>',
         "illegal-structure",
-        "what is entered first is said twice",
+        "the initial state is given twice",
         "c",
     ),
     (
@@ -572,7 +572,7 @@ def test_deep_documents() -> None:
     ((name, message, _),) = said_of("<state>" * 300 + "</state>" * 300)
     assert (name, message) == (
         "not-xml",
-        "invalid XML: more than 250 elements stand in each other",
+        "invalid XML: elements are nested more than 250 levels deep",
     )
 
 

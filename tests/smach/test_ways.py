@@ -231,5 +231,5 @@ def test_a_machine_that_does_not_come_to_rest_fails(robot: Run) -> None:
     work.start()
     work.wait_in("A")
     work.world.publish("go")
-    with pytest.raises(Exception, match="does not come to rest: it goes round in `A`, `B`"):
+    with pytest.raises(Exception, match="does not come to rest: it loops through `A`, `B`"):
         work.ended()

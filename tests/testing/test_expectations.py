@@ -318,7 +318,7 @@ steps = [{ in = "rest" }, { send = "go" }, { in = "a" }]
     assert found.code == 1
     assert "error[SW1006]: `loop` does not reach a stable configuration at 0 ms" in found.out
     assert '{ send = "go" }' in found.out
-    assert "it goes round in `a` and `b`" in found.out
+    assert "it loops through `a` and `b`" in found.out
 
 
 def test_machines_that_never_stop_answering_each_other(ran: Callable[..., Ran], folder) -> None:

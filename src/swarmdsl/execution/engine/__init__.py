@@ -1,9 +1,9 @@
-"""The state machine engine: what a machine means, wherever it runs.
+"""State machine engine: the semantics of machines on every platform.
 
-SCXML 1.0, Appendix D, over tables of plain data (`Machine`). An `Instance` of one runs in a
-`World`, which has the clock and the servers of activities; nothing here reads the time or
-knows of threads. Needs the standard library of Python 3.8 only, and nothing else of swarmdsl,
-because generated packages get a copy.
+It implements SCXML 1.0, Appendix D, on tables of plain data (`Machine`). An `Instance` of a
+machine runs in a `World`, which has the clock and the servers of activities; the engine never
+reads the time and knows no threads. It needs the standard library of Python 3.8 only, and nothing
+else of swarmdsl, because generated packages contain a copy.
 """
 
 from .activity import Run, Servers

@@ -1,4 +1,4 @@
-"""What goes on outside while a state is active: delays, activities, and the servers of these."""
+"""Delays and activities of active states, and the servers of activities."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from .table import Activity, Event, InstanceLike
 
 
 class Timer:
-    """An event of an instance that comes after a delay.
+    """Delayed event of an instance.
 
-    It is `over` when it was cancelled or looked at. `handle` is what the world knows it by.
+    It is `over` when it was cancelled or processed. `handle` identifies it in the world.
     """
 
     __slots__ = ("event", "handle", "id", "instance", "over")
@@ -23,7 +23,7 @@ class Timer:
         self.over = False
 
     def fire(self) -> None:
-        """Let the instance receive the event."""
+        """Send the event to the instance."""
         if not self.over:
             self.instance.receive(self.event)
 
@@ -53,7 +53,7 @@ class ActivityOwner(InstanceLike, Protocol):
 class Run:
     """One run of the activity of a state.
 
-    It is `over` for the machine when its state was left or its end was looked at, and has
+    It is `over` for the machine when its state was exited or its end was processed, and has
     `ended` when its server is free again.
     """
 
@@ -68,7 +68,7 @@ class Run:
         self.ended = False
 
     def end(self, outcome: str, result: Any = None) -> None:
-        """Say how it ended: `succeeded`, `aborted` or `preempted`."""
+        """End the run; the outcome is `succeeded`, `aborted` or `preempted`."""
         if self.ended:
             return
         self.ended = True
@@ -80,9 +80,9 @@ class Run:
 
 
 class Servers:
-    """What is still stopping on the servers of a robot, and what waits for that.
+    """Queue of runs for the servers of a robot that are still stopping.
 
-    Instances that share servers, those of one robot, share this.
+    Shared by all instances of one robot.
     """
 
     __slots__ = ("_stopping", "_waiting")
@@ -92,14 +92,14 @@ class Servers:
         self._waiting: list[Run] = []
 
     def start(self, run: Run) -> None:
-        """Start a run, as soon as nothing is stopping on its server."""
+        """Start a run as soon as no other run is stopping on its server."""
         if any(other.activity.server == run.activity.server for other in self._stopping):
             self._waiting.append(run)
         else:
             run.instance.world.start(run)
 
     def cancel(self, run: Run) -> None:
-        """Stop a run whose state was left; one that only waits is forgotten."""
+        """Cancel a run whose state was exited; drop a run that only waits."""
         if run in self._waiting:
             self._waiting.remove(run)
         else:
@@ -107,7 +107,7 @@ class Servers:
             run.instance.world.cancel(run)
 
     def stopped(self, run: Run) -> None:
-        """Start what waited for the server of a run that has ended."""
+        """Start the runs that waited for the server of an ended run."""
         self._stopping.remove(run)
         waiting, self._waiting = self._waiting, []
         for other in waiting:

@@ -1,8 +1,8 @@
-"""What a machine does next, as an automaton that is built on the way.
+"""Automaton over configurations, built lazily.
 
-Which transitions an event enables, and what taking them leaves and enters, depends on the
-active states and on what the histories hold, not on an instance. Both are worked out when they
-are first needed and kept in the machine: instances go from one `Configuration` to the next.
+The transitions that an event enables, and the states that they exit and enter, depend only on the
+active states and the histories, not on the instance. Both are computed on first use and cached in
+the machine: instances go from one `Configuration` to the next.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from .step import Microstep, MicrostepBuilder, ObserverCall
 from .table import Edge, Event, InstanceLike, Machine, members
 
 _CACHE_SIZE = 20_000
-"""How many decisions a machine keeps; there are as many configurations as one likes."""
+"""Number of decisions that a machine caches; configurations are unlimited."""
 
 
 class Step:
@@ -36,9 +36,9 @@ class Step:
 
 
 class Decision:
-    """Which step an event leads to: one that is known, or one that guards decide.
+    """Step that an event leads to: a fixed one, or one that guards select.
 
-    `candidates` are the transitions to try for each active state without active children.
+    `candidates` are the transitions to try for each atomic active state.
     """
 
     __slots__ = ("candidates", "step")
@@ -48,7 +48,7 @@ class Decision:
         self.candidates = candidates
 
     def choose(self, instance: InstanceLike, event: Event) -> list[Edge]:
-        """The transitions that guards let through: for each path, the first that holds."""
+        """Return the enabled transitions: the first of each path whose guard holds."""
         enabled: list[Edge] = []
         refused: list[Edge] = []
         for path in self.candidates:
@@ -68,7 +68,7 @@ _NOTHING = Decision(None)
 
 
 class Configuration:
-    """The active states and what each history of the machine holds, sets of numbers."""
+    """Active states, and the states that each history holds, as sets of numbers."""
 
     __slots__ = ("_by_event", "_by_transitions", "active", "histories", "machine", "restless")
 
@@ -82,12 +82,12 @@ class Configuration:
 
     @property
     def ids(self) -> list[str]:
-        """The ids of the active states, in document order."""
+        """Ids of the active states, in document order."""
         return [self.machine.states[number].id for number in members(self.active)]
 
     @property
     def innermost(self) -> list[str]:
-        """The ids of the active states that have no active children."""
+        """Ids of the active states without active children."""
         return [self.machine.states[number].id for number in self._leaves()]
 
     def _leaves(self) -> list[int]:
@@ -95,12 +95,12 @@ class Configuration:
         return [n for n in members(self.active) if not machine.inside[n] & self.active]
 
     def at(self, active: int, histories: tuple[int, ...]) -> Configuration:
-        """Another configuration of the machine, one object as long as it is remembered."""
+        """Return a configuration of the machine, the same object while cached."""
         known: Configuration | None = self.machine.configurations.get((active, histories))
         return known if known is not None else Configuration(self.machine, active, histories)
 
     def decide(self, name: str) -> Decision:
-        """What an event of that name leads to; none is meant by the empty name."""
+        """Return the decision for an event name; the empty name means no event."""
         known = self._by_event.get(name)
         if known is not None:
             return known
@@ -124,7 +124,7 @@ class Configuration:
         return decision
 
     def step(self, enabled: Iterable[Edge]) -> Step:
-        """The step of some transitions that are enabled together, in order."""
+        """Return the step of transitions that are enabled together, in order."""
         key = tuple(enabled)
         known = self._by_transitions.get(key)
         if known is None:
@@ -133,7 +133,7 @@ class Configuration:
         return known
 
     def end(self) -> Step:
-        """The step that leaves all states."""
+        """Return the step that exits all states."""
         return self._lead(self._builder().leave())
 
     def _builder(self) -> MicrostepBuilder:
@@ -143,7 +143,7 @@ class Configuration:
         return Step(microstep, self.at(microstep.active, microstep.histories))
 
     def _remember(self) -> None:
-        """Keep the machine from remembering more and more: it begins again instead."""
+        """Cache this configuration; clear the cache when it is full."""
         machine = self.machine
         machine.cached += 1
         if machine.cached > _CACHE_SIZE:
@@ -156,5 +156,5 @@ class Configuration:
 
 
 def before_start(machine: Machine) -> Configuration:
-    """The configuration in which nothing is active yet."""
+    """Return the configuration without active states."""
     return Configuration(machine, 0, machine.blank).at(0, machine.blank)

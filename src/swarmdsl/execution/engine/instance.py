@@ -1,4 +1,4 @@
-"""A running state machine: SCXML 1.0, Appendix D, from event to event."""
+"""Interpreter of a state machine: SCXML 1.0, Appendix D."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from .configuration import Configuration, Step, before_start
 from .table import Effect, Event, Guard, Machine, Origin
 from .world import FAILURES, LoopError, Observer, World
 
-_LOOKED_AT = 100
-"""How many of the last steps say which states a loop goes through."""
+_LOOP_STEPS = 100
+"""Number of last steps that are searched for the states of a loop."""
 
 
 class Instance:
-    """One machine that runs in a world.
+    """A machine that runs in a world.
 
-    `start` it once, then let it `receive` events: each is run to its end before that returns.
-    `final` is the id of the final state in which the machine ended, if it has.
+    Call `start` once, then `receive` for each event, which is processed to completion before the
+    call returns. `final` is the id of the final state in which the machine ended.
 
-    `data` is what guards and effects work with, `observer` may be set at any time. Instances
-    of one robot share `servers`.
+    Guards and effects use `data`; `observer` may be set at any time. Instances of one robot share
+    `servers`.
     """
 
     __slots__ = (
@@ -60,7 +60,7 @@ class Instance:
         self.running = False
         self.final: str | None = None
         self._busy = False
-        # The states that are active in the middle of a step.
+        # Active states during a step.
         self._during: int | None = None
         self._external: deque[Event] | None = None
         self._internal: deque[Event] | None = None
@@ -68,12 +68,12 @@ class Instance:
         self._runs: dict[int, Run] | None = None
         self._timers: list[Timer] | None = None
 
-    # ---- what a host calls
+    # ---- called by a host
 
     def start(self) -> None:
-        """Enter the machine. Raises LoopError where it does not come to rest."""
+        """Enter the machine; raise LoopError if it does not reach a stable configuration."""
         if self.running or self.final is not None:
-            raise RuntimeError(f"an instance of `{self.machine.name}` is started once")
+            raise RuntimeError(f"an instance of `{self.machine.name}` can only be started once")
         self.running = self._busy = True
         try:
             event = Event("")
@@ -89,10 +89,10 @@ class Instance:
             self._during = None
 
     def receive(self, event: Event) -> None:
-        """Run an event from outside to its end; in the middle of another one, after that.
+        """Process an event from outside; during another one, queue it.
 
-        It is lost before the start and after the end. Raises LoopError where the machine does
-        not come to rest, which ends it.
+        Ignored before the start and after the end. Raises LoopError if the machine does not reach
+        a stable configuration, which ends it.
         """
         if self._busy:
             if self._external is None:
@@ -109,27 +109,27 @@ class Instance:
                 self._during = None
 
     def stop(self) -> None:
-        """End the machine: leave all states, cancel what they have going on."""
+        """End the machine: exit all states, cancel delays and activities."""
         if self.running:
             self.running = False
             if not self._busy:
                 self._end(Event(""))
 
-    # ---- what guards and effects call
+    # ---- called by guards and effects
 
     def active(self, state: str) -> bool:
-        """Whether a state is active: `In` of SCXML."""
+        """Return True if a state is active: `In` of SCXML."""
         active = self.configuration.active if self._during is None else self._during
         return bool(active >> self.machine.numbers[state] & 1)
 
     def raise_event(self, event: Event) -> None:
-        """Put an event in the internal queue: it comes before any from outside."""
+        """Append an event to the internal queue, which precedes events from outside."""
         if self._internal is None:
             self._internal = deque()
         self._internal.append(event)
 
     def send_after(self, event: Event, delay: int, id_: str = "") -> None:
-        """Send an event to this instance in so many nanoseconds, unless it is cancelled."""
+        """Send an event to this instance after a delay in nanoseconds."""
         timer = Timer(self, event, id_)
         if self._timers is None:
             self._timers = []
@@ -140,23 +140,23 @@ class Instance:
             self.receive(timer.event)
 
     def cancel(self, id_: str) -> None:
-        """Cancel the delayed events with that id."""
+        """Cancel the delayed events with an id."""
         for timer in [each for each in self._timers or () if each.id == id_]:
             self._unschedule(timer)
 
     def fail(self, error: Exception) -> None:
-        """Say that something had no value, to the world and as `error.execution`."""
+        """Report an error to the world and raise `error.execution`."""
         self.world.failed(self, error)
         self.raise_event(Event("error.execution", str(error)))
 
     def emit(self, event: Event) -> None:
-        """Send an event to others."""
+        """Send an event to the world."""
         if self.observer is not None:
             self.observer.sent(self, event)
         self.world.send(self, event)
 
     def stop_activity(self, state: int) -> None:
-        """Cancel the activity of a state that is left."""
+        """Cancel the activity of an exited state."""
         if self._pending and state in self._pending:
             self._pending.remove(state)
         run = self._runs.pop(state, None) if self._runs is not None else None
@@ -171,7 +171,7 @@ class Instance:
     # ---- the algorithm
 
     def _run(self, event: Event) -> None:
-        """The macrostep of an event from outside."""
+        """Run the macrostep of an event from outside."""
         if event.origin is not None and not self._accept(event.origin, event):
             return
         step = self._select(event.name, event)
@@ -184,12 +184,12 @@ class Instance:
         self._settle(event)
 
     def _settle(self, event: Event) -> None:
-        """Take steps that need no event, or an internal one, until there is none."""
+        """Take steps without an event or with an internal one, until none is enabled."""
         steps = 0
         passed: list[Configuration] = []
         while self.running:
             steps += 1
-            if steps > self.machine.limit - _LOOKED_AT:
+            if steps > self.machine.limit - _LOOP_STEPS:
                 passed.append(self.configuration)
                 if steps > self.machine.limit:
                     self._give_up(passed)
@@ -207,7 +207,7 @@ class Instance:
         self._end(event)
 
     def _select(self, name: str, event: Event) -> Step | None:
-        """selectTransitions: the step that an event leads to, or no event."""
+        """selectTransitions: return the step that an event, or no event, enables."""
         if self.observer is not None and name:
             self.observer.received(self, event)
         decision = self.configuration.decide(name)
@@ -217,7 +217,7 @@ class Instance:
         return self.configuration.step(enabled) if enabled else None
 
     def holds(self, guard: Guard, event: Event) -> bool:
-        """Whether a guard holds; one that has no value does not."""
+        """Return True if a guard holds; False if it fails."""
         try:
             return bool(guard(self, event))
         except FAILURES as error:
@@ -225,7 +225,7 @@ class Instance:
             return False
 
     def _take(self, step: Step, event: Event) -> None:
-        """microstep: what is done on the way, then the configuration it leads to."""
+        """microstep: execute the program, then enter the next configuration."""
         program = step.program if self.observer is None else step.traced
         if program:
             for active, operation in program:
@@ -249,7 +249,7 @@ class Instance:
             self.fail(error)
 
     def _accept(self, origin: Origin, event: Event) -> bool:
-        """Whether an event of this instance itself still counts: its state was not left."""
+        """Return True if an event of this instance is still valid: its state is active."""
         if origin.over:
             return False
         origin.over = True
@@ -265,7 +265,7 @@ class Instance:
         return True
 
     def _start_activities(self) -> None:
-        """Start the activities of the states in which the machine has come to rest."""
+        """Start the activities of the states entered in this macrostep."""
         pending, self._pending = sorted(self._pending or ()), None
         if self.servers is None:
             self.servers = Servers()
@@ -286,14 +286,14 @@ class Instance:
             self.servers.start(run)
 
     def _receive_waiting(self) -> None:
-        """Run the events that came in the middle of another, such as those of no delay."""
+        """Process the events received during another one, such as delays of zero."""
         events = 0
         passed: list[Configuration] = []
         while self._external:
             event = self._external.popleft()
             if self.running:
                 events += 1
-                if events > self.machine.limit - _LOOKED_AT:
+                if events > self.machine.limit - _LOOP_STEPS:
                     passed.append(self.configuration)
                     if events > self.machine.limit:
                         self._give_up(passed)
@@ -308,18 +308,18 @@ class Instance:
             self.world.unschedule(timer.handle)
 
     def _end(self, event: Event) -> None:
-        """The procedure exitInterpreter."""
+        """Procedure exitInterpreter."""
         self._take(self.configuration.end(), event)
         self._forget()
 
     def _forget(self) -> None:
-        """Keep nothing that could happen to a machine that has ended."""
+        """Drop all pending events of an ended machine."""
         for timer in list(self._timers or ()):
             self._unschedule(timer)
         self._internal = self._external = self._pending = None
 
     def _give_up(self, passed: list[Configuration]) -> None:
-        """Stop a machine that does not come to rest, without the effects of leaving states."""
+        """End a machine in an endless loop, without the exit effects."""
         self.running = False
         for state in list(self._runs or ()):
             self.stop_activity(state)

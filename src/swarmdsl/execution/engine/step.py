@@ -1,4 +1,4 @@
-"""What taking transitions does: the algorithm of SCXML 1.0, Appendix D, on sets of states."""
+"""Compute microsteps: SCXML 1.0, Appendix D, on sets of states."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from .world import FAILURES
 
 
 class Executor(InstanceLike, Protocol):
-    """An instance as operations of a microstep see it."""
+    """An instance, for the operations of a microstep."""
 
     def stop_activity(self, state: int) -> None:
-        """Cancel the activity of a state that is left."""
+        """Cancel the activity of an exited state."""
 
 
 Operation = Callable[[Executor, Event], object]
@@ -55,7 +55,7 @@ class MicrostepBuilder:
         for edge in transitions:
             left |= self._exit_set(edge)
         self._record(left)
-        # A transition from a state to a history in it leads back to where it came from.
+        # A transition from a state to a history in it returns to the state's old content.
         for edge in transitions:
             for entered in edge.targets:
                 self._add_descendants(entered)
@@ -85,12 +85,12 @@ class MicrostepBuilder:
         return Microstep(active, histories, tuple(program), tuple(starts), final)
 
     def leave(self) -> Microstep:
-        """Compute the exit of all states, when the machine ends."""
+        """Compute the exit of all states at the end of the machine."""
         program = self._exit_program(self.active)
         return Microstep(0, self.histories, tuple(program), (), 0)
 
     def _without_conflicts(self, enabled: tuple[Edge, ...]) -> list[Edge]:
-        """removeConflictingTransitions: of two that leave the same state, one is taken."""
+        """removeConflictingTransitions: keep one of two that exit the same state."""
         if len(enabled) == 1:
             return list(enabled)
         kept: list[Edge] = []
@@ -108,7 +108,7 @@ class MicrostepBuilder:
         return self.active & self.machine.inside[self._domain(edge)]
 
     def _domain(self, edge: Edge) -> int:
-        """getTransitionDomain: the state inside of which a transition stays."""
+        """getTransitionDomain: the state that a transition does not exit."""
         machine = self.machine
         targets = self._effective_targets(edge)
         around = [*machine.ancestors(edge.source), 0]
@@ -123,7 +123,7 @@ class MicrostepBuilder:
         return 0
 
     def _effective_targets(self, edge: Edge) -> list[int]:
-        """getEffectiveTargetStates: histories replaced by what they lead to."""
+        """getEffectiveTargetStates: replace histories by their states."""
         found: list[int] = []
         for target in edge.targets:
             if target not in self.held:
@@ -137,7 +137,7 @@ class MicrostepBuilder:
         return found
 
     def _add_descendants(self, number: int) -> None:
-        """The procedure addDescendantStatesToEnter."""
+        """Procedure addDescendantStatesToEnter."""
         machine = self.machine
         if number in self.held:
             around = machine.parents[number]
@@ -166,7 +166,7 @@ class MicrostepBuilder:
             self._add_ancestors(target, around)
 
     def _add_ancestors(self, number: int, around: int) -> None:
-        """The procedure addAncestorStatesToEnter."""
+        """Procedure addAncestorStatesToEnter."""
         for ancestor in self.machine.ancestors(number):
             if ancestor == around:
                 return
@@ -201,7 +201,7 @@ class MicrostepBuilder:
         return operations
 
     def _done(self, number: int, state: State, active: int) -> list[Operation]:
-        """The events that a final state completes the states around it with."""
+        """Return the `done.state` operations of an entered final state."""
         machine = self.machine
         parent = machine.parents[number]
         if parent == 0:
@@ -213,7 +213,7 @@ class MicrostepBuilder:
         return completed
 
     def _is_final(self, number: int, active: int) -> bool:
-        """The procedure isInFinalState."""
+        """Procedure isInFinalState."""
         machine = self.machine
         children = machine.children[number]
         if machine.states[number].kind is Kind.PARALLEL:
@@ -223,7 +223,7 @@ class MicrostepBuilder:
         )
 
     def _record(self, left: int) -> None:
-        """Let the histories of the states that are left hold what was active there."""
+        """Record the active states in the histories of the exited states."""
         machine, active = self.machine, self.active
         for history in self.held:
             around = machine.parents[history]
@@ -237,7 +237,7 @@ class MicrostepBuilder:
 
 
 class ObserverCall:
-    """Operation that calls a method of the observer."""
+    """Operation that notifies the observer."""
 
     __slots__ = ("call", "what")
 
@@ -246,12 +246,12 @@ class ObserverCall:
         self.what = what
 
     def __call__(self, instance: Executor, event: Event) -> None:
-        """Call it."""
+        """Call the method of the observer."""
         getattr(instance.observer, self.call)(instance, self.what)
 
 
 class _Stop:
-    """Cancels the activity of a state that is left."""
+    """Operation that cancels the activity of an exited state."""
 
     __slots__ = ("number",)
 
@@ -263,7 +263,7 @@ class _Stop:
 
 
 class _Done:
-    """Raises `done.state`, without data where these have no value (5.7)."""
+    """Operation that raises `done.state`; without data if these fail (5.7)."""
 
     __slots__ = ("final", "name")
 

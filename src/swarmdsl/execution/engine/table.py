@@ -1,7 +1,7 @@
-"""State machines as plain data: what the engine runs.
+"""State machine tables: the plain data that the engine runs.
 
-A `Machine` is made of `State`s and `Transition`s, in the vocabulary of SCXML 1.0, and shared by
-all its instances. What is done (guards, effects) are callables in it.
+A `Machine` has `State`s and `Transition`s, as in SCXML 1.0, and is shared by all its instances.
+Guards and effects are callables in it.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import Any, Callable, NamedTuple, Protocol  # noqa: UP035 - for Pyth
 
 
 class Origin(Protocol):
-    """A delay or a run of an activity that sends an event to its own instance."""
+    """Delay or activity run that sends an event to its own instance."""
 
     over: bool
 
 
 class Event:
-    """Name and data of something that happened; immutable.
+    """Event with its name and data; immutable.
 
     `origin` is the delay or activity of the instance that sent the event, if any.
     """
@@ -102,11 +102,11 @@ class Logger(Protocol):
 
 Guard = Callable[[InstanceLike, Event], Any]
 Effect = Callable[[InstanceLike, Event], object]
-"""Executable content, done as a whole: where it fails, the rest of it is not done."""
+"""Executable content as a unit: an error skips the rest of it."""
 
 
 class Kind(Enum):
-    """What a state is. Which of the first two it is does not matter where it has no children."""
+    """Kind of a state; STATE and PARALLEL are the same without children."""
 
     STATE = "state"
     PARALLEL = "parallel"
@@ -116,10 +116,10 @@ class Kind(Enum):
 
 
 class Transition(NamedTuple):
-    """From the state that holds it to `targets`, ids; it leads nowhere without them.
+    """Transition to the states with the ids `targets`; targetless without them.
 
-    `events` are names of events, any of which triggers it: `a.b` itself, `a.b.*` also all that
-    begin with `a.b.`, `*` all there are. Without events it is eventless.
+    Each of `events` triggers it: `a.b` is an exact name, `a.b.*` a prefix, `*` any event. Without
+    events it is eventless.
     """
 
     events: tuple[str, ...] = ()
@@ -128,19 +128,18 @@ class Transition(NamedTuple):
     effect: Effect | None = None
     internal: bool = False
     origin: object = None
-    """Where it comes from, for a person who reads a trace."""
+    """Source of the transition, for traces."""
     around: int | None = None
-    """What a region does for the parallel state around it: which transition of that one it is."""
+    """Index of the transition of the parallel parent that a region implements."""
 
 
 @dataclass(frozen=True, eq=False)
 class Activity:
-    """What a state does while it is active, on a server outside of the machine.
+    """Activity of an active state, on a server outside of the machine.
 
-    `goal` makes the arguments when it starts. `finalize` sees the event of its success before
-    any transition does: it stores the result. `events` are its outcomes and the names of the
-    events that they are. `refused` is its outcome where a service responds, in a field `success`,
-    that it has not done what was asked for.
+    `goal` creates the goal at the start. `finalize` processes the event of success before any
+    transition is selected: it stores the result. `events` maps outcomes to event names. `refused`
+    is the outcome if a service responds with a false field `success`.
     """
 
     name: str
@@ -152,11 +151,11 @@ class Activity:
 
 
 class State(NamedTuple):
-    """A state and what is inside it.
+    """State with its content.
 
-    `initial` leads to what is entered with a state that has children: ids, or a transition with
-    an effect of its own; the first child where there is none. A history has one transition, to
-    its default. `donedata` makes the data of the event of a final state.
+    `initial` has the ids to enter by default in a compound state, or is a transition with an
+    effect; the first child by default. A history has one transition, to its default. `donedata`
+    creates the data of the `done.state` event of a final state.
     """
 
     id: str
@@ -172,7 +171,7 @@ class State(NamedTuple):
 
 
 class TableError(ValueError):
-    """A table that is no state machine; `id` is the state that is wrong."""
+    """Invalid table; `id` is the invalid state."""
 
     def __init__(self, message: str, state: str) -> None:
         super().__init__(message)
@@ -180,7 +179,7 @@ class TableError(ValueError):
 
 
 class Edge:
-    """A transition with its states as numbers."""
+    """Transition with states as numbers."""
 
     __slots__ = ("events", "guard", "source", "table", "targets")
 
@@ -192,7 +191,7 @@ class Edge:
         self.events = table.events
 
     def matches(self, name: str) -> bool:
-        """Whether an event of that name triggers it; the empty name stands for no event."""
+        """Return True if an event name triggers it; the empty name means no event."""
         if not name or not self.events:
             return not name and not self.events
         return name in self.events or any(
@@ -201,15 +200,15 @@ class Edge:
 
 
 class Machine:
-    """A state machine, to be run by any number of instances.
+    """State machine, shared by any number of instances.
 
-    States have numbers in document order, 0 is the machine itself; a set of states is a whole
-    number, with the bit of each. `data` makes the data that an instance begins with, `setup` is
-    done with them when it is started.
+    States are numbered in document order, 0 is the machine itself; a set of states is an int with
+    one bit per state. `data` creates the initial data of an instance, `setup` initializes them at
+    the start.
 
-    `limit` is how many steps may follow from one event before it counts as a loop.
+    `limit` is the number of steps per event that counts as an endless loop.
 
-    Raises TableError where the states are no state machine.
+    Raises TableError for invalid states.
     """
 
     def __init__(
@@ -230,29 +229,29 @@ class Machine:
         self.states: list[State] = []
         self.parents: list[int] = []
         self.inside: list[int] = []
-        """All states inside each one."""
+        """Descendants of each state."""
         self.children: list[list[int]] = []
         self.histories: list[list[int]] = []
         self.numbers: dict[str, int] = {}
         self._add(root, 0)
         self.entries: list[Edge | None] = [None] * len(self.states)
-        """The initial transition of each state with children, the default one of each history."""
+        """Initial transition of each compound state, default transition of each history."""
         self.edges: list[tuple[Edge, ...]] = [()] * len(self.states)
         self.eventless = 0
-        """The states with a transition that waits for no event."""
+        """States with an eventless transition."""
         for number, state in enumerate(self.states):
             self._link(number, state)
         self.blank = (0,) * sum(map(len, self.histories))
-        """What the histories of an instance hold at first: nothing."""
+        """Initial content of the histories."""
         self.configurations: dict[tuple[int, tuple[int, ...]], Any] = {}
         """Cache of `configuration.Configuration`, by active states and histories."""
         self.cached = 0
-        """Number of decisions and steps in the cache."""
+        """Number of cached decisions and steps."""
 
     def _add(self, state: State, parent: int) -> None:
         number = len(self.states)
         if state.id in self.numbers:
-            raise TableError(f"two states are called `{state.id}`", state.id)
+            raise TableError(f"duplicate state `{state.id}`", state.id)
         self.numbers[state.id] = number
         self.states.append(state)
         self.parents.append(parent)
@@ -271,7 +270,7 @@ class Machine:
     def _link(self, number: int, state: State) -> None:
         if state.kind in (Kind.HISTORY, Kind.DEEP_HISTORY):
             if len(state.transitions) != 1:
-                raise TableError(f"history `{state.id}` needs one transition", state.id)
+                raise TableError(f"history `{state.id}` must have one transition", state.id)
             self.entries[number] = self._edge(self.parents[number], state.transitions[0], state)
             return
         if state.transitions:
@@ -292,15 +291,15 @@ class Machine:
         try:
             targets = tuple(map(self.numbers.__getitem__, transition.targets))
         except KeyError as missing:
-            raise TableError(f"there is no state `{missing.args[0]}`", state.id) from None
+            raise TableError(f"unknown state `{missing.args[0]}`", state.id) from None
         if len(targets) > 1 and not self.compatible(targets):
             names = " and ".join(f"`{target}`" for target in transition.targets)
             raise TableError(f"{names} cannot be active together", state.id)
         return Edge(source, targets, transition)
 
     def compatible(self, targets: Sequence[int]) -> bool:
-        """Whether states can be entered together: each two are in regions side by side."""
-        # A history stands for what it leads to, which is anywhere in the state around it.
+        """Return True if states can be active together: they are in orthogonal regions."""
+        # A history stands for states anywhere inside its parent.
         entered = [
             self.parents[each]
             if self.states[each].kind in (Kind.HISTORY, Kind.DEEP_HISTORY)
@@ -316,7 +315,7 @@ class Machine:
         return self.states[meeting].kind is Kind.PARALLEL
 
     def called(self, transition: Transition) -> str:
-        """What a trace calls a transition: `A.B->0` is the first of state `A.B`."""
+        """Return the trace name of a transition: `A.B->0` is the first one of state `A.B`."""
         return self._called[id(transition)]
 
     @cached_property
@@ -329,7 +328,7 @@ class Machine:
         return called
 
     def ancestors(self, number: int) -> Iterator[int]:
-        """The states around one, from the inside out, the machine itself left out."""
+        """Yield the ancestors of a state, innermost first, without the machine itself."""
         number = self.parents[number]
         while number:
             yield number
@@ -337,7 +336,7 @@ class Machine:
 
 
 def members(states: int) -> list[int]:
-    """The numbers in a set of states, in document order."""
+    """Return the numbers in a set of states, in document order."""
     found = []
     while states:
         lowest = states & -states

@@ -1,4 +1,4 @@
-"""What is around an instance: the world that it acts on, and who watches it."""
+"""Environment of an instance: its world and its observer."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from .table import Event, InstanceLike, State, Transition
 
 
 class ExecutionError(Exception):
-    """A guard or an effect has no value; the machine goes on, with the event `error.execution`."""
+    """Error in a guard or effect; the machine continues with `error.execution`."""
 
 
 FAILURES = (ExecutionError, ArithmeticError, ValueError)
-"""What a guard or an effect may raise; anything else is a mistake in it."""
+"""Errors that guards and effects may raise; any other is a bug in them."""
 
 
 _RANGES = {
@@ -22,78 +22,77 @@ _RANGES = {
     for bits in (8, 16, 32, 64)
 }
 
-LONGEST_TEXT = 1_000_000
-"""How many characters an expression may put together."""
+MAX_STRING_LENGTH = 1_000_000
+"""Maximum length of strings in expressions."""
 
 
 def bounded(value: Any, type_: str) -> Any:
-    """Return a whole number or a text that the type can hold.
+    """Return an integer or string if it is in the range of the type.
 
-    Raises ExecutionError for one that it cannot: a model that multiplies in a circle would make
-    ever longer ones.
+    Otherwise raises ExecutionError: repeated multiplication would yield ever larger values.
     """
     if isinstance(value, str):
-        if len(value) > LONGEST_TEXT:
-            raise ExecutionError(f"a text of {len(value)} characters is too long")
+        if len(value) > MAX_STRING_LENGTH:
+            raise ExecutionError(f"a string of {len(value)} characters is too long")
         return value
     lowest, greatest = _RANGES[type_]
     if isinstance(value, int) and not lowest <= value <= greatest:
-        raise ExecutionError(f"{value} is no {type_}")
+        raise ExecutionError(f"{value} is out of range of {type_}")
     return value
 
 
 class LoopError(Exception):
-    """One event led to more and more steps; `states` are those of the last ones."""
+    """An event leads to an endless loop; `states` are those of the last steps."""
 
     def __init__(self, machine: str, states: list[str]) -> None:
         names = ", ".join(f"`{state}`" for state in states)
-        super().__init__(f"machine `{machine}` does not come to rest: it goes round in {names}")
+        super().__init__(f"machine `{machine}` does not come to rest: it loops through {names}")
         self.states = states
 
 
 class World(ActivityHost, Protocol):
-    """The clock, the servers of the activities, and those who hear of events.
+    """Clock, servers of activities, and receivers of events.
 
-    An instance calls these in the middle of a step. What happens in them may reach the same
-    instance at once (`receive`, `Run.end`): it is looked at after the step.
+    An instance calls these during a step. They may call `receive` or `Run.end` of the same
+    instance, which take effect after the step.
     """
 
     def schedule(self, delay: int, action: Callable[[], None]) -> Any:
-        """Call `action` once, in so many nanoseconds; return what `unschedule` takes."""
+        """Call `action` after a delay in nanoseconds; return a handle for `unschedule`."""
 
     def unschedule(self, handle: Any) -> None:
-        """Do not call it any more."""
+        """Cancel a scheduled call."""
 
     def send(self, instance: InstanceLike, event: Event) -> None:
-        """Bring an event of the instance to others."""
+        """Deliver an event of the instance to others."""
 
     def failed(self, instance: InstanceLike, error: Exception) -> None:
-        """Say that a guard, an effect or a goal had no value: an event alone may be lost."""
+        """Report a failed guard, effect or goal: the event alone may be ignored."""
 
 
 class Observer:
-    """Is told what an instance does, in order; a trace extends it."""
+    """Receives the actions of an instance, in order; base class of traces."""
 
     def received(self, instance: InstanceLike, event: Event) -> None:
-        """An event is looked at."""
+        """Handle an event that is about to be processed."""
 
     def exited(self, instance: InstanceLike, state: State) -> None:
-        """A state has been left."""
+        """Handle the exit of a state."""
 
     def taken(self, instance: InstanceLike, transition: Transition) -> None:
-        """A transition is taken: the states have been left, its effect comes next."""
+        """Handle a transition, after the exits and before its effect."""
 
     def entered(self, instance: InstanceLike, state: State) -> None:
-        """A state has been entered; its effects come next."""
+        """Handle the entry of a state, before its entry effects."""
 
     def started(self, instance: InstanceLike, run: Run) -> None:
-        """An activity was started, or waits for its server."""
+        """Handle an activity that was started or waits for its server."""
 
     def cancelled(self, instance: InstanceLike, run: Run) -> None:
-        """The state of an activity that had not ended was left."""
+        """Handle the exit of a state with a running activity."""
 
     def sent(self, instance: InstanceLike, event: Event) -> None:
-        """An event was sent to others."""
+        """Handle an event that was sent to others."""
 
     def logged(self, instance: InstanceLike, text: str) -> None:
-        """An effect has written a line."""
+        """Handle a line that an effect has written."""

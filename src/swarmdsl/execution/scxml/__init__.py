@@ -1,7 +1,7 @@
-"""SCXML documents for the engine: what `swarmdsl.execution.engine` runs, from a file.
+"""Read SCXML documents as machines of the engine.
 
-Control flow is read wholly, data as far as they are numbers, texts, truth values, and lists and
-objects of these. What is not understood is reported at its place.
+Control flow is supported completely; data are numbers, strings, booleans, and lists and objects of
+these. Unsupported content is reported with its span.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from swarmdsl.execution.scxml.vocabulary import check
 
 
 def read(source: Source, report: Diagnostics) -> Machine | None:
-    """The machine of a document; None when something is wrong with it, which has been reported."""
+    """Read the machine of a document; None if it has errors, which are reported."""
     found = Diagnostics()
     document = parse(source, found)
     made = None

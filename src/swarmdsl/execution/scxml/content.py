@@ -1,4 +1,4 @@
-"""Executable content of SCXML as effects, and the data that events carry."""
+"""Executable content of SCXML as effects, and the data of events."""
 
 from __future__ import annotations
 
@@ -17,40 +17,40 @@ from swarmdsl.execution.scxml.values import text, truth
 _DELAY = re.compile(r"\s*\+?([0-9]+(?:\.[0-9]+)?|\.[0-9]+)(ms|s|m|min|h|d)\s*")
 _UNITS = {"ms": 10**6, "s": 10**9, "m": 60 * 10**9, "min": 60 * 10**9, "h": 3600 * 10**9}
 _UNITS["d"] = 24 * _UNITS["h"]
-# What <send> may say for the machine itself, and for its internal queue.
+# Targets and types of <send> that mean the machine itself.
 _HERE = ("", "#_scxml", "http://www.w3.org/TR/scxml/#SCXMLEventProcessor", "scxml")
 
 Data = Callable[[InstanceLike, Event], Any]
 
 
 def delay_of(written: str) -> int | None:
-    """A delay as in CSS (`1.5s`, `200ms`) in nanoseconds; None for anything else."""
+    """Convert a CSS duration (`1.5s`, `200ms`) to nanoseconds; None if invalid."""
     found = _DELAY.fullmatch(written)
     return round(Decimal(found[1]) * _UNITS[found[2]]) if found is not None else None
 
 
 class Content:
-    """Makes effects of the elements of a document, and reports what cannot be read."""
+    """Create effects from the elements of a document, and report invalid ones."""
 
     def __init__(self, document: Document, report: Diagnostics) -> None:
         self.document = document
         self.report = report
 
     def block(self, node: Node) -> Effect | None:
-        """What the elements inside of one do, in order, until one fails."""
+        """Return an effect that executes child elements in order, until one fails."""
         if not node.children:
             return None
         return _all_of([self._effect(child) for child in node.children])
 
     def guard(self, node: Node) -> Guard | None:
-        """The condition of an element."""
+        """Return the condition of an element."""
         value = self.expression(node, "cond")
         if value is None:
             return None
         return lambda instance, event: truth(value(instance, event, {}))
 
     def expression(self, node: Node, attribute: str) -> Value | None:
-        """The value of an attribute that is an expression; None where there is none."""
+        """Return the expression in an attribute; None if it is missing."""
         written = node.get(attribute)
         if written is None:
             return None
@@ -63,10 +63,10 @@ class Content:
             return None
 
     def data(self, node: Node) -> Data | None:
-        """What the `<param>`s, the `<content>` or the names of an element give an event.
+        """Return event data from `<param>`s, `<content>` or a name list.
 
-        Where a param has no value, a `<send>` is not sent (6.2), but a `<donedata>` only goes
-        without that param (5.7).
+        If a param has no value, a `<send>` is not executed (6.2), but a `<donedata>` only omits
+        that param (5.7).
         """
         fields: list[tuple[str, Value]] = []
         for name in (node.get("namelist") or "").split():
@@ -85,7 +85,7 @@ class Content:
         return lambda instance, event: {key: v(instance, event, {}) for key, v in fields}
 
     def value(self, node: Node) -> Value:
-        """What `expr` says, or else the text of the element: an expression, or just a text."""
+        """Return the value of `expr`, or else of the content: an expression or a string."""
         if node.get("expr") is not None:
             return self.expression(node, "expr") or nothing
         written = node.text.strip()
@@ -197,7 +197,7 @@ class Content:
             length = delay_of(written)
             if length is None:
                 place = self.document.at(node, "delay")
-                values = "a number with `s` or `ms` behind it"
+                values = "a number followed by `s` or `ms`"
                 self.report.report("bad-value", place, name="delay", values=values)
                 return None
             return lambda instance, event: length
@@ -215,7 +215,7 @@ class Content:
         return computed
 
     def _text(self, node: Node, attribute: str) -> Callable[[InstanceLike, Event], str]:
-        """A text that is given by an attribute, or computed by the one with `expr` behind."""
+        """Return the string in an attribute, or in the one with the suffix `expr`."""
         written = node.get(attribute) or ""
         value = self.expression(node, f"{attribute}expr")
         if value is None:
@@ -224,7 +224,7 @@ class Content:
 
 
 def _with_value(fields: list[tuple[str, Value]]) -> Data:
-    """Those of the fields that have a value."""
+    """Return data of the fields that have a value."""
 
     def data(instance: InstanceLike, event: Event) -> Any:
         found = {}
@@ -239,7 +239,7 @@ def _with_value(fields: list[tuple[str, Value]]) -> Data:
 
 
 def nothing(instance: InstanceLike, event: Event, names: object) -> None:
-    """The value where none is given."""
+    """Value of a missing expression."""
 
 
 def _all_of(effects: Iterable[Effect | None]) -> Effect | None:

@@ -1,4 +1,4 @@
-"""SCXML files to elements that know their places; nothing outside of the text is ever read."""
+"""Parse SCXML files into elements with spans; never read other files."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _DEEPEST = 250
 
 
 class Node:
-    """An element: its name and attributes without the namespace of SCXML, and what is in it.
+    """Element without the SCXML namespace in its name and attributes.
 
-    `children` are those of SCXML and `ours` those of swarmdsl, once the vocabulary has been
-    checked. Attributes in other namespaces are left out. `comment` is what stands before it.
+    `children` are SCXML elements and `ours` those of swarmdsl, after the vocabulary check.
+    Attributes in other namespaces are dropped. `comment` is the preceding comment.
     """
 
     __slots__ = (
@@ -55,16 +55,16 @@ class Node:
 
 
 class Document:
-    """A file and its outermost element."""
+    """A file and its root element."""
 
     def __init__(self, source: Source, root: Node) -> None:
         self.source = source
         self.root = root
-        # Where characters end that have more than one byte.
+        # Ends of multi-byte characters.
         self.wide = [] if source.text.isascii() else list(_wide(source.text))
 
     def at(self, node: Node, attribute: str = "", word: str = "") -> Span:
-        """The name of an element, or the value of its attribute, or a word of that."""
+        """Return the span of an element name, attribute value or word in the value."""
         text = self.source.text
         start = node.start - bisect_right(self.wide, node.start) + 1
         named = _NAME.match(text, start)
@@ -83,19 +83,17 @@ class Document:
 def parse(
     source: Source, report: Diagnostics, namespaces: Collection[str] = (SCXML,)
 ) -> Document | None:
-    """Parse a file; None when it is no SCXML, which has been reported then.
+    """Parse a file; None if it is not SCXML, which is reported.
 
-    The outermost element is in one of the namespaces; "" stands for none.
-
-    A document type could define entities, which grow beyond all bounds or stand for other
-    files: there must be none.
+    The root element must be in one of the namespaces; "" stands for none. A document type is an
+    error, because its entities could grow without limit or read other files.
     """
     builder = _Builder()
     parser = builder.parser
     try:
         parser.Parse(source.text.encode("utf-8"), True)
     except _DocumentType:
-        # Comments before it may speak of document types, but nothing comes between.
+        # Comments before it may mention document types, but nothing is in between.
         end = _characters(source.text, builder.reached) + len(_DOCTYPE)
         start = source.text.rfind(_DOCTYPE, 0, end)
         place = Span(source, start, start + len(_DOCTYPE))
@@ -103,7 +101,7 @@ def parse(
         return None
     except _TooDeep:
         start = _characters(source.text, builder.reached)
-        reason = f"more than {_DEEPEST} elements stand in each other"
+        reason = f"elements are nested more than {_DEEPEST} levels deep"
         report.report("not-xml", Span(source, start, start + 1), reason=reason)
         return None
     except expat.ExpatError as error:
@@ -127,15 +125,15 @@ def parse(
 
 
 class _DocumentType(Exception):  # noqa: N818 - it only ends the parser
-    """There is a document type."""
+    """A document type was found."""
 
 
 class _TooDeep(Exception):  # noqa: N818 - it only ends the parser
-    """Elements stand in each other without end."""
+    """The elements are nested too deeply."""
 
 
 class _Builder:
-    """Builds the nodes of one file."""
+    """Builder of the nodes of a file."""
 
     def __init__(self) -> None:
         self.root: Node | None = None
@@ -188,7 +186,7 @@ class _Builder:
 
 
 def _without_namespace(attributes: dict[str, str]) -> dict[str, str]:
-    """Those of SCXML, by their names."""
+    """Return the SCXML attributes by local name."""
     return {
         name.rpartition("}")[2]: value
         for name, value in attributes.items()
@@ -197,7 +195,7 @@ def _without_namespace(attributes: dict[str, str]) -> dict[str, str]:
 
 
 def _wide(text: str) -> Iterator[int]:
-    """The offset behind each character of more than one byte, once for each byte more."""
+    """Yield the end of each multi-byte character, once per extra byte."""
     offset = 0
     for found in _NOT_ASCII.finditer(text):
         more = len(found[0].encode("utf-8")) - 1
@@ -207,5 +205,5 @@ def _wide(text: str) -> Iterator[int]:
 
 
 def _characters(text: str, offset: int) -> int:
-    """An offset in the bytes of a text as one in its characters."""
+    """Convert a byte offset to a character offset."""
     return offset if text.isascii() else len(text.encode("utf-8")[:offset].decode("utf-8"))

@@ -1,8 +1,8 @@
-"""Expressions of ECMAScript, as far as conditions and values of ordinary documents go.
+"""ECMAScript subset for conditions and values of ordinary documents.
 
-Operators, members, texts, lists, objects, the functions of `Math` that give whole numbers from
-whole numbers and the like, `In`, `_event`, and copies by way of `JSON`. Nothing is ever
-evaluated as code: an expression becomes functions of Python.
+Operators, members, strings, lists, objects, integer functions of `Math` and the like, `In`,
+`_event`, and copies with `JSON`. Nothing is evaluated as code: an expression is compiled to Python
+functions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from swarmdsl.execution.scxml.values import FUNCTIONS, OPERATIONS, SIGNS, text, 
 
 Names = Mapping[str, Any]
 Value = Callable[[InstanceLike, Event, Names], Any]
-"""The value of an expression; the names are parameters of the functions around it."""
+"""Compiled expression; `names` are the parameters of enclosing functions."""
 
 _GRAMMAR = r"""
 ?start: conditional
@@ -69,12 +69,12 @@ _DEEPEST = 150
 
 
 class Unreadable(Exception):  # noqa: N818 - what is wrong is the text, which is reported
-    """The text is no expression that is understood; the message says why."""
+    """The string is not a supported expression; the message is the reason."""
 
 
 @lru_cache(maxsize=1000)
 def read(written: str) -> Value:
-    """The expression as a function. Raises Unreadable.
+    """Compile an expression. Raises Unreadable.
 
     The function raises ExecutionError where ECMAScript throws.
     """
@@ -83,7 +83,7 @@ def read(written: str) -> Value:
 
 @lru_cache(maxsize=1000)
 def location(written: str) -> Callable[[InstanceLike, Event, Any], None]:
-    """What assigns to a variable, or to a member of one. Raises Unreadable."""
+    """Compile an assignment to a variable or member. Raises Unreadable."""
     tree = parse(written)
     if tree.data == "name":
         name = str(tree.children[0])
@@ -117,7 +117,7 @@ def _parser() -> Lark:
 
 
 def parse(written: str) -> Tree[Token]:
-    """The tree of an expression. Raises Unreadable."""
+    """Parse an expression. Raises Unreadable."""
     try:
         tree = _parser().parse(written)
     except UnexpectedInput as error:
@@ -304,7 +304,7 @@ def _number(token: str) -> float | int:
 
 
 def unquoted(token: str) -> str:
-    """The text that a token stands for, of a name the name itself."""
+    """Return the string value of a literal, or the name itself."""
     if token[0] not in "\"'":
         return str(token)
 
@@ -313,5 +313,5 @@ def unquoted(token: str) -> str:
         return chr(int(code, 16)) if code else _ESCAPED.get(found[3], found[3])
 
     made = _ESCAPE.sub(plain, token[1:-1])
-    # A character beyond the first 65536 is escaped as a pair.
+    # A character above U+FFFF is escaped as a surrogate pair.
     return made.encode("utf-16", "surrogatepass").decode("utf-16", "replace")

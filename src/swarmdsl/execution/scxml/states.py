@@ -1,4 +1,4 @@
-"""States and transitions of SCXML as a table of the engine."""
+"""Convert SCXML states and transitions to tables of the engine."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _OUTCOMES = ("succeeded", "aborted", "preempted")
 
 
 def machine(document: Document, report: Diagnostics) -> Machine | None:
-    """The machine of a document; None when something is wrong with it."""
+    """Return the machine of a document; None if it has errors."""
     root = document.root
     reader = _Reader(document, report)
     if not reader.ids:
@@ -55,7 +55,7 @@ def machine(document: Document, report: Diagnostics) -> Machine | None:
 
 
 class _Reader:
-    """Reads the states of one document."""
+    """Reader of the states of a document."""
 
     def __init__(self, document: Document, report: Diagnostics) -> None:
         self.document = document
@@ -83,7 +83,7 @@ class _Reader:
             else:
                 self.ids[id_] = node
         for number, node in enumerate(unnamed, 1):
-            # No id has a space in it.
+            # Ids cannot contain spaces, so that this one is unique.
             self.names[node] = f"state {number}"
             self.ids[self.names[node]] = node
         self.servers = {
@@ -93,7 +93,7 @@ class _Reader:
         }
 
     def variables(self) -> dict[str, Value]:
-        """The ids of all data, and how each gets its first value."""
+        """Return all data ids with their initial values."""
         found: dict[str, Node] = {}
         values: dict[str, Value] = {}
         if self.document.root.get("binding") == "late":
@@ -119,7 +119,7 @@ class _Reader:
         return values
 
     def state(self, node: Node) -> State:
-        """A state and what is in it."""
+        """Convert a state and its content."""
         id_, name = self.names[node], node.name
         if name == "history":
             depth = node.get("type") or "shallow"
@@ -164,7 +164,7 @@ class _Reader:
         )
 
     def initial(self, node: Node) -> Transition | tuple[str, ...]:
-        """What is entered with a state: what it says, or nothing for its first child."""
+        """Return the initial transition or states; empty for the first child."""
         inner = next((each for each in node.children if each.name == "initial"), None)
         if inner is None:
             targets = self._targets(node, "initial")
@@ -172,7 +172,7 @@ class _Reader:
             return targets
         if node.get("initial") is not None:
             place = self.document.at(node, "initial")
-            fault = "what is entered first is said twice"
+            fault = "the initial state is given twice"
             self.report.report("illegal-structure", place, fault=fault)
         found = self._only_transition(inner)
         if found is None:
@@ -181,10 +181,10 @@ class _Reader:
         return found
 
     def transition(self, node: Node) -> Transition:
-        """A transition of a state."""
+        """Convert a transition."""
         event, condition = node.get("event"), node.get("cond")
         if event is None and condition is None and node.get("target") is None:
-            fault = "a transition without event, condition and target is always taken again"
+            fault = "a transition without event, condition and target is an endless loop"
             self.report.report("illegal-structure", self.document.at(node), fault=fault)
         kind = node.get("type") or "external"
         if kind not in ("external", "internal"):
@@ -200,17 +200,17 @@ class _Reader:
         )
 
     def _only_transition(self, node: Node) -> Transition | None:
-        """The transition of a history or an initial element: it has a target, and no more."""
+        """Return the only transition of a history or initial element, which has a target."""
         found = [child for child in node.children if child.name == "transition"]
         if len(found) != 1:
             place = self.document.at(found[1] if found else node)
-            fault = f"`<{node.name}>` has one transition"
+            fault = f"`<{node.name}>` must have exactly one transition"
             self.report.report("illegal-structure", place, fault=fault)
             return None
         for attribute in ("event", "cond"):
             if found[0].get(attribute) is not None:
                 place = self.document.at(found[0], attribute)
-                fault = f"the transition of `<{node.name}>` is always taken"
+                fault = f"the transition of `<{node.name}>` must not have an event or condition"
                 self.report.report("illegal-structure", place, fault=fault)
         targets = self._targets(found[0], "target")
         if found[0].get("target") is None:
@@ -251,7 +251,7 @@ class _Reader:
                 )
 
     def _activity(self, id_: str, about: Sequence[Node]) -> Activity | None:
-        """What swarmdsl wrote about the activity of a state, if it has one."""
+        """Return the activity of a state, from the elements of swarmdsl."""
         found = next((each for each in about if each.name == "activity"), None)
         if found is None:
             return None
@@ -275,7 +275,7 @@ class _Reader:
 
 
 def _pattern(word: str) -> str:
-    """An event descriptor, which fits all names it is the beginning of, as the engine has it."""
+    """Convert an event descriptor, which matches by prefix, to that of the engine."""
     word = word.removesuffix("*").removesuffix(".")
     return f"{word}.*" if word else "*"
 

@@ -1,7 +1,7 @@
-"""Values as ECMAScript converts, compares and computes them.
+"""ECMAScript conversions, comparisons and arithmetic.
 
-Numbers without a fraction are `int`, so that they are written and used as index like that;
-`null` and `undefined` are both `None`.
+Integral numbers are `int`, so that they are printed and used as indices like in ECMAScript; `null`
+and `undefined` are both `None`.
 """
 
 from __future__ import annotations
@@ -17,19 +17,19 @@ from swarmdsl.execution.engine import ExecutionError
 _EXACT = 2**53
 _DECIMAL = re.compile(r"[+-]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|Infinity)")
 _HEXADECIMAL = re.compile("0[xX][0-9a-fA-F]+")
-# A document could double a text over and over.
+# A document could double a string over and over.
 _LONGEST = 1_000_000
 
 
 def truth(value: Any) -> bool:
-    """Whether a value counts as true."""
+    """Return True for a truthy value."""
     if isinstance(value, (list, dict)):
         return True
     return bool(value) and value == value
 
 
 def number(value: Any) -> float | int:
-    """A value as a number; NaN where it is none."""
+    """Convert a value to a number; NaN if impossible."""
     if isinstance(value, bool):
         return int(value)
     if isinstance(value, (int, float)):
@@ -45,14 +45,14 @@ def number(value: Any) -> float | int:
 
 
 def whole(value: float | int) -> float | int:
-    """A number without a fraction as `int`, as long as a number of ECMAScript is exact."""
+    """Convert an integral number to `int`, in the range of exact integers."""
     if isinstance(value, int):
         return value if -_EXACT <= value <= _EXACT else float(value)
     return int(value) if value.is_integer() and -_EXACT <= value <= _EXACT else value
 
 
 def text(value: Any) -> str:
-    """A value as text."""
+    """Convert a value to a string."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if value is None:
@@ -65,7 +65,7 @@ def text(value: Any) -> str:
 
 
 def _written(value: float) -> str:
-    """A number as Number.prototype.toString has it."""
+    """Format a number like Number.prototype.toString."""
     if not math.isfinite(value):
         return {math.inf: "Infinity", -math.inf: "-Infinity"}.get(value, "NaN")
     if value.is_integer() and abs(value) < 1e21:
@@ -79,7 +79,7 @@ def _add(left: Any, right: Any) -> Any:
     if isinstance(left, (str, list, dict)) or isinstance(right, (str, list, dict)):
         both = text(left) + text(right)
         if len(both) > _LONGEST:
-            raise ExecutionError("the text is too long")
+            raise ExecutionError("the string is too long")
         return both
     return whole(number(left) + number(right))
 

@@ -1,4 +1,4 @@
-"""The elements of SCXML: their attributes, and where they stand."""
+"""SCXML elements: their attributes and allowed children."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from swarmdsl.base.suggest import did_you_mean
 from swarmdsl.execution.scxml.document import SCXML, Document, Node
 
 OURS = "urn:swarmdsl:scxml"
-"""Of what swarmdsl writes beside SCXML, for people and for reading models back."""
+"""Namespace of swarmdsl's additions to SCXML, for people and for import."""
 
 _CONTENT = {"raise", "if", "log", "assign", "send", "cancel", "foreach", "script"}
 _STATES = {"state", "parallel", "final", "history"}
 _INSIDE = {"onentry", "onexit", "transition", "datamodel", "invoke"}
 
-# The attributes of each element, and the elements in it.
+# The attributes and child elements of each element.
 _ELEMENTS: dict[str, tuple[set[str], set[str]]] = {
     "scxml": (
         {"initial", "name", "version", "datamodel", "binding", "exmode"},
@@ -45,7 +45,7 @@ _ELEMENTS: dict[str, tuple[set[str], set[str]]] = {
     ),
     "cancel": ({"sendid", "sendidexpr"}, set()),
 }
-# One of the attributes between `|` each.
+# Required attributes; one of the alternatives separated by `|`.
 _NEEDED = {
     "raise": ("event",),
     "if": ("cond",),
@@ -59,14 +59,14 @@ _NEEDED = {
 }
 _WITH_TEXT = ("data", "assign", "content")
 _NOT_RUN = {
-    "invoke": "activities outside of the machine are not started from SCXML",
-    "script": "scripts are not run",
-    "foreach": "lists are not gone through",
+    "invoke": "activities outside of the machine are not supported in SCXML",
+    "script": "scripts are not supported",
+    "foreach": "loops over lists are not supported",
 }
 
 
 def check(document: Document, report: Diagnostics) -> None:
-    """Report what is no SCXML, and what is but is not understood; leave it out."""
+    """Report and remove invalid and unsupported content."""
     foreign: set[str] = set()
     waiting = [document.root]
     while waiting:
@@ -83,7 +83,7 @@ def check(document: Document, report: Diagnostics) -> None:
             place = document.at(node, "event")
             report.report("bad-value", place, name="event", values="the name of an event")
         if node.text and node.name not in _WITH_TEXT:
-            fault = f"there is no text in `<{node.name}>`"
+            fault = f"`<{node.name}>` must not contain text"
             report.report("illegal-structure", document.at(node), fault=fault)
         if not node.children:
             continue
@@ -105,7 +105,7 @@ def _leave_out(
     foreign: set[str],
     report: Diagnostics,
 ) -> None:
-    """Say why an element is not looked at; one is told of each foreign namespace."""
+    """Report why an element is ignored; once for each foreign namespace."""
     name = child.name
     if child.namespace == OURS:
         node.ours += (child,)
@@ -139,7 +139,7 @@ def _report_unknown(
     around = sorted(name for name, (_, allowed) in _ELEMENTS.items() if node.name in allowed)
     question = did_you_mean(node.name, sorted(inside))
     if around:
-        question = f"it stands in {listed([f'<{name}>' for name in around])}"
+        question = f"it is allowed in {listed([f'<{name}>' for name in around])}"
     report.report(
         "unknown-element", document.at(node), name=node.name, parent=parent, help=question
     )

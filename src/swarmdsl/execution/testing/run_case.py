@@ -173,9 +173,9 @@ class _Play:
             machine = going[-1].machine
             origin = getattr(machine.states[machine.numbers[state]].origin, "origin", None)
             if isinstance(origin, Span):
-                related.append(Label(origin, "where it goes round"))
+                related.append(Label(origin, "part of the loop"))
         fields = {"who": f"`{who}`", "time": shown(self._world.clock.now)}
-        label = f"it goes round in {listed(error.states, 'and')}"
+        label = f"it loops through {listed(error.states, 'and')}"
         return self._failure("never-settles", place, fields, label, tuple(related))
 
     def _failure(
